@@ -295,7 +295,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
 
 
 def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
-    """The verdict on a statement about every case: one counterexample refutes it, an open case leaves it open (None)."""
+    """The verdict on a statement about every case: one counterexample refutes it, an open case (None) keeps it open."""
     if False in holds:
         return False, ""
     return (None, "open" if holds else "none") if None in holds or not holds else (True, "")

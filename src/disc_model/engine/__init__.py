@@ -1,4 +1,4 @@
-"""The event-driven engine: kernels on floats and arrays, nothing else."""
+"""The event-driven engine: kernels on floats and arrays only."""
 
 from __future__ import annotations
 

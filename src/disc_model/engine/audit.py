@@ -3,7 +3,7 @@
 d/dt (disc + vertical slider) = P f B - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
 d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2
 
-On a ramp of N the first gains N' (u - u_0), because the energy holds N (u - u_0).
+On a ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
 """
 
 from __future__ import annotations
@@ -24,9 +24,8 @@ _NODES = _NODES + 0.5
 # Time units that the nodes resolve; only a coast is longer.
 _PANEL = 8.0
 
-# Where the sums stand in the audit's array.
-# TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy at stake in one step; *_TURNOVER: sum of the
-# moduli of all that was put in and taken out.
+# Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy
+# exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken out.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, N_SUMS = range(6, 9)
 
@@ -35,7 +34,7 @@ TRANSVERSE_TURNOVER, INPLANE_TURNOVER, N_SUMS = range(6, 9)
 def transverse_energy(model, state, phase):
     """Energy of the disc, of the slider's vertical motion and of a compliant contact, J.
 
-    u, u' are those of the disc's point in rigid contact.
+    In rigid contact u, u' are those of the disc's point.
     """
     u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     energy = 0.0
@@ -55,7 +54,7 @@ def transverse_energy(model, state, phase):
 
 @helper
 def inplane_energy(model, state):
-    """Energy of the slider's motion in the plane, J."""
+    """Energy of the slider's in-plane motion, J."""
     x = state.x
     return 0.5 * model.r_0**2 * (model.m * x[layout.SPEED] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
@@ -111,7 +110,7 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
 
 @helper
 def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
-    """Enter residuals whose natural sizes are ``size_t`` and ``size_p``."""
+    """Add residuals, with their reference energies ``size_t`` and ``size_p``."""
     audit[TRANSVERSE] += residual_t
     audit[INPLANE] += residual_p
     audit[TRANSVERSE_SCALE] = max(audit[TRANSVERSE_SCALE], size_t)
@@ -126,7 +125,7 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
 def audit_impact(model, before, impulse, dw_dtheta, state, audit):
     """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
 
-    The normal force changes f: what the slope takes from the motion in the plane beyond p f B is lost.
+    The normal force changes f: the energy that the slope takes from the in-plane motion beyond p f B is lost.
     """
     lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.SPEED]
     expected = -lost + impulse * f * dw_dtheta

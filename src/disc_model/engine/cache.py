@@ -1,12 +1,12 @@
 """Files of compiled kernels, with checksums.
 
-Numba's own cache does not notice that a callee in another file has changed, trusts what it finds (a cut file ends in a
-traceback, a changed byte in wrong numbers), and compiles again after every changed comment.  Here each signature of a
-kernel has one file, in a folder that is named by a hash of the engine's code.  What does not fit is compiled anew.
+Numba's own cache misses changes of a callee in another file and recompiles after every changed comment. It also trusts
+its files: a cut file ends in a traceback, a changed byte in wrong numbers.  Here each signature of a kernel has one
+file, in a folder named by a hash of the engine's code.  A file that does not fit is replaced by compiling again.
 
-A package may bring kernels that were compiled for a level of x86-64 processors (`SHIPPED`).
+A package may ship kernels compiled for a level of x86-64 processors (`SHIPPED`).
 
-This stands on parts of numba that it may change: where one is missing, numba's own files are used.
+The module uses internals of numba that may change: if one is missing, numba's own cache files are used.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ LEVELS = {
 TARGETS = {"x86-64-v4": ("x86-64-v4", "-prefer-256-bit"), "x86-64-v3": ("x86-64-v3", "")}
 """What numba is told to compile kernels of a level: ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES``."""
 
-# What a part of numba that is not there, or not as expected, ends in.
+# Errors raised by a part of numba that is missing or has changed.
 MISSING = (ImportError, AttributeError, TypeError)
 SUFFIX = ".kernel"
 _DIGEST = hashlib.sha256().digest_size
@@ -64,21 +64,21 @@ def _contents(code: types.CodeType) -> Iterator[object]:
 
 @functools.cache
 def folder() -> Path:
-    """Where kernels are kept."""
+    """The folder of the compiled kernels."""
     from platformdirs import user_cache_dir
 
     return Path(os.environ.get("NUMBA_CACHE_DIR") or user_cache_dir("disc_model")) / f"engine-{source_hash()}"
 
 
 def versions() -> str:
-    """What kernels can be read by."""
+    """Versions on which compiled kernels depend, as text."""
     python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
     return f"engine {source_hash()}, numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
 
 
 @functools.cache
 def shipped_level() -> str | None:
-    """The highest level of this processor of which kernels came with the package, if they fit the versions here."""
+    """The highest level of this processor with shipped kernels, if they fit the installed versions."""
     if not SHIPPED.is_dir():
         return None
     here = llvm.get_host_cpu_features()
@@ -98,12 +98,12 @@ def shipped_level() -> str | None:
 
 
 def chosen_target() -> tuple[str | None, str | None]:
-    """The processor and its features that numba was told to compile for, if it was."""
+    """The processor and features chosen for numba, if any."""
     return _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES
 
 
 def _processor(codegen: Any) -> object:
-    """What machine code depends on: a level, if that was asked for, or all that is known of the processor."""
+    """The processor on which machine code depends: a chosen level, or all known properties."""
     levels = [level for level, target in TARGETS.items() if target == chosen_target()]
     return levels[0] if levels else codegen.magic_tuple()
 
@@ -116,7 +116,7 @@ def _read_text(path: Path) -> str:
 
 
 class KernelCache:
-    """The files of one kernel; numba's dispatcher asks for signatures and offers what it has compiled."""
+    """The files of one kernel; numba's dispatcher requests signatures and offers compiled ones."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -127,7 +127,7 @@ class KernelCache:
         return str(folder())
 
     def load_overload(self, signature: Any, target: Any) -> Any:
-        """What was compiled for a signature, or None if that is not there or not intact."""
+        """The code compiled for a signature, or None if it is missing or damaged."""
         from numba.core.compiler import CompileResult
 
         target.refresh()
@@ -142,7 +142,7 @@ class KernelCache:
         return None if found is None else CompileResult._rebuild(target, *found)
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
-        """Save if there is room: a full or read-only disk costs time, not the result."""
+        """Save compiled code if possible: a full or read-only disk costs time, not the result."""
         path = folder() / self._file(signature, _processor(compiled.codegen))
         try:
             write(path, compiled._reduce())
@@ -158,7 +158,7 @@ class KernelCache:
 
 
 def write(path: Path, contents: object) -> None:
-    """Write a file in one piece, behind its checksum."""
+    """Write a file atomically, with its checksum in front."""
     from numba.core.serialize import dumps
 
     body = zlib.compress(dumps((path.name, contents)))
@@ -173,7 +173,7 @@ def write(path: Path, contents: object) -> None:
 
 
 def read(path: Path) -> Any:
-    """The contents of a file, or None if it is not there, not intact, or another's."""
+    """The contents of a file, or None if it is missing, damaged, or of another version."""
     try:
         whole = path.read_bytes()
     except OSError:
@@ -186,7 +186,7 @@ def read(path: Path) -> Any:
 
 
 def keep(kernel: Any) -> None:
-    """Have what is compiled of a kernel kept in files."""
+    """Store the compiled code of a kernel in files."""
     function = kernel.py_func
     try:
         from numba.core import compiler, serialize
@@ -205,5 +205,5 @@ def keep(kernel: Any) -> None:
 
 @functools.cache
 def warn_once(what: str) -> None:
-    """Warn, of each thing once."""
+    """Warn once for each message."""
     warnings.warn(what, RuntimeWarning, stacklevel=3)

@@ -1,10 +1,10 @@
-"""How kernels are compiled: the same floating-point rules for all.
+"""Compilation of kernels, with the same floating-point rules for all.
 
-``contract`` allows a * b + c to be rounded once; nothing is reordered, so results do not depend on the optimiser's
-mood, and division by zero gives inf or nan instead of an exception inside the kernel.
+``contract`` allows a * b + c to be rounded once. Nothing is reordered, so that results do not depend on the optimiser.
+Division by zero gives inf or nan instead of an exception inside the kernel.
 
-A ``kernel`` is machine code of its own, which Python calls and the cache keeps.  A ``helper`` is called by kernels: it
-is compiled as a part of each of them, and only there.  An ``inlined`` helper is merged into what calls it.
+A ``kernel`` is separate machine code that Python calls and the cache stores.  A ``helper`` is compiled only as a part
+of each kernel that calls it.  An ``inlined`` helper is merged into its caller.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ else:
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile what Python calls, once for all processes."""
+    """Compile a function that Python calls, once for all processes."""
     made: Any = numba.njit(**RULES)(function)
     if made is not function:  # which it is where compilation is switched off
         keep(made)
@@ -37,8 +37,8 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def helper(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
-    """Compile a part of kernels."""
-    # said in either case: a helper would take it over from the inlined one that was being compiled
+    """Compile a function as a part of kernels."""
+    # set in either case: a helper would inherit it from the inlined one that was being compiled
     part: Any = numba.njit(**(RULES | _MERGED), forceinline=forceinline)(function)
     if part is not function:  # which it is where compilation is switched off
         _make_part(part, numba.njit(**RULES)(function))
@@ -46,7 +46,7 @@ def helper(function: Callable[..., Any], forceinline: bool = False) -> Callable[
 
 
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a part of kernels into what calls it.
+    """Compile a function into its callers.
 
     This is for small helpers of hot loops, where a call would cost more than the helper's own work.
     """
@@ -54,7 +54,7 @@ def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _make_part(part: Any, kernel: Any) -> None:
-    """Let Python call a kernel of its own instead of a helper, and no constant make a version of it."""
+    """Let Python call a separate kernel instead of a helper, and do not specialise on constants."""
     template = part.get_call_template
 
     def add_overload(compiled: Any) -> None:
@@ -66,10 +66,10 @@ def _make_part(part: Any, kernel: Any) -> None:
 
 
 def compiled_for(function: Callable[..., Any], arguments: tuple[object, ...]) -> Callable[..., Any]:
-    """The machine code of a kernel for arguments of these types, to be called with no others: nothing checks them.
+    """The machine code of a kernel for arguments of these types, which are not checked at calls.
 
-    A kernel itself looks at the types of all arrays in its arguments at every call, which takes ten times as long as to
-    hand them over.
+    A kernel itself checks the types of all arrays in its arguments at every call, which takes ten times as long as
+    passing them.
     """
     if not hasattr(function, "compile"):  # where compilation is switched off
         return function

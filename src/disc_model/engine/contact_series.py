@@ -1,9 +1,9 @@
 """Taylor coefficients in contact beyond the paper: a compliant contact, a force normal to the bent disc, or both.
 
-Compliant: V = (w - u) / compliance is one of the state, so that each order of V is known before its convolutions begin.
-Normal: with beta = B / r_0 and s = sgn(f), the disc feels V = R (1 - s mu_k beta) in slip, the slider's motion in the
-plane is held back by R (s mu_k + beta), and stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta); products of
-series with beta are the price.  Rigid stick moves as under the vertical force.
+Compliant: V = (w - u) / compliance follows from the state, so that each order of V is known before its convolutions.
+Normal, with beta = B / r_0 and s = sgn(f): in slip the disc feels V = R (1 - s mu_k beta). The in-plane motion is
+braked by R (s mu_k + beta). Stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta). Products of series with
+beta are the cost.  Rigid stick moves as under the vertical force.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def _slope(model, s, k):
 
 @inlined
 def _disc_velocity(model, s):
-    """Order 0 of the disc's velocity under the slider, but for f_0 B."""
+    """Order 0 of the disc's velocity under the slider, without f_0 B."""
     width, lanes = lane_count(model), splat(0.0)
     for b in range(0, width, WIDTH):
         lanes = fma(_row(model, AMPLITUDE_ROW, b), _e(s, width, b), lanes)
@@ -87,7 +87,7 @@ def _disc_velocity(model, s):
 
 @inlined
 def _closing(model, s, k, e, carried):
-    """Order k of the disc's velocity under the slider as the order before leaves it: without V_{k-1} and f_k."""
+    """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and f_k."""
     width, n = lane_count(model), len(model.mode_amplitude0)
     lanes = fma(_row(model, AMPLITUDE_ROW, 0), e, mul(_row(model, DW_DTHETA, 0), carried))
     for b in range(WIDTH, width, WIDTH):
@@ -119,7 +119,7 @@ def _weight(model, s, k):
 
 @inlined
 def _leverage(s, k):
-    """Order k of beta R without beta_0 R_k.  In two sums, so that neither waits for the other."""
+    """Order k of beta R without beta_0 R_k, in two sums so that neither waits for the other."""
     odd, even = 0.0, 0.0
     for j in range(1, k, 2):
         odd += s.slider[SLOPE_SERIES + j] * s.slider[P_SERIES + k - j]
@@ -156,7 +156,7 @@ def compliant_slip_series(model, s, order, direction):
     for k in range(order):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
-        # ahead of the modes: their sum would be what every order waits for
+        # computed before the modes: every order would wait for their sum
         w = (closing + f * slope - impulse * model.inverse_effective_mass) * s.slider[UP + k]
         if is_normal(model):
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
@@ -218,7 +218,7 @@ def compliant_stick_series(model, s, order):
 def release_series(model, s, order):
     """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``.
 
-    Where nothing but the slope pulls at a slider that may leave the disc, over their common factor V: mu_s +/- beta.
+    If only the slope pulls at a slider that may leave the disc, divided by the common factor V: mu_s +/- beta.
     """
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     spring, growth, bend = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1], 0.0
@@ -252,7 +252,7 @@ def release_series(model, s, order):
 def normal_slip_series(model, s, order, direction):
     """Slip in rigid contact under the normal force; ``P`` is R.  Returns the denominator of R.
 
-    As ``series.slip_series``, but for h_k, order k of beta R without beta_0 R_k:
+    The recurrence is that of ``series.slip_series``, with h_k, order k of beta R without beta_0 R_k:
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
     """

@@ -27,7 +27,7 @@ from .simd import WIDTH, fma, load, splat, store
 from .stick_propagator import coast_to
 from .transitions import force_in_stick, stick_force
 
-# Stands for the order of a series where stick has no series but its closed form.
+# In place of a series' order where stick has a closed form instead.
 COAST = 0
 
 

@@ -1,7 +1,7 @@
-"""The phase machine: expand, find the first event, move there, change phase, record; until the end.
+"""The event loop: expand the series, find the first event, move there, change phase, record; until the end.
 
-The loop runs wholly inside one compiled function and hands back control when a buffer is full, so that memory
-does not grow with the simulated time and callers can show progress.  Where it pauses has no influence on results.
+The loop runs inside one compiled function and returns when a buffer is full. Memory therefore does not grow with the
+simulated time, and callers can show progress.  Pauses have no influence on results.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ MAX_EVENTS_PER_STEP = 3
 
 
 class Limits(NamedTuple):
-    """What a run is asked for."""
+    """Limits and settings of a run."""
 
     order: int  # of the series
     tolerance: float  # of the series
@@ -43,7 +43,7 @@ class Limits(NamedTuple):
 
 
 class RunBuffers(NamedTuple):
-    """What a run writes beside its state."""
+    """Outputs of a run beside its state."""
 
     counters: np.ndarray  # shape (N_COUNTERS,)
     phase_times: np.ndarray  # s, shape (3,)
@@ -86,7 +86,7 @@ def _kind(state, cause):
 
 @inlined
 def _apply_event(model, state, cause, at_once, buffers):
-    """Carry out the event and record its events; ``at_once``: after no time.  Returns its outcome."""
+    """Carry out the event and record its events; ``at_once``: the phase had no duration.  Returns its exit code."""
     came_from, before, velocity, dw_dtheta = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
     hits = cause == transitions.GAP_CLOSED and not layout.is_compliant(model)
     if hits:
@@ -108,7 +108,9 @@ def _apply_event(model, state, cause, at_once, buffers):
 
 @inlined
 def _move(model, s, state, probe, order, x_end, audit_every, buffers):
-    """Carry the state and the clock over a step, or a coast (order ``COAST``), auditing and sampling on the way."""
+    """Advance the state and the clock over a step, or over stick in closed form (order ``COAST``), with audits and
+    samples.
+    """
     x, phase, counters = state.x, state.x[layout.PHASE], buffers.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
@@ -137,7 +139,7 @@ def _move(model, s, state, probe, order, x_end, audit_every, buffers):
 
 @inlined
 def _full(buffers):
-    """Whether a buffer has no room for what a step may bring."""
+    """Whether a buffer lacks room for the output of a step."""
     counters, rows = buffers.counters, len(buffers.event_rows)
     events = rows > 0 and counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
     return events or counters[SAMPLE_ROWS] > buffers.sample_capacity
@@ -145,7 +147,7 @@ def _full(buffers):
 
 @kernel
 def run(model, s, state, probe, limits, buffers):
-    """Advance ``state`` until a reason to return: see ``exit_codes``.  ``probe`` is a state to work with."""
+    """Advance ``state`` until a reason to return: see ``exit_codes``.  ``probe`` is a work state."""
     x, counters, order = state.x, buffers.counters, limits.order
     pause = counters[STEPS] + limits.pause_after
     set_course(model, state)

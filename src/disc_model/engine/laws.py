@@ -1,7 +1,7 @@
-"""What holds at an instant: the laws of friction and contact (docs/model.md, Contact), each written once.
+"""The laws of friction and contact at an instant (docs/model.md, Contact), each written once.
 
-A law takes an `Instant`, whose entries are real or complex numbers.  After a complex step of one entry the imaginary
-part holds the law's derivative by it, exact to rounding (Squire and Trapp, SIAM Review 40, 1998).  No law is
+A law takes an `Instant`, whose entries are real or complex numbers.  After a complex step of one entry, the imaginary
+part holds the derivative with respect to it, exact to rounding (Squire and Trapp, SIAM Review 40, 1998).  No law is
 differentiated by hand.
 """
 
@@ -17,9 +17,9 @@ TINY = 1e-100
 
 
 class Instant(NamedTuple):
-    """The numbers on which laws depend, and by which they are differentiated.
+    """Arguments of the laws, with respect to which they are differentiated.
 
-    The first eight are parameters of the model, the others are of a state.  ``compliance`` is 0 in rigid contact.
+    The first eight are parameters of the model, the others belong to a state.  ``compliance`` is 0 in rigid contact.
     """
 
     N: float
@@ -40,25 +40,25 @@ class Instant(NamedTuple):
     u_velocity: float
 
 
-# Where its entries of a state stand; those of the model stand before them.
+# Indices of the entries of a state; the entries of the model stand before them.
 PSI, F, W, W_VELOCITY, DW_DTHETA, FREE, U, U_VELOCITY, N_ENTRIES = range(8, 17)
 
 
 @inlined
 def inplane_force_per_radius(i):
-    """F = k_p psi + c_p (Omega - f): the force in the plane over r_0, N/m."""
+    """F = k_p psi + c_p (Omega - f): the in-plane force divided by r_0, N/m."""
     return i.k_p * i.psi + i.c_p * (i.Omega - i.f)
 
 
 @inlined
 def free_force(model, i):
-    """N + k (u - u_0) + c u' + m A: the contact force but for its denominator and the term with B (rigid contact)."""
+    """N + k (u - u_0) + c u' + m A: the contact force without its denominator and the term with B (rigid contact)."""
     return i.N + i.k * (i.w - model.u_0) + i.c * i.w_velocity + i.m * i.free
 
 
 @inlined
 def stick_numerator(model, i):
-    """The vertical contact force V in stick (f = 0), in rigid contact times 1 + m S2."""
+    """The vertical contact force V in stick (f = 0), multiplied by 1 + m S2 in rigid contact."""
     return (i.w - i.u) / i.compliance if is_compliant(model) else free_force(model, i)
 
 
@@ -86,7 +86,7 @@ def slip_denominator(model, m, direction, dw_dtheta):
 
 @inlined
 def slip_numerator(model, i):
-    """The contact force in slip, P, or R under the normal force, times its denominator."""
+    """The contact force in slip, P, or R under the normal force, multiplied by its denominator."""
     if is_compliant(model):
         return stick_numerator(model, i)
     return free_force(model, i) + i.dw_dtheta * inplane_force_per_radius(i)
@@ -106,9 +106,9 @@ def slip_rates(model, i, direction, force):
 
 @inlined
 def stick_loads(model, i, V):
-    """Pull and press of stick under the vertical force V: friction holds while abs(pull) <= mu_s press.
+    """Tangential load (pull) and normal load (press) of stick under V: friction holds while abs(pull) <= mu_s press.
 
-    Under the normal force both are in units of 1 / (1 + (B / r_0)^2): T and R have that in common.
+    Under the normal force both are in units of 1 / (1 + (B / r_0)^2), a common factor.
     """
     pull, press = model.r_0 * inplane_force_per_radius(i), V
     if is_normal(model):
@@ -119,7 +119,7 @@ def stick_loads(model, i, V):
 
 @inlined
 def impact(model, i):
-    """Plastic impact (Eqs. 29-37): the impulse, and f after it, of which the slope takes its share if it is normal."""
+    """Plastic impact (Eqs. 29-37): the impulse, and f after it, which the slope reduces if the force is normal."""
     lever = i.dw_dtheta / (i.m * model.r_0**2) if is_normal(model) else 0.0 * i.dw_dtheta  # of the type of an entry
     p = (i.w_velocity - i.u_velocity) / (model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever)
     return p, i.f - p * lever

@@ -1,11 +1,11 @@
-"""How modes, states and series lie in memory: flat arrays of doubles, in blocks of eight lanes.
+"""Memory layout of modes, states and series: flat arrays of doubles, in blocks of eight lanes.
 
-Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their displacements are called ``z``,
-their velocities ``e``.  Axisymmetric modes (l = 0) have arrays of their own, ``y`` and ``g``, because nothing turns
-them into one another; being few, they are kept one by one.  Unused lanes are zero and stay zero.
+Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their displacements are ``z``, their
+velocities ``e``.  Axisymmetric modes (l = 0) have separate arrays ``y`` and ``g``, because rotation does not mix them;
+being few, they are stored one by one.  Unused lanes are zero and stay zero.
 
-Series are kept as [order][lane] in units of the time ``unit``: coefficient k multiplies (time / unit)**k, so that
-no coefficient overflows however stiff the disc is.
+Series are stored as [order][lane] in units of the time ``unit``: coefficient k multiplies (time / unit)**k. No
+coefficient therefore overflows, however stiff the disc is.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ STICK, SLIP, SEPARATION = 0, 1, 2
 # Rows of Model.lanes.
 SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
 
-# Coefficients that a series has room for; rows of Series.modes where e and scratch begin (z begins at 0); where the
-# slider's series begin in Series.slider, and where that ends.
+# Number of coefficients of a series; rows of Series.modes where e and scratch begin (z begins at 0); offsets of the
+# slider's series in Series.slider, and its end.
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
 F, PSI_SERIES, P_SERIES, U_SERIES, V_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
@@ -33,7 +33,7 @@ SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, _SLIDER_END = (ROWS * i for i in range(
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
-# Longest ``Model.free_unit``: the highest power of eight of them has to be a number.
+# Longest ``Model.free_unit``: the highest power of eight of them must not overflow.
 MOST_FREE = 1e4
 _FROM_1 = np.arange(1.0, ROWS + 1.0)
 
@@ -42,13 +42,12 @@ _FROM_1 = np.arange(1.0, ROWS + 1.0)
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
-    ``lanes`` holds the lane arrays one after the other, and two that are made of them: hot kernels address all through
-    that one pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and
-    (number of further blocks,) otherwise: the length of a tuple is known when kernels are compiled, so the usual case
-    has no loop over blocks.
-    Likewise ``compliance`` is () if contact is rigid, else (m/N,), ``normal`` is () if the contact force is vertical,
-    else (True,), and ``ramp`` is () while Omega and N are constant, else what `on_ramp` puts there: the paper's model
-    has no more to hand from kernel to kernel than it needs.
+    ``lanes`` holds the lane arrays one after the other, and two derived ones. Hot kernels address all through that one
+    pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and (number of
+    further blocks,) otherwise. The length of a tuple is known to the compiler, so that the usual case has no loop over
+    blocks. Likewise ``compliance`` is () in rigid contact, else (m/N,), ``normal`` is () if the contact force is
+    vertical, else (True,). ``ramp`` is () while Omega and N are constant, else the values of `on_ramp`. The paper's
+    model thus passes no more between kernels than it needs.
     """
 
     lanes: np.ndarray
@@ -149,8 +148,8 @@ def drive_angle(model, time):
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
-    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each;
-    behind them are those of B / r_0, under the normal force, and of Omega and N, on a ramp.
+    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each. Behind them stand
+    those of B / r_0, under the normal force, and of Omega and N, on a ramp.
     """
 
     modes: np.ndarray
@@ -176,7 +175,7 @@ class Series(NamedTuple):
 
 @packed
 class EngineState(NamedTuple):
-    """Where the system is.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
+    """State of the system.  z to g are views of ``disc``; ``x`` holds the slider's scalars, at the indices below."""
 
     disc: np.ndarray  # z, e, y, g, perhaps room for u, u'; padded to whole blocks of lanes
     z: np.ndarray
@@ -186,9 +185,9 @@ class EngineState(NamedTuple):
     x: np.ndarray
 
 
-# Indices into State.x.  KNOWN: multiplicity of the root that the event function is known to have now; COASTED: 1 if
-# stick has already been followed in closed form as far as that goes; the time is TIME + TIME_LOW, added up with
-# compensation so that event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
+# Indices into State.x.  KNOWN: multiplicity of the event function's known root at present; COASTED: 1 if stick has
+# already used its closed form as far as possible. The time is TIME + TIME_LOW, summed with compensation so that event
+# times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
 TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, DRIVE, LOAD, SCALARS = range(14)
 
 
@@ -206,7 +205,7 @@ def pair_lanes(n_pairs):
 def disc_size(width, n_single, compliant):
     """Length of ``EngineState.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes.
 
-    On a compliant contact u, u' have room behind them, for the closed form of stick.
+    On a compliant contact u, u' are stored behind them, for the closed form of stick.
     """
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
@@ -215,8 +214,8 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     """Constants of a case.
 
     diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
-    for a rigid disc.  slider: N to r_0 of the model.  compliance: of the contact, m/N, 0 if it is rigid; normal:
-    whether its force is.
+    for a rigid disc.  slider: N to r_0 of the model.  compliance: of the contact, m/N, 0 if rigid; normal: whether the
+    contact force is normal to the bent disc.
     """
     N, k, c, m = (slider[name] for name in ("N", "k", "c", "m"))
     diameters = np.asarray(diameters)

@@ -1,8 +1,8 @@
-"""Helpers compiled as parts of kernels only.
+"""Helpers that are compiled only as parts of kernels.
 
-Numba optimises every function and turns it into machine code by itself before it is linked into what calls it.  Most
-of ours are only ever called by others.  Here such a helper stays what its source says until a kernel is complete; that
-is then optimised and turned into machine code as one.
+Numba optimises every function and generates its machine code before it links it into its callers.  Most of ours are
+called only by others.  Here a helper stays unoptimised until its kernel is complete, which is then optimised and turned
+into machine code as a whole.
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.typed_passes import InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
 
-# Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed tuples.
+# Passes for constructs that no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed
+# tuples.
 NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
 
 
 class _Codegen:
-    """Numba's code generator, but that helpers have no environment: they never touch Python."""
+    """Numba's code generator, but without environments of helpers, which never touch Python."""
 
     def __init__(self, codegen):
         self._codegen = codegen
@@ -33,7 +34,7 @@ class _Codegen:
 
 
 class HelperLibrary(JITCodeLibrary):
-    """A helper as its source says, neither optimised nor turned into machine code."""
+    """A helper that is neither optimised nor turned into machine code."""
 
     @property
     def codegen(self):
@@ -57,14 +58,14 @@ class KernelLibrary(JITCodeLibrary):
         ll_module.data_layout = self._codegen._data_layout
 
     def finalize(self):
-        # what calls comes before what it calls: LLVM leaves out what nothing has asked for yet
+        # callers come before callees: LLVM leaves out functions that nothing has requested yet
         found = []
         _visit(self, found)
         self._linking_libraries = found[-2::-1]
         super().finalize()
 
     def _optimize_final_module(self):
-        # unrolled loops cost two thirds of the time that all passes take, and gain nothing
+        # unrolling loops takes two thirds of the time of all passes without gain
         options = llvm.create_pipeline_tuning_options(speed_level=3)
         options.loop_unrolling, options.slp_vectorization = False, False
         builder = llvm.create_pass_builder(self._codegen._tm, options)
@@ -72,7 +73,7 @@ class KernelLibrary(JITCodeLibrary):
 
 
 def _visit(library, found):
-    """Append a library behind all that it is linked to."""
+    """Append a library after all libraries that it is linked to."""
     parts = library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ()
     for each in parts:
         if each not in found:
@@ -102,7 +103,7 @@ class KernelCompiler(_Compiler):
     library = KernelLibrary
 
     def compile_extra(self, function):
-        # nearly all that a compilation makes is needed until it ends: to look for garbage took a tenth of the time
+        # nearly all objects of a compilation live until its end: garbage collection took a tenth of the time
         collects = gc.isenabled()
         gc.disable()
         try:

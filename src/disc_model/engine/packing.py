@@ -1,8 +1,8 @@
-"""Named tuples that kernels are handed as one pointer.
+"""Named tuples that kernels receive as one pointer.
 
-Numba would hand a tuple of arrays from kernel to kernel entry by entry: a model is 147 numbers to LLVM, a series 135.
-A ``packed`` one is a block of memory that holds its numbers and, of each array, the address and the lengths.  It is
-read where an entry is asked for, and never written, as LLVM is told: what was read once need not be read again.
+Numba would pass a tuple of arrays between kernels entry by entry: a model is 147 numbers to LLVM, a series 135. A
+``packed`` tuple is a block of memory with its numbers and, for each array, the address and the lengths.  Entries are
+read on use and never written. LLVM is told so, and need not read them again.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ else:
         return kind.count if isinstance(kind, types.UniTuple) else 1
 
     class _Packed:
-        """What a packed class adds to its named tuple."""
+        """Additions of a packed class to its named tuple."""
 
         @functools.cached_property
         def numba_type(self):
@@ -82,7 +82,7 @@ else:
 
         @functools.cached_property
         def address(self):
-            """Where the block of memory is."""
+            """Address of the block of memory."""
             return self._memory.ctypes.data
 
     def _kind(value):
@@ -99,7 +99,7 @@ else:
         return value if isinstance(value, tuple) else (value,)
 
     def packed(cls: T) -> T:
-        """Let kernels take a class of named tuples as one pointer."""
+        """Let kernels receive a class of named tuples as one pointer."""
         made: Any = type(cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__})
         return made
 

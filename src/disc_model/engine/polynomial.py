@@ -1,9 +1,9 @@
 """First root of a polynomial on an interval, without missing any.
 
-An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of the root it is
-known to have at x = 0, divided out.  Most steps are settled by a bound; the rest by the Bernstein form, whose sign
-changes count roots from above: none means no root, one means exactly one, more means halve and look again, left
-half first (Descartes' rule, de Casteljau's algorithm).
+An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of its known root at
+x = 0, divided out.  A bound settles most steps. The others need the Bernstein form, whose sign changes bound the number
+of roots from above: none means no root, one means exactly one. With more the interval is halved, left half first
+(Descartes' rule, de Casteljau's algorithm).
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.
 _SETTLED = 4e-16
-# It also ends at one whose cube is rounding, if the curve bends this little over it: the next would be its cube.
+# It also ends at a step whose cube is rounding, if the curvature over it is this small: the next step would be its
+# cube.
 _SMALL, _STRAIGHT = 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
 
@@ -50,7 +51,7 @@ def value(c, low, n, x):
 
 @inlined
 def value_by_halves(c, first, stride, n, x):
-    """sum_{j=0..n} c[first + j stride] x^j for an even n: even and odd powers do not wait for each other."""
+    """sum_{j=0..n} c[first + j stride] x^j for an even n; even and odd powers are summed independently."""
     i = first + n * stride
     even, odd, square = item(c, i), item(c, i - stride), x * x
     for _ in range(n // 2 - 1):
@@ -100,7 +101,7 @@ def _sign_changes(b, n):
 
 @inlined
 def _raised(c, n, b):
-    """Lanes b..b+7 of sum_i (j over i) c[i], i <= n, which is what ``n`` rounds of adding neighbours come to."""
+    """Lanes b..b+7 of sum_i (j over i) c[i], i <= n, equal to ``n`` rounds of adding neighbours."""
     last = min(n, b + WIDTH - 1)
     even, odd = splat(0.0), splat(0.0)  # a sum's next term waits for its last one
     for i in range(0, last, 2):
@@ -124,7 +125,7 @@ def _to_bernstein(d, n, work, b):
 def _halve(cell, left, n, work):
     """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half.
 
-    The right half's are the left half's of the cell read backwards; work: shape of a cell.
+    The right half's coefficients are those of the left half of the reversed cell; work: shape of a cell.
     """
     for j in range(0, n + 1, WIDTH):
         store(left, j, mul(_raised(cell, n, j), load(_HALVES, j)))
@@ -165,7 +166,7 @@ def _polish(d, n, low, high, x):
 
 @inlined
 def _crossing(b, n):
-    """Where the polygon through b[0..n], which changes sign once, crosses zero, between 0 and 1."""
+    """Zero, between 0 and 1, of the polygon through b[0..n], which changes sign once."""
     i = 1
     while item(b, i) >= 0.0:
         i += 1
@@ -217,7 +218,7 @@ def _search(c, low, n, x_end, powers, work):
     end = _sum_of(d, degree)
     if d[0] <= 0.0:
         return 0.0 if d[0] < 0.0 or end < 0.0 else NO_ROOT
-    # a half at whose end it is not positive holds the first root: far cheaper than to halve the Bernstein form
+    # a left half with a non-positive end holds the first root: far cheaper than halving the Bernstein form
     for _ in range(_MOST_HALVINGS):
         for j in range(0, degree + 1, WIDTH):
             store(work[1], j, mul(load(d, j), load(_HALVES, j)))

@@ -1,6 +1,6 @@
-"""Small changes carried through an event: the saltation matrix, applied to columns.
+"""Small changes across an event: the saltation matrix, applied to columns.
 
-At an event h = 0 the columns turn with the jump of the vector field: with dtau = -dh / h' the change of the event's
+At an event h = 0 the columns change with the jump of the vector field. With dtau = -dh / h' the change of the event's
 time, J the Jacobian of the jump and v the rates before and after,
 
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
@@ -120,7 +120,7 @@ def _change(t, row):
 def _set_derivative(model, i, t, row, entry, value):
     """Enter a derivative, ``value`` being the law's after a complex step of an entry.
 
-    The columns' change of N holds that of -k u_0, and their change of the compliance is relative.
+    The columns' change of N contains that of -k u_0, and their change of the compliance is relative.
     """
     derivative = value.imag / laws.TINY
     if entry == D_K:

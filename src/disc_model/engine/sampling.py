@@ -1,7 +1,7 @@
 """Uniform samples from the dense output.
 
-A sample that falls on an event shows the side before it.  The time of an event is rounded, and another way to the same
-event rounds it elsewhere; "on" therefore means no later than `SAME_INSTANT` of the clock after it.
+A sample at an event shows the side before it.  The time of an event is rounded, and differently on another way to the
+same event. A sample is therefore "at" an event up to `SAME_INSTANT` of the clock after it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .transitions import disc_point
 # Columns of a row of samples.
 ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
 
-# Of the clock: 256 units of rounding.  A release followed by the series is rounded at each step, and strays by up to 80
+# Of the clock: 256 units of rounding.  A release found by the series is rounded at each step, and deviates by up to 80
 # such units within 400 steps.
 SAME_INSTANT = 256 * 2.0**-52
 
@@ -58,9 +58,9 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
     """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
 
-    A sample at the end of the step, to rounding, is this step's: of the two sides of an event it shows the first.
-    samplers: shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,),
-    samples taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
+    A sample at the end of the step, to rounding, belongs to this step: at an event it shows the side before. samplers:
+    shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,), samples
+    taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
     """
     start, low = state.x[layout.TIME], state.x[layout.TIME_LOW]
     last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)

@@ -2,13 +2,13 @@
 
 The tests hold them against a reference written mode by mode, tests/references/taylor.py.
 
-The contact force of order k needs a sum over all modes, and everything of order k + 1 needs the contact force: a chain
-that would leave the arithmetic units idle.  It is broken in two ways.  The sum is taken over what is known before
-P_{k-1} is; the share of P_{k-1} in it is a known constant (``damped_inverse_mass``).  And the terms of the sum that
-stem from order k - 1 are gathered while that order is dealt with ("pending").
+The contact force of order k needs a sum over all modes, and every quantity of order k + 1 needs the contact force. This
+chain would leave the arithmetic units idle and is broken in two ways.  The sum is taken over the terms known before
+P_{k-1}; the contribution of P_{k-1} is a known constant (``damped_inverse_mass``).  And terms of the sum from order k -
+1 are collected while that order is processed ("pending").
 
-The convolutions of f with z and e, nearly all of the work, are done for two orders at once, so that each coefficient
-is loaded once for two products.
+The convolutions of f with z and e, nearly all of the work, are computed for two orders at once: each coefficient is
+loaded once for two products.
 
 With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the disc's part of u'' at order k is
 
@@ -144,9 +144,9 @@ def _products(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _products_apart(s, width, b, k, f_high, e_low, z_low):
-    """As ``_products``, with sums of their own for even and odd i: a sum's next term waits for its last one.
+    """As ``_products``, with separate sums for even and odd i, whose terms do not wait for each other.
 
-    That needs more registers than there are where lanes do not fit into one.
+    This needs too many registers where lanes do not fit into one.
     """
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
@@ -167,8 +167,8 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
 def _inner_terms(s, width, b, k, e_last, z_last):
     """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k.
 
-    An odd order computes those of the next order as well, but for the first and the last, which wait for f_k and e_k,
-    and keeps them in scratch.
+    An odd order also computes the terms of the next order, except the first and the last, which need f_k and e_k. It
+    keeps them in scratch.
     """
     e_low, z_low = splat(0.0), splat(0.0)
     if k % 2 == 0:
@@ -196,7 +196,7 @@ def _inner_terms(s, width, b, k, e_last, z_last):
 
 @inlined
 def _pending(model, s, width, b, e, z, carried):
-    """A block's share of u'' of an order, as far as the order before knows it (lanes)."""
+    """A block's part of u'' of an order, as far as the order before determines it (lanes)."""
     known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_AMPLITUDE_STIFFNESS, b), z))
     return fma(_kept(s, _CORIOLIS, width, b), e, known)
 
@@ -205,9 +205,9 @@ def _pending(model, s, width, b, e, z, carried):
 def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     """One block of order k >= 1; ``f`` is f_k, ``impulse`` is P_{k-1} unit / k.
 
-    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) what
-    the block gives to u'' of order k besides what was pending, what it leaves pending for order k + 1, and the four
-    for order k + 1.  What waits for P comes last in every sum: that chain sets the pace.
+    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) the
+    block's part of u'' of order k beyond the pending one. Its pending part and the four values of order k + 1 follow.
+    Terms with P come last in every sum: that chain sets the pace.
     """
     e_inner, z_inner = _inner_terms(s, width, b, k, e_last, z_last)
     part = mul(_row(model, DW_DTHETA, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
@@ -227,7 +227,7 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
 
 @inlined
 def _order_from_memory(model, s, width, b, k, f, f0, impulse):
-    """As ``_order`` for the blocks after the first, whose values between orders are not kept in registers."""
+    """As ``_order`` for the blocks after the first, whose values are not kept in registers between orders."""
     at, carried = k * width + b, _kept(s, _CARRIED, width, b)
     e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), _z(s, at)
     part, pending, e, carried, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
@@ -256,9 +256,9 @@ def _order_zero(model, s, width, b, f0):
 
 @inlined
 def _first_order(model, s, width, f0):
-    """Order 0 of all blocks.  Returns (lanes) their part of u'', what is pending for order 1, and what f weighs.
+    """Order 0 of all blocks.  Returns (lanes) their part of u'', the pending part, and the factors of f.
 
-    The last three are slope e_0, bend z_0 and slope z_1.
+    The factors of f are slope e_0, bend z_0 and slope z_1.
     """
     zero = splat(0.0)
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
@@ -310,10 +310,10 @@ def _last_force(model, s, order, impulse):
 
 @inlined
 def _set_event_function(s, order, direction):
-    """The event function of slip, and the order to which P is not known."""
+    """Set the event function of slip, and clear the order beyond the known ones."""
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
-    # what an earlier step in another phase may have left
+    # remains of an earlier step in another phase
     s.slider[SWITCH + order + 1] = s.slider[P_SERIES + order] = 0.0
 
 
@@ -337,7 +337,7 @@ def slip_series(model, s, order, direction):
     now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
     coriolis = total(by_e)
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
-    # order 0: C has the Coriolis term once too often, because z_1 in by_f_rate holds it already
+    # order 0: C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
     pull = spring * psi + damper * (drive(model, s) - f0)
     vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
@@ -460,7 +460,7 @@ def stick_series(model, s, order):
 
 @inlined
 def separation_series(model, s, order):
-    """No contact: P = 0, disc and slider each for themselves.  Fills the gap u - w."""
+    """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
     width, n = lane_count(model), len(model.mode_amplitude0)
     f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)

@@ -23,7 +23,7 @@ _SETTINGS: Any = numba.config
 
 
 def in_one_register():
-    """Whether eight doubles fit into a register of the processor that kernels are compiled for, as LLVM has it."""
+    """Whether eight doubles fit into one register of the target processor, according to LLVM."""
     add = (
         "define <8 x double> @f(<8 x double> %a, <8 x double> %b) { %c = fadd <8 x double> %a, %b ret <8 x double> %c }"
     )
@@ -48,7 +48,7 @@ def aligned(n):
 
 
 def aligned_pieces(*sizes):
-    """Zeros of these sizes, all but the last whole blocks: one piece cut up, since to align takes ten cuts' time."""
+    """Zeros of these sizes, all but the last whole blocks, cut from one array: aligning takes as long as ten cuts."""
     block, pieces, start = aligned(sum(sizes)), [], 0
     for size in sizes:
         pieces.append(block[start : start + size])
@@ -212,7 +212,7 @@ else:
         return LANES(LANES, LANES, LANES), codegen
 
     def _lane_by_lane(instruction):
-        """What gives two values' lanes, pair by pair, to an instruction of LLVM."""
+        """An instruction of LLVM applied to two values lane by lane."""
 
         @intrinsic
         def operation(typingctx, a, b):

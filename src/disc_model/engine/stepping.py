@@ -1,4 +1,4 @@
-"""One step of the motion: its series, how far that reaches, and the event that ends the phase within it."""
+"""One step of the motion: its series, its length, and the event that ends the phase within it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ from .polynomial import NO_ROOT, first_root, set_powers
 from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
 from .simd import WIDTH, absolute, largest, load, maximum, splat
 
-# Longest step, in radians of the fastest motion: beyond it the terms of the series cancel more digits than they add.
+# Longest step, in radians of the fastest motion: in longer ones the terms of the series cancel more digits than they
+# add.
 LONGEST_STEP = 8.0
 TYPICAL_STEP = 3.0
 
@@ -56,13 +57,13 @@ def _last_two(c, order, typical):
 
 @inlined
 def _last_force(c, order):
-    """The same of P or of a release function, which are known to one order less."""
+    """As ``_last_two`` for P or a release function, which are known to one order less."""
     return max(abs(c[order - 1]) / TYPICAL_STEP, abs(c[order - 2]) / TYPICAL_STEP**2)
 
 
 @inlined
 def _scale(usual, now, growth):
-    """What a quantity's error is compared with: its usual size or its present one; its growth if both are zero."""
+    """Reference of a quantity's error: its usual or present size, whichever is larger; its growth if both are zero."""
     size = max(usual, now)
     return size if size > 0.0 else growth
 
@@ -74,9 +75,9 @@ def _relative(error, scale):
 
 @inlined
 def _root(x, n):
-    """x**(1/n) of a positive number, to 0.8 % for n >= 14: libm is more exact than a step need be, and slower.
+    """x**(1/n) of a positive number, to 0.8 % for n >= 14, which is enough for a step and faster than libm.
 
-    The bits of a number are its binary logarithm, but that they rise straight from one power of two to the next.
+    The bits of a number are its binary logarithm, interpolated linearly between powers of two.
     """
     logarithm = (np.float64(x).view(np.int64) * 2.0**-52 - 1023.0) / n
     whole = math.floor(logarithm)
@@ -88,11 +89,11 @@ def _root(x, n):
 def step_size(model, s, order, tolerance, phase):
     """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
 
-    Modal velocities are compared with those of static deflection under the preload, or with what is there if that is
-    more; f with the drive speed; where it is not the disc's also u'.  The two terms are merged as if the step were
-    ``TYPICAL_STEP``, which spares a root.
+    Modal velocities are compared with those of static deflection under the preload, or with their own size if that is
+    larger. f is compared with the drive speed, and u' is checked where it is not the disc's.  The two terms are merged
+    as if the step were ``TYPICAL_STEP``, which saves a root.
     """
-    # out of contact the fastest motion is not that on a compliant contact, by which time is measured
+    # time is measured by the fastest motion in compliant contact, which does not exist out of contact
     calm = model.free_unit if is_compliant(model) and phase == SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
     last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
@@ -108,7 +109,7 @@ def step_size(model, s, order, tolerance, phase):
         last_force = _last_force(s.P, order)
         force = _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1]))
         if is_normal(model) and phase == STICK:
-            # the slope's acceleration is in the release functions, not in P
+            # the release functions, unlike P, contain the slope's acceleration
             last_force = max(last_force, _last_force(s.switch, order), _last_force(s.switch2, order))
         error += _relative(last_force, force)
     if not error < math.inf or not scale + speed < math.inf:
@@ -122,7 +123,7 @@ def step_size(model, s, order, tolerance, phase):
 def _expand_slip(compliance, normal, model, s, order, direction):
     """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
 
-    give, normal: the model's; the compiler drops a branch unseen if its condition is the length of an argument.
+    compliance, normal: those of the model; the compiler drops a branch if its condition is an argument's length.
     """
     if len(compliance) == 1:
         return compliant_slip_series(model, s, order, direction)
@@ -159,7 +160,7 @@ def expand(model, s, state, order):
 
 @inlined
 def _sooner(s, c, known, n, x_end, cause, later):
-    """Where an event function ends the phase, and this ``cause``; (x_end, ``later``) if it does not until then."""
+    """Place where an event function ends the phase, and its ``cause``; (x_end, ``later``) if it does not end it."""
     x = first_root(c, known, n, x_end, s.powers, s.roots)
     if x == NO_ROOT:
         return x_end, later
@@ -169,7 +170,7 @@ def _sooner(s, c, known, n, x_end, cause, later):
 
 @inlined
 def first_event(model, s, state, order, x_end):
-    """Where and why the phase ends within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
+    """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
     if is_compliant(model):
         known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
@@ -187,7 +188,7 @@ def first_event(model, s, state, order, x_end):
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
         if not is_normal(model):
             return x_end, cause
-        # the slope of the disc may pull: P is no factor of the release functions here
+        # the slope of the disc may pull: here P is no factor of the release functions
         known_release = 0
     x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, transitions.RELEASE_FORWARD, cause)
     # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive that
@@ -202,7 +203,7 @@ def first_event(model, s, state, order, x_end):
 
 @inlined
 def advance_time(x, dt):
-    """Compensated sum: TIME + TIME_LOW is the time to twice the digits."""
+    """Add to the time by a compensated sum: TIME + TIME_LOW has twice the digits."""
     dt += x[TIME_LOW]
     new = x[TIME] + dt
     kept = new - x[TIME]
@@ -212,7 +213,7 @@ def advance_time(x, dt):
 
 @inlined
 def set_course(model, state):
-    """Omega and N of the state's time, on a ramp."""
+    """Set Omega and N to those of the state's time, on a ramp."""
     if is_ramped(model):
         x = state.x
         since = (x[TIME] - ramp_of(model.ramp, 0)) + x[TIME_LOW]

@@ -1,12 +1,12 @@
-"""The modes of stick, in which the closed form of ``stick_propagator`` moves.
+"""The modes of stick, for the closed form of ``stick_propagator``.
 
 With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
 
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
-for the a-components and l = 0, and the same without the slider for the b-components; on a compliant contact u is one
-more coordinate.  Its modes q only turn and decay,
-q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are kept as lanes of real parts followed by lanes of imaginary parts.
+for the a-components and l = 0, and without the slider for the b-components; a compliant contact adds the coordinate u.
+The modes q oscillate and decay, q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are stored as lanes of real parts
+followed by lanes of imaginary parts.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ LONGEST_COAST = 512.0
 DEGREE = 12
 POWERS = 12  # 2**POWERS quanta exceed LONGEST_COAST
 LARGEST_RATE = 1.5
-# The matrices are dense: beyond this number of modes the series are as fast.
+# The matrices are dense: with more modes than this the series are as fast.
 MOST_MODES = 64
-# Eigenvectors that are nearly parallel (modes near critical damping) would cost digits: such systems do not coast.
+# Nearly parallel eigenvectors (modes near critical damping) would lose digits: such systems use the series alone.
 WORST_CONDITION = 100.0
 
 
 @packed
 class StickModes(NamedTuple):
-    """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick is not to coast."""
+    """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick has no closed form."""
 
     decay: np.ndarray  # Re lambda in 1 / time unit, shape (n,)
     turn: np.ndarray  # Im lambda, likewise
@@ -53,7 +53,7 @@ def padded(n: int) -> int:
 
 
 def no_modes() -> StickModes:
-    """Of a system whose stick is left to the series."""
+    """Empty modes, of a system whose stick is integrated by the series."""
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
@@ -71,7 +71,7 @@ def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
 
 
 def _compliant_eigenmodes(frequencies, dampings, shapes, k, c, m, unit, compliance):
-    """As `_eigenmodes` for a compliant contact: the last of d is the slider's u."""
+    """Modes as of `_eigenmodes` for a compliant contact: the last entry of d is the slider's u."""
     omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
     stretch = np.append(psi, -1.0)
     mass = np.append(np.ones(len(omega)), m)
@@ -84,8 +84,8 @@ def _decomposed(stiffness, damping, scale, unit):
     """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,), V (2n, n), W (n, 2n).
 
     (d, d') = 2 Re V q, q = W (d, d'); lambda is in 1 / ``unit``.  Displacements are scaled by ``scale``, so that both
-    halves of an eigenvector are of one size.  None if a mode does not oscillate, is too fast for the series, or nearly
-    parallel to another.
+    halves of an eigenvector have similar size.  None if a mode does not oscillate, is too fast for the series, or
+    nearly parallel to another.
     """
     n = len(scale)
     A = np.zeros((2 * n, 2 * n))
@@ -113,9 +113,9 @@ def _decomposed(stiffness, damping, scale, unit):
 def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, compliance) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
-    pairs : of the diametral modes: omega, damping, psi, places of a, b in `EngineState.disc`, how far on are velocities
-    single : of the axisymmetric modes: omega, damping, psi, their places, how far on are velocities
-    slider : place of u in `EngineState.disc`, u' being the next, where contact is compliant
+    pairs : of the diametral modes: omega, damping, psi, indices of a, b in `EngineState.disc`, offset of velocities
+    single : of the axisymmetric modes: omega, damping, psi, their indices, offset of velocities
+    slider : index of u in `EngineState.disc`, followed by u', where contact is compliant
     length : of `EngineState.disc`
     """
     omega, damping, psi = (np.concatenate([pairs[i], single[i], pairs[i]]) for i in range(3))
@@ -134,7 +134,7 @@ def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, compli
 
 @lru_cache(maxsize=256)
 def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, compliance) -> StickModes:
-    """`StickModes` for N = 1, the same for many cases; ``places`` of (d, d') in `EngineState.disc`."""
+    """`StickModes` for N = 1, shared by many cases; ``places`` are the indices of (d, d') in `EngineState.disc`."""
     system = (frequencies, dampings, shapes, k, c, m, unit)
     modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
     if modes is None:
@@ -153,7 +153,7 @@ def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, uni
 
 
 def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
-    """Modes (see `_eigenmodes`) as lanes; ``where`` the displacements and velocities stand in `EngineState.disc`."""
+    """Modes (see `_eigenmodes`) as lanes; ``where``: indices of displacements and velocities in `EngineState.disc`."""
     n, length = len(rates), len(rest)
     enter = np.zeros((length, 2, padded(n)))
     enter[where, 0, :n], enter[where, 1, :n] = to_modes.real.T, to_modes.imag.T

@@ -1,8 +1,8 @@
-"""Stick in closed form: as long as it cannot end, it need not be integrated.
+"""Stick in closed form: it is not integrated as long as it cannot end.
 
 In the modes of ``stick_modes`` the contact force stays within |P - N| <= sum gain_i |q_i|.  The growing spring force
-reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).  Until then the state is known
-without a step: the motion *coasts*.  The series take over to find the release.
+reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).  Until then the state follows
+without steps; the code calls this *coasting*.  The series then find the release.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U, is_compliant
 from .simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
 
-# A coast is worth its cost from about the length of a usual step (time units).
+# The closed form saves time from about the length of a usual step (time units).
 SHORTEST_COAST = 5.0
 
 
@@ -68,7 +68,7 @@ def _leave_modes(modes, amplitudes, x, disc):
 
 @inlined
 def coast_length(model, s, state):
-    """How long (time units) stick is sure to last, 0 if that is not worth a coast; ``coast_to`` may then be asked."""
+    """Time (time units) for which stick surely lasts, 0 if too short to be worth it; ``coast_to`` may then follow."""
     if len(model.modes.gain) == 0:
         return 0.0
     states = 2 * (len(model.shift) + len(model.mode_amplitude0))
@@ -79,7 +79,7 @@ def coast_length(model, s, state):
     s.psi[0] = state.x[PSI]
     friction = model.mu_s * (model.N - swing) / model.r_0
     spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
-    # the spring force only grows, so that a backward release is out of question if it is now
+    # the spring force only grows, so that a backward release is impossible if it is impossible now
     if not abs(spring) < friction:
         return 0.0
     growth = model.k_p * model.Omega * model.unit
@@ -91,7 +91,7 @@ def coast_length(model, s, state):
 
 @inlined
 def coast_to(model, s, x, state):
-    """Fill ``state`` with stick at x (time units) from where ``coast_length`` was asked."""
+    """Fill ``state`` with stick at x (time units) after the state of the call of ``coast_length``."""
     _leave_modes(model.modes, s.amplitudes, x, state.disc)
     if is_compliant(model):
         states = 2 * (len(model.shift) + len(model.mode_amplitude0))

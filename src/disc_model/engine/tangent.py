@@ -1,12 +1,12 @@
-"""Small changes carried along a motion: Taylor series of the variational equations.
+"""Small changes along a motion: Taylor series of the variational equations.
 
-A change of the state is a column; the columns lie side by side in blocks of eight lanes, so that one pass of the
-recurrence moves eight of them.  The Taylor coefficients of the variational equations are those of the model with
-each product f x replaced by f dx + df x, the coefficients of the motion itself being known; the contact force of
-order k then follows from the same scalar division as that of the motion, or on a compliant contact from the state.
+A change of the state is a column; columns are stored side by side in blocks of eight lanes, and one pass of the
+recurrence advances eight.  The variational equations have the model's recurrence with each product f x replaced by f dx
++ df x. The coefficients of the motion are known. The contact force of order k follows from the same scalar division as
+for the motion, or from the state on a compliant contact.
 
 Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
-u, u' of the slider (which in rigid contact are the disc's, and mean something in separation only).
+u, u' of the slider. In rigid contact u, u' are the disc's and have a meaning in separation only.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from .layout import HALF, SEPARATION, SLIP, STICK, Model, compliance_of, is_comp
 from .packing import packed
 from .simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 
-# Entries of ``Tangent.log``; ``variational`` says what they are.
+# Entries of ``Tangent.log``, explained in ``variational``.
 LOG_SIZE = 16
 
-# Rows of the slider in a column, behind those of the disc, which stand in the order of ``EngineState.disc``.
+# Rows of the slider in a column, after those of the disc, which have the order of ``EngineState.disc``.
 PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 
 # Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
@@ -81,7 +81,7 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
 
 @inlined
 def slider_row(model, row):
-    """Where a row of the slider, ``PSI_ROW`` to ``V_ROW``, stands in a column; ``N_SLIDER_ROWS``: where columns end."""
+    """Index of a slider's row, ``PSI_ROW`` to ``V_ROW``, in a column; ``N_SLIDER_ROWS`` gives the length of columns."""
     return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + row
 
 
@@ -205,7 +205,7 @@ def _axisymmetric_rates(model, s, t, block, k, R):
 
 @inlined
 def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
-    """Changes, of order k, of F, of the vertical force but for m u'', and of psi' (lanes)."""
+    """Changes of order k of F, of the vertical force without m u'', and of psi' (lanes)."""
     q = block * n_inputs(model) * WIDTH
     pull = sub(mul(splat(model.k_p), dpsi), mul(splat(model.c_p), df))
     vertical = fma(splat(model.k), du, mul(splat(model.c), dv))
@@ -228,7 +228,7 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 
 @inlined
 def _path_change(s, t, block, k, R, f_row):
-    """Change of f B without f'_k B_0, order k + 1: what the slope of the disc adds to d(u') (lanes)."""
+    """Change of f B without f'_k B_0, order k + 1: the contribution of the disc's slope to d(u') (lanes)."""
     orders = len(t.base_dw_dtheta)
     origin, chain = block * orders * R * WIDTH, block * orders * WIDTH
     carried = mul(splat(s.f[k + 1]), load(t.dw_dtheta, chain))
@@ -268,7 +268,7 @@ def _compliant_change(model, s, t, block, k, R, friction):
 
 @inlined
 def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, vertical, pull):
-    """Changes of order k of the contact force (P or R), of V and of f' (lanes) under another law than the paper's.
+    """Changes of order k of the contact force (P or R), of V and of f' (lanes), for laws other than the paper's.
 
     friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
     pull: see ``_slider_forces``.

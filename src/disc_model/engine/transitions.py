@@ -1,4 +1,4 @@
-"""What happens at an event: contact force, impact, and which phase comes next (docs/model.md, Contact and events)."""
+"""Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from .layout import (
 )
 from .simd import WIDTH, absolute, add, load, mul, splat, total
 
-# What can end a step.
+# Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
-# More events than this without the clock moving end a motion: a guard, not a tuned interval.
+# A motion ends after more events than this without the clock advancing: a guard, not a tuned interval.
 MAX_EVENTS_IN_A_ROW = 200
-# Below this share of its value without friction the denominator of P counts as zero: Painleve's paradox.
+# Below this fraction of its value without friction the denominator of P counts as zero: Painleve's paradox.
 PAINLEVE_MARGIN = 1e-6
-# A force below this share of the terms that make it is rounding.
+# A force below this fraction of the terms that make it is rounding.
 ROUNDING = 1e-13
 # Added to KNOWN in contact: the contact force, too, starts at a root of multiplicity one (a compliant contact begins).
 TOUCHING = 4
@@ -66,7 +66,7 @@ def slider_motion(model, state):
 
 @inlined
 def _free_acceleration(model, state):
-    """A: u'' of the disc under the slider but for P and f'; size of its terms."""
+    """A: u'' of the disc under the slider without P and f'; size of its terms."""
     f, acceleration, size = state.x[SPEED], 0.0, 0.0
     for j in range(len(model.shift)):
         a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
@@ -83,7 +83,7 @@ def _free_acceleration(model, state):
 
 @inlined
 def instant(model, state):
-    """The numbers on which the laws of contact depend; size of the terms of A."""
+    """The arguments of the laws of contact; size of the terms of A."""
     x, (w, velocity, dw_dtheta), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
     return Instant(
         load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
@@ -100,13 +100,13 @@ def inplane_force_per_radius(model, state):
 
 @inlined
 def never_pulled(model, state):
-    """Whether the drive neither pulls at the slider in stick nor ever will."""
+    """Whether the drive does not pull at the slider in stick, now or later."""
     return model.k_p * model.Omega == 0.0 and inplane_force_per_radius(model, state) == 0.0
 
 
 @inlined
 def _deflection_size(model, state):
-    """Size of w - u on a compliant contact: of the modes' shares of w, which may be a difference of far larger ones."""
+    """Size of w - u on a compliant contact: of the modes' parts of w, which may nearly cancel."""
     sizes = splat(0.0)
     for b in range(0, len(model.mode_amplitude), WIDTH):
         sizes = add(sizes, absolute(mul(load(model.mode_amplitude, b), load(state.z, b))))
@@ -118,7 +118,7 @@ def _deflection_size(model, state):
 
 @inlined
 def _rounding(model, state, i, size):
-    """How much of V in stick, or of the numerator of P where B F is rounded too, may be rounding."""
+    """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""
     if is_compliant(model):
         return ROUNDING * _deflection_size(model, state) / i.compliance
     return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
@@ -133,7 +133,7 @@ def stick_force(model, state):
 
 @inlined
 def force_in_stick(model, state, V):
-    """What counts as contact force in stick: V, or R under the normal force."""
+    """The contact force in stick: V, or R under the normal force."""
     if not is_normal(model):
         return V
     i, _ = instant(model, state)
@@ -149,7 +149,7 @@ def usual_denominator(model):
 
 @inlined
 def slip_force(model, state, direction):
-    """Contact force in slip (P, or R under the normal force), its denominator, and how much of it may be rounding."""
+    """Contact force in slip (P, or R under the normal force), its denominator, and its rounding error."""
     i, size = instant(model, state)
     denominator = laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
     noise = _rounding(model, state, i, size)
@@ -173,7 +173,7 @@ def impact(model, state):
 
 @inlined
 def event_function(model, i, cause, slipping):
-    """What vanishes at an event of an instant; slipping: whether it ends slip."""
+    """The event function of a cause at an instant; slipping: whether it ends slip."""
     if cause == AT_REST:
         return i.f
     if cause == GAP_CLOSED:
@@ -188,9 +188,9 @@ def event_function(model, i, cause, slipping):
 
 @inlined
 def _enter_separation(model, state, P, noise):
-    """Contact is lost where P, up to ``noise``, would be: the gap starts as t**3 from P = 0, as t**2 from P < 0.
+    """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0.
 
-    The gap of a compliant contact starts as t, or is open.
+    The gap of a compliant contact starts as t, or is already open.
     """
     if is_compliant(model):
         state.x[KNOWN] = 0 if noise < -P else 1
@@ -213,7 +213,7 @@ def _enter_stick(state, P):
 
 @helper
 def enter_slip(model, state, direction):
-    """Slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
+    """Begin slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
     P, denominator, noise = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN * usual_denominator(model):
         return NO_SOLUTION
@@ -240,20 +240,20 @@ def enter_slip(model, state, direction):
 
 @helper
 def release(model, state, direction, at_once):
-    """Friction holds the slider no longer: slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
+    """Release: begin slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
 
-    at_once: stick has not lasted at all, so that the spring may pull harder than friction can hold.
+    at_once: stick had no duration, so that the spring may pull harder than friction can hold.
     """
     outcome = enter_slip(model, state, direction)
     if state.x[PHASE] == SLIP and model.mu_s == model.mu_k and not at_once:
-        # no jump of friction: f' = 0, whatever the error of the event's time makes of it
+        # friction does not jump: f' = 0, despite the error of the event's time
         state.x[KNOWN] = 2
     return outcome
 
 
 @helper
 def lose_contact(model, state):
-    """P has reached zero, or was negative from the start."""
+    """Loss of contact: P has reached zero, or was negative from the start."""
     if state.x[PHASE] == SLIP:
         P, _, noise = slip_force(model, state, state.x[DIRECTION])
     else:
@@ -265,7 +265,7 @@ def lose_contact(model, state):
 
 @helper
 def stop_slip(model, state):
-    """f has reached zero: stick if friction can hold the spring, else slip to the side of the spring's pull."""
+    """Stop: f has reached zero. Stick if friction holds the spring, else slip to the side of the spring's pull."""
     state.x[SPEED] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
@@ -279,7 +279,7 @@ def stop_slip(model, state):
 
 @inlined
 def _begin_contact(model, state):
-    """A compliant contact begins: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
+    """Begin a compliant contact: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
     x = state.x
     f, F = x[SPEED], inplane_force_per_radius(model, state)
     if f == 0.0 and F == 0.0:
@@ -297,7 +297,7 @@ def _begin_contact(model, state):
 
 @helper
 def reattach(model, state):
-    """The gap has closed: impact, then contact."""
+    """Reattachment: the gap has closed; impact, then contact."""
     if is_compliant(model):
         return _begin_contact(model, state)
     impact(model, state)
@@ -309,7 +309,7 @@ def reattach(model, state):
 
 @inlined
 def change_phase(model, state, cause, at_once):
-    """Carry out an event, of a phase that may have ended ``at_once``.  Returns CONSISTENT or NO_SOLUTION."""
+    """Carry out an event; ``at_once``: the phase had no duration.  Returns CONSISTENT or NO_SOLUTION."""
     if cause == GAP_CLOSED:
         return reattach(model, state)
     if cause == AT_REST:

@@ -1,4 +1,4 @@
-"""Flights with their derivatives: a motion and small changes of it, from phase to phase and back to a section."""
+"""Integration with derivatives: a motion and its small changes, from phase to phase and back to a section."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ from .transitions import (
     stick_force,
 )
 
-# What a flight counts, entries of ``Tangent.log``.
+# Counts of an integration, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
     range(10)
 )
 
 
 class IntegrationLimits(NamedTuple):
-    """What ends a flight, and how finely it is computed."""
+    """End and accuracy of an integration."""
 
     order: int  # of the series
     tolerance: float  # of the series
@@ -153,7 +153,7 @@ def _integrate(model, s, state, t, course):
 
 @inlined
 def coordinate(model, state, row):
-    """The entry of a state that stands in ``row`` of a column."""
+    """The entry of a state at ``row`` of a column."""
     slider = row - slider_row(model, PSI_ROW)
     return state.disc[row] if slider < 0 else state.x[PSI + slider]
 
@@ -170,7 +170,7 @@ def _place(model, state, row, value):
 
 @kernel
 def release_angle(model, state):
-    """psi at which stick is released forwards: the event function is linear in it."""
+    """psi at a forward release; the event function is linear in it."""
     i, _ = instant(model, state)
     margin = event_function(model, stepped(i, ANGLE), RELEASE_FORWARD, False)
     return i.psi - margin.real / (margin.imag / TINY)
@@ -178,7 +178,9 @@ def release_angle(model, state):
 
 @helper
 def _leave_section(model, s, state, t, course, section, start):
-    """Put ``state`` and, if asked, the columns right behind the release at ``start``.  Returns CONSISTENT or an end."""
+    """Put ``state`` and, if requested, the columns just after the release at ``start``.  Returns CONSISTENT or an exit
+    code.
+    """
     rows, scale, R = section.rows, section.scale, n_rows_of(model)
     t.log[:] = 0.0
     state.x[:] = 0.0
@@ -199,7 +201,7 @@ def _leave_section(model, s, state, t, course, section, start):
             store(t.now, c * R + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
-    # the release itself is that of the flight which ended here
+    # the release itself belongs to the integration that ended here
     _count(state, NOTHING, t.log)
     if state.x[PHASE] == SEPARATION and not course.may_separate:
         return LOST_CONTACT
@@ -210,7 +212,7 @@ def _leave_section(model, s, state, t, course, section, start):
 
 @kernel
 def _flight(model, s, state, t, course, section, start, from_section):
-    """Both ``integrate`` and ``section_map``: apart, each would be compiled with nearly all of the engine."""
+    """Common part of ``integrate`` and ``section_map``: separately, each would compile nearly the whole engine."""
     if from_section:
         outcome = _leave_section(model, s, state, t, course, section, start)
         if outcome != CONSISTENT:
@@ -229,10 +231,10 @@ _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0,
 
 
 def integrate(model, s, state, t, course):
-    """Carry ``state`` and, if asked, the columns ``t.now`` to the end of a flight; returns how it ended.
+    """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
 
     At the last release the columns are projected onto the section (their event time is t.tau, the state still in
-    stick); a flight that ends at ``t_max`` is left as it is then.  ``t.log`` is added to.
+    stick). An integration that ends at ``t_max`` is not projected.  ``t.log`` is incremented.
     """
     return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)
 
@@ -241,7 +243,6 @@ def section_map(model, s, state, t, course, section, start):
     """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
 
     A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
-    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns how the flight ended; ``t.log``
-    is set.
+    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns the exit code; ``t.log`` is set.
     """
     return _flight(model, s, state, t, course, section, start, True)
