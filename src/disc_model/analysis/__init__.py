@@ -1,1 +1,1 @@
-"""What kind of motion a recorded signal shows: sections, spectra, words for them; and Sobol indices of samples."""
+"""Analysis of recorded signals: Poincaré sections, spectra, classification of motions; and Sobol indices of samples."""

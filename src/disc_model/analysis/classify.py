@@ -1,9 +1,9 @@
-"""Words for motions, each with a definition that a number decides.
+"""Classification of motions by numerical criteria.
 
-The in-plane motion is judged by the times between successive releases of stick, T_1, T_2, ...: a motion that repeats
-after n of them is periodic with period n, however large n is, if the record holds two periods. What does not repeat
-within half the record is quasi-periodic or irregular by the 0-1 test for chaos (Gottwald and Melbourne, SIAM J. Appl.
-Dyn. Syst. 8, 129-145, 2009).
+The in-plane motion is classified by the times between successive releases of stick, T_1, T_2, ...: a motion that
+repeats after n of them is periodic with period n, however large n is, if the record holds two periods. A motion that
+does not repeat within half the record is quasi-periodic or irregular. The 0-1 test for chaos decides between the two
+(Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
 """
 
 from __future__ import annotations
@@ -18,35 +18,35 @@ from disc_model.data.variables import Outcome
 
 Array = NDArray[np.float64]
 CLOSES = 1e-8
-"""How exactly intervals of a periodic motion repeat, s: what is left of the approach after minutes is smaller, and the
-own differences of a motion on a torus are mostly far larger."""
+"""Tolerance to which the intervals of a periodic motion repeat, s. The remaining transient after minutes is smaller;
+the intervals of a motion on a torus mostly differ by far more."""
 NEAR_RETURN = 1e-3
-"""A quasi-periodic motion, too, comes back: among its first n returns one misses by about 1/n of its spread. A period
-of n must close a thousand times better than that."""
+"""A quasi-periodic motion also nearly returns: among its first n returns one misses by about 1/n of its spread. A
+period of n must close a thousand times better than that."""
 FEWEST = 20
-"""Fewest intervals that a motion is judged by."""
+"""Fewest intervals from which a motion is classified."""
 SETTLED = 0.01
-"""Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Motions that are
-not periodic vary by half of it. What grows or dies out by 0.00025/s or faster changes by more."""
+"""Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Aperiodic
+motions vary by half of it. Growth or decay at 0.00025/s or faster changes them by more."""
 REGULAR = 0.3
-"""Result of the 0-1 test, which tends to 0 or to 1 with more intervals, below which a motion is regular; and as far
-below 1, above which it is chaotic. Signals of known nature stay within a tenth of these ends."""
+"""A motion is regular if the 0-1 test gives less than this, and chaotic above one minus this. The result tends to 0 or
+to 1 with more intervals. Signals of known nature stay within a tenth of these ends."""
 FREQUENCIES = 101
-"""Of which the 0-1 test takes the median."""
+"""Number of frequencies over which the 0-1 test takes the median."""
 
 
 class Motion(NamedTuple):
-    """What a sequence of intervals is.
+    """Classification of a motion by a sequence of intervals.
 
     Attributes
     ----------
-    kind : `OTHER_CYCLE` (in contact, the quiet one included) or `SEPARATING` if it repeats, else `QUASI_PERIODIC`,
-        `IRREGULAR` or, where the 0-1 test lies between the two, `UNDECIDED`
-    period : number of releases after which it repeats, 0 if it does not
+    kind : `OTHER_CYCLE` (any cycle in contact) or `SEPARATING` for a periodic motion, otherwise `QUASI_PERIODIC`,
+        `IRREGULAR` or, if the 0-1 test is inconclusive, `UNDECIDED`
+    period : number of releases after which the motion repeats, 0 if it does not
     spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
-    closure : s, largest difference of an interval and the one `period` (or one) later
+    closure : s, largest difference between an interval and the one `period` (or one) later
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
-    longest : longest period that the record could have shown, in releases
+    longest : longest period that the record can show, in releases
     """
 
     kind: Outcome
@@ -68,14 +68,14 @@ def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = 
     Parameters
     ----------
     intervals : s, shape (n,)
-    tolerance : s, how exactly a periodic motion has to repeat: above what is left of the approach to it, far below
-        the intervals' own differences
-    separates : whether it loses contact
+    tolerance : s, largest difference for a periodic motion: above the remaining transient, and far below the
+        differences of successive intervals
+    separates : whether the motion loses contact
 
     Raises
     ------
     ValueError
-        With fewer than `FEWEST` intervals.
+        If there are fewer than `FEWEST` intervals.
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
@@ -92,7 +92,7 @@ def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = 
 
 
 def irregularity(intervals: Array) -> float:
-    """Standard deviation over mean."""
+    """Standard deviation of the intervals over their mean."""
     return float(np.std(intervals) / np.mean(intervals))
 
 
@@ -104,9 +104,9 @@ def closure(intervals: Array, period: int) -> float:
 def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
     """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
 
-    At most half the intervals: a period must be seen twice. One that closes no better than the near returns of a
-    quasi-periodic motion do (see `NEAR_RETURN`, or another share) is none, but for a period of 1: from one release to
-    the next there is no near return, only a slow approach or drift, which `tolerance` is there to allow.
+    The period is at most half the intervals, because it must occur twice. A period that closes no better than the near
+    returns of a quasi-periodic motion does not count (see `NEAR_RETURN`, or another share). A period of 1 is exempt:
+    from one release to the next there is only a slow transient, which `tolerance` allows.
     """
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
@@ -121,16 +121,16 @@ def shortest_period(intervals: Array, tolerance: float, near_return: float = NEA
 def zero_one(values: Array) -> float:
     """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values exp(i c j).
 
-    The c, `FREQUENCIES` of them, are drawn from the middle of (0, pi), the same at every call.
+    The `FREQUENCIES` values of c are drawn from the middle of (0, pi); they are the same at every call.
 
     Parameters
     ----------
-    values : shape (n,), a scalar signal with one value a cycle (no oversampled one, which always seems regular)
+    values : shape (n,), a scalar signal with one value a cycle (an oversampled signal always seems regular)
 
     Returns
     -------
     float
-        Near 0: the translation stays bounded (periodic, quasi-periodic). Near 1: it diffuses (chaotic).
+        Near 0 if (p, q) stays bounded (periodic, quasi-periodic); near 1 if it diffuses (chaotic).
     """
     signal = np.asarray(values, dtype=float)
     signal = (signal - signal.mean()) / (signal.std() or 1.0)
@@ -142,10 +142,10 @@ def zero_one(values: Array) -> float:
 
 
 def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
-    """Correlation of the mean square displacement with time; its oscillating part is subtracted."""
+    """Correlation of the mean square displacement with time, after its oscillating part is subtracted."""
     path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
     sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
-    # of |path[i + j] - path[i]|^2 over i < count
+    # mean of |path[i + j] - path[i]|^2 over i < count
     together = correlate(path, path[:count], mode="valid", method="fft").real
     square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
     square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
@@ -155,21 +155,21 @@ def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> fl
 
 
 def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
-    """Whether a motion that sticks for a share of time `before` a separation does so no more `after` it.
+    """Whether stick, which takes the share of time `before` a separation, is absent `after` it.
 
-    `bound` is the share of time that counts as none: a stray stick among thousands of cycles does not refute it.
+    `bound` is the share of time that counts as none: a single stick among thousands of cycles does not matter.
     """
     return before > bound >= after
 
 
 class Location(NamedTuple):
-    """Where in the swing contact is lost.
+    """Position in the oscillation of the height at which contact is lost; shares are relative to its range.
 
     Attributes
     ----------
     kind : "at the lowest position", "falling", "rising" or "at the highest position"
-    height : share of the swing, 0 at the lowest and 1 at the highest point, median
-    to_lowest : median share of the swing between the loss of contact and the next lowest point
+    height : median share of the range, 0 at the lowest and 1 at the highest point
+    to_lowest : median share of the range between the loss of contact and the next lowest point
     """
 
     kind: str
@@ -178,18 +178,18 @@ class Location(NamedTuple):
 
 
 def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> Location:
-    """Where in the swing contact is lost, from samples of the height and the indices of the losses.
+    """Find the position in the oscillation at which contact is lost, from samples of the height.
 
     Parameters
     ----------
     time, height : uniform samples, shape (n,)
-    starts : indices into them, first samples of the separations
-    bound : share of the swing within which a point is the lowest (or the highest) one
+    starts : indices of the first samples of the separations
+    bound : share of the range within which a point counts as the lowest (or the highest) one
 
     Notes
     -----
-    "At the lowest position": the loss is within `bound` of the swing of the lowest point of its own cycle, whether
-    just before or just after it. The cycle is the stretch of one dominant period around the loss.
+    "At the lowest position" means that the height at the loss exceeds the lowest point of its cycle by at most `bound`
+    of the range, before or after that point. The cycle is one dominant period around the loss.
     """
     velocity = np.gradient(height, time)
     # half a period of the dominant oscillation

@@ -1,4 +1,4 @@
-"""Poincare sections at the drive's period: stages of a run, and how many different points a section has.
+"""Poincare sections at the drive's period: stages of a run, and the number of distinct points of a section.
 
 The section is stroboscopic: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n
 points, a quasi-periodic one a closed curve, an irregular one a cloud.
@@ -18,13 +18,13 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 SEPARATION = PHASES.index("separation")
 SAME = 0.01
-"""Share of the range, along every axis, within which points are one."""
+"""Share of the range, along every axis, within which two points count as one."""
 
 
 class Stages(NamedTuple):
-    """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one.
+    """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one of them.
 
-    With a separation, it divides early from later; without one, half the run does.
+    The first separation divides early from later; without a separation, half the run does.
     """
 
     early: Mask
@@ -34,7 +34,7 @@ class Stages(NamedTuple):
 
 
 def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end: float) -> Stages:
-    """Stages as the paper colours them.
+    """Divide a run into the stages that the paper distinguishes by colour.
 
     Parameters
     ----------
@@ -50,15 +50,15 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end:
 
 
 def distinct_points(points: Array, extent: Array | None = None) -> int:
-    """How many different points a section has, found greedily.
+    """Count the distinct points of a section, by a greedy search.
 
-    Those within `SAME` of each other are one; chains of near points stay several, so that a closed curve has about
-    1/`SAME` points.
+    Points within `SAME` of each other count as one. A chain of near points is not merged, so that a closed curve has
+    about 1/`SAME` points.
 
     Parameters
     ----------
     points : shape (n, d)
-    extent : shape (d,), units in which the coordinates are measured; if not given, each its own range
+    extent : shape (d,), units in which the coordinates are measured; by default the range of each
     """
     points = np.asarray(points, dtype=float)
     if points.size == 0:

@@ -1,8 +1,8 @@
 """Sobol' indices of samples by the design of Saltelli et al. (2010), and shares with confidence intervals.
 
-A row of the outputs is a sample: f(A), f(B), and f of A with each of d inputs in turn taken from B. First-order indices
-are the share of the output's variance that an input accounts for by itself, total ones its share with all
-interactions. Rows of which an output is missing are left out: give their share beside the indices.
+A row of the outputs is a sample: f(A), f(B), and f of A with each of d inputs in turn taken from B. The first-order
+index of an input is the share of the output's variance that it explains alone. The total index is its share with all
+interactions. Rows with a missing output are left out, and their share must be reported with the indices.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ Array = NDArray[np.float64]
 
 CONFIDENCE = 0.95
 RESAMPLES = 500
-"""Bootstrap samples: the ends of an interval of 95 % are right to about a tenth of its half width."""
+"""Number of bootstrap samples: the ends of a 95 % interval are then accurate to about a tenth of its half width."""
 AT_ONCE = 50
-"""Resamples that are held in memory together."""
+"""Number of resamples that are held in memory together."""
 
 
 class Indices(NamedTuple):
@@ -36,8 +36,8 @@ class Indices(NamedTuple):
 def sobol_indices(outputs: Array) -> tuple[Array, Array]:
     """First-order and total indices.
 
-    As `scipy.stats.sobol_indices` with outputs that are given, which takes powers of two of samples only: rows that are
-    left out would make them none.
+    The formulas are those of `scipy.stats.sobol_indices`. That function requires a power of two of samples, which is
+    lost when rows are left out.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def sobol_indices(outputs: Array) -> tuple[Array, Array]:
     both = outputs[..., :2]
     mean = both.mean(axis=(-2, -1))[..., None, None]
     variance = both.var(axis=(-2, -1))[..., None]
-    # what is left of equal numbers' variance is rounding
+    # the variance of equal numbers is not exactly 0 because of rounding
     variance = np.where(variance > 1e-24 * np.square(mean[..., 0]), variance, np.nan)
     first = np.mean((b - mean) * (mixed - a), axis=-2) / variance
     total = 0.5 * np.mean((a - mixed) ** 2, axis=-2) / variance
@@ -75,7 +75,7 @@ def sobol_intervals(outputs: Array, seed: int = 0) -> Indices:
 
 
 def _percentiles(found: Array, shares: tuple[float, float]) -> Array:
-    """Of each column of resamples; those in which nothing varies are left out."""
+    """Percentiles of each column of resamples, without resamples in which the outputs do not vary."""
     if not np.isfinite(found).any():
         return np.full((2, found.shape[1]), np.nan)
     return np.asarray(np.nanquantile(found, shares, axis=0), dtype=float)
@@ -90,9 +90,9 @@ class Share(NamedTuple):
 
 
 def share(hits: int, trials: int, unknown: int = 0, confidence: float = CONFIDENCE) -> Share:
-    """Share of hits among trials whose result is known, with its Wilson interval.
+    """Share of hits among trials with a known result, with its Wilson interval.
 
-    unknown : further trials; the interval takes them for misses at its lower end and for hits at its upper end
+    unknown : number of further trials; they count as misses at the lower end of the interval and as hits at the upper
     """
     if trials == 0:
         return Share(np.nan, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""Spectra: lines of a steady signal, what they are made of, and spectra that change with time."""
+"""Spectra: lines of a stationary signal, their identification, and spectra that change with time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from disc_model.errors import ParameterError
 Array = NDArray[np.float64]
 
 AROUND = (1.0, 6.0)
-"""Hz, distances from a line between which the level of its neighbourhood is taken."""
+"""Hz, distances from a line between which the level of its neighbourhood is determined."""
 RESOLVED = 4
 """Bins, half the width of a line's main lobe: two lines nearer to each other are not resolved."""
 SIDE_LOBES = 3e-5
@@ -29,7 +29,7 @@ class Line(NamedTuple):
 
 
 class Combination(NamedTuple):
-    """``n f_s + m f_drive`` nearest to a line, and by how much the line is off, Hz."""
+    """The combination ``n f_s + m f_drive`` nearest to a line, and the deviation of the line from it, Hz."""
 
     n: int
     m: int
@@ -57,7 +57,7 @@ class TimeFrequency(NamedTuple):
 
 
 def rate_of(time: Array, values: Array) -> float:
-    """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError unless they are such."""
+    """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are not uniform."""
     if np.ndim(time) != 1 or np.shape(values) != np.shape(time) or np.size(time) < 2:
         raise ParameterError("values: must be two or more, one for each time")
     if not np.all(np.isfinite(values)):
@@ -70,12 +70,12 @@ def rate_of(time: Array, values: Array) -> float:
 
 
 def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
-    """One-sided amplitudes by a Blackman-Harris window (side lobes below -92 dB), mean removed.
+    """One-sided amplitude spectrum with a Blackman-Harris window (side lobes below -92 dB), mean removed.
 
     Returns
     -------
     frequency, amplitude : Hz and the signal's unit, shape (len(time) // 2 + 1,); a sine of amplitude 1 has a line of
-        height 1, less what falls between two bins (at most 0.8 dB)
+        height 1, less the loss between two bins (at most 0.8 dB)
     """
     rate = rate_of(time, values)
     window = blackmanharris(len(time), sym=False)
@@ -94,20 +94,20 @@ def lines(
     floor: float = 1e-3,
     apart: float | None = None,
 ) -> list[Line]:
-    """Lines of a signal's spectrum between two frequencies, by ascending frequency.
+    """Find the lines of a signal's spectrum between two frequencies, by ascending frequency.
 
     Parameters
     ----------
-    above, below : Hz
+    above, below : Hz, the two frequencies
     floor : least amplitude, relative to the strongest line between them
-    apart : Hz, least distance of two lines, the stronger one wins; by default `RESOLVED` bins
+    apart : Hz, least distance of two lines, of which the stronger is kept; by default `RESOLVED` bins
 
     Notes
     -----
-    A line is a local maximum of the whole spectrum, not of the part between the two frequencies: that part has its
-    greatest value at its edge if a stronger line stands outside. Maxima below `SIDE_LOBES` of the spectrum's greatest
-    value may be side lobes of the window and are no lines. The frequency of a line is that of the parabola through the
-    logarithms of the three highest bins, at most half a bin from the middle one.
+    A line is a local maximum of the whole spectrum, not of the part between the two frequencies. That part may have its
+    maximum at its edge, next to a stronger line outside. Maxima below `SIDE_LOBES` of the spectrum's maximum are not
+    lines, because they may be side lobes of the window. The frequency of a line is that at the vertex of the
+    parabola through the logarithms of the three highest bins.
     """
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
@@ -120,7 +120,7 @@ def lines(
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
-    """The strongest line no further than `within` Hz from a frequency; raises ValueError if there is none."""
+    """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if there is none."""
     found = lines(time, values, above=near - within, below=near + within, floor=0.0)
     if not found:
         raise ValueError(f"no line within {within:g} Hz of {near:g} Hz")
@@ -128,25 +128,25 @@ def strongest(time: Array, values: Array, near: float, within: float) -> Line:
 
 
 def chance(time: Array, values: Array, line: Line, searched: float) -> float:
-    """Probability that noise of its neighbourhood's level has a line as strong within what was searched.
+    """Probability that noise at the level of a line's neighbourhood has as strong a line in the searched band.
 
     Parameters
     ----------
-    line : found among bins no further than `searched` Hz from some place
+    line : a line found among bins no further than `searched` Hz from some frequency
 
     Returns
     -------
     float
-        1 if the signal's spectrum has no line within half a bin of that frequency, however strong `line` claims to be
+        1 if the signal's spectrum has no line within half a bin of that frequency, whatever the amplitude of `line`
 
     Notes
     -----
-    The level is the largest of the medians of the power over four stretches: on either side of the line, from its main
+    The level is the largest of the medians of the power over four bands: on either side of the line, from its main
     lobe to the nearer end of `AROUND`, and from there to the farther end. A line on the skirt of a stronger one is
-    therefore compared with that skirt. Other lines do not count as long as they are few and farther than the nearer
-    end. The power of noise in a bin is distributed exponentially: it exceeds x medians with the probability 2^-x. Bins
-    are taken for independent, and the probability is too large because the window correlates them. Raises ValueError
-    if there is no bin in the neighbourhood: the samples are too short.
+    therefore compared with that skirt. Other lines have no effect if they are few and beyond the nearer end. The power
+    of noise in a bin is distributed exponentially: it exceeds x medians with the probability 2^-x. Bins are treated as
+    independent; the window correlates them, so that the probability is overestimated. Raises ValueError if the
+    neighbourhood has no bin, because there are too few samples.
     """
     near, far = AROUND
     frequency, amplitude = amplitude_spectrum(time, values)
@@ -168,9 +168,9 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
-    """The combination ``n f_s + m f_drive`` (0 <= n <= 12, abs(m) <= 3) nearest to a frequency, all Hz.
+    """Find the combination ``n f_s + m f_drive`` (0 <= n <= 12, abs(m) <= 3) nearest to a frequency, all in Hz.
 
-    Of combinations equally near, to a thousandth of a Hz, that with the smallest orders is taken.
+    Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders is taken.
     """
     orders = [(n, m) for n in range(13) for m in range(-3, 4) if n > 0 or m > 0]
 
@@ -189,7 +189,7 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
     Parameters
     ----------
     time, values : uniform samples, shape (n,)
-    window, hop : s, length of the window and distance of two; lines 2/window Hz apart are told apart
+    window, hop : s, length of the window and distance of two windows; lines 2/window Hz apart are resolved
 
     Notes
     -----
@@ -210,7 +210,7 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
 
 
 def power_share(time: Array, values: Array, above: float, reference: float) -> float:
-    """Share of the power above one frequency in that above another, lower one (both Hz)."""
+    """Power above the frequency `above` over the power above a lower frequency `reference` (both Hz)."""
     frequency, amplitude = amplitude_spectrum(time, values)
     power = amplitude**2
     return float(power[frequency > above].sum() / power[frequency > reference].sum())
@@ -219,7 +219,7 @@ def power_share(time: Array, values: Array, above: float, reference: float) -> f
 def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
     """Share of the band from `low` to `high` Hz where the amplitude exceeds `floor` of the band's strongest line.
 
-    It is 0 without a line. A few lines cover a small share of their band, a broad, fuzzy spectrum much of it.
+    The share is 0 without a line. It is small for a few lines, and large for a broadband spectrum.
     """
     frequency, amplitude = amplitude_spectrum(time, values)
     band = (frequency >= low) & (frequency <= high)
@@ -229,13 +229,13 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
 
 
 def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
-    """Bins of local maxima that are no side lobes and so many bins apart at least, the higher one wins."""
+    """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher one is kept."""
     peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
     return np.asarray(peaks, dtype=np.int64)
 
 
 def _interpolated(frequency: Array, amplitude: Array, peaks: NDArray[np.int64]) -> tuple[Array, Array]:
-    """Frequencies and amplitudes at the tops of parabolas through the logarithms of maxima and their neighbours."""
+    """Frequencies and amplitudes at the vertices of parabolas through the logarithms of maxima and their neighbours."""
     low, mid, high = (np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1))
     curvature = low - 2 * mid + high
     shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)

@@ -1,1 +1,1 @@
-"""One case from its start to its end: what is asked, what the engine is given, what is kept."""
+"""Simulation of one case: the request, the input of the engine, and the recorded result."""

@@ -1,4 +1,4 @@
-"""`simulate`: the engine behind one function; the states in which motions start; a study's case as a dataset."""
+"""`simulate`, the one function that runs the engine; initial states of motions; a case of a study as a dataset."""
 
 from __future__ import annotations
 
@@ -55,14 +55,14 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 Choose = Callable[[Parameters, str], tuple[Parameters, str]]
-"""From a case and what asks for its modes: the case with them, and how they were chosen."""
+"""Maps a case and the JSON text of its choice of modes to the case with its modes and a record of the choice."""
 
 AUDIT_EVERY = 256
-"""Steps from one audit of the energy to the next; a compliant contact takes about four times as many steps a second."""
+"""Steps between two audits of the energy. A compliant contact takes about four times as many steps per second."""
 MOST_STEPS = 2**62
-"""What the engine can count."""
+"""Largest number of steps that the engine can count."""
 STEPS_PER_PAUSE = 100_000
-"""Steps between two pauses of the engine, about 0.1 s of work, where a step costs least."""
+"""Steps between two pauses of the engine where a step is cheapest: about 0.1 s of work."""
 
 _EVENTS_ALONE = Record()
 _STATUS = {
@@ -95,34 +95,34 @@ def simulate(
     ----------
     p : the case
     t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
-    tol : error to be expected of event times after a second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md)
-    initial_state : where to start; None is the static start (static equilibrium, stick, spring relaxed)
-    record : what to keep, or one window to keep; None keeps events and statistics
+    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md)
+    initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
+    record : quantities to keep, or a single window; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
-    max_steps : bound on the number of steps; None bounds it generously by the highest frequency
-    progress : called now and then with the time reached; None shows that of a long run, and that kernels are compiled;
-        False shows nothing
-    checkpoint : file by which the same call, made again after an interruption, continues where this one was; its result
-        is the same to the last bit (but for ``wall_time``). Removed at the end. Not for two runs at the same time
+    max_steps : largest number of steps; None sets a generous limit from the highest frequency
+    progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
+        compilation; False shows nothing
+    checkpoint : file from which the same call continues after an interruption. The result is the same to the last bit
+        (except ``wall_time``). The file is removed at the end; two simultaneous runs must not share it
     checkpoint_every : s of wall time between checkpoints
-    ramps : slow changes of Omega or N; their part before the initial state's time has happened by then
+    ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
 
     Returns
     -------
     Result
-        Also if the run could not go on: its ``status`` and ``message`` then say at what time, in what phase and why.
+        It is also returned if the run ended early: ``status`` and ``message`` then give the time, phase and reason.
 
     Raises
     ------
     ParameterError
-        Bad input; the message names the argument, its value and the rule.
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     kept_how = checkpoint, checkpoint_every
     t_end = in_si(t_end, "s")
     _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, progress, kept_how, ramps)
-    # numbers of other types would have the engine compiled for them, and be rounded in other ways
+    # numbers of other types would make the engine compile again, and would round differently
     t_end, tol, max_steps = float(t_end), float(tol), None if max_steps is None else int(max_steps)
     start = 0.0 if initial_state is None else float(initial_state.time)
     record = record.resolved(start, t_end)
@@ -134,7 +134,7 @@ def simulate(
         run.restore(contents)
         log.info("continues at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
-    if code == exit_codes.PAUSED or callable(progress):  # a short run has nothing to show, and does without
+    if code == exit_codes.PAUSED or callable(progress):  # a short run has no progress to show
         with simulating(progress, t_end) as tell:
             while code == exit_codes.PAUSED:
                 if kept is not None and kept.due:
@@ -150,7 +150,7 @@ def simulate(
 
 
 class _Run:
-    """One run: the engine's arrays, and the buffers that collect what is kept."""
+    """One run: the engine's arrays, and the buffers that collect recorded rows."""
 
     def __init__(
         self,
@@ -165,7 +165,7 @@ class _Run:
         told: bool = True,
     ) -> None:
         self.p, self.t_end, self.tol, self.record, self.stop_at, self.told = p, t_end, tol, record, stop_at, told
-        # who follows a case without ramps need not look at them: the one piece that there is is said here
+        # a case without ramps has a single piece, and skips the work of `pieces`
         steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
         self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
         self.case = case = engine_case(p)
@@ -184,7 +184,7 @@ class _Run:
         self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
         self.pause_after = _pause_after(model, record.audit_every_step)
         self.audit_every = 1 if record.audit_every_step else AUDIT_EVERY
-        # each of them, the first last: all is compiled by then, and the wall time is the simulation's own
+        # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < t_end:
                 self._enter(place)
@@ -199,13 +199,13 @@ class _Run:
         return layout.on_ramp(self.case.model, piece.begin, piece.angle, **rates)
 
     def _enter(self, place: int) -> None:
-        """Go on with another piece of the ramps."""
+        """Continue with another piece of the ramps."""
         self.place[0] = place
         self.model = self._model_of(self.pieces[place])
         self.engine = _engine_for(self.model, self._arguments, self.told)
 
     def _begin_at_switch(self) -> None:
-        """Let the engine find out what holds at this instant: a run of no time, of which nothing is kept."""
+        """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
         model, series, state, probe, limits, kept = self._arguments()
         low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
         kept = kept._replace(samplers=kept.samplers[:0], sampled=kept.sampled[:0])
@@ -221,12 +221,12 @@ class _Run:
 
     @property
     def identity(self) -> dict[str, str]:
-        """What a checkpoint has to share to be this run's; asked for before the first step."""
+        """Values that a checkpoint of this run must share; to be read before the first step."""
         others = identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
         return others | {"ramps": repr(self.ramps)}
 
     def advance(self) -> int:
-        """Compute until the engine pauses or ends, and take over what it gave.  Returns the reason it stopped."""
+        """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
         place = int(self.place[0])
         code = self.engine(*self._arguments())
@@ -238,7 +238,7 @@ class _Run:
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
-        """What `event_loop.run` is given."""
+        """Arguments of `event_loop.run`."""
         work, keep = self.workspace, self.collector
         limits = event_loop.Limits(
             self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
@@ -251,24 +251,24 @@ class _Run:
         return self.model, work.series, work.state, work.probe, limits, kept
 
     def _changing(self) -> dict[str, np.ndarray]:
-        """The arrays through which one call of the engine acts on the next."""
+        """Arrays that carry the run from one call of the engine to the next."""
         state = {f"state_{name}": array for name, array in self.state._asdict().items()}
         sums = {name: getattr(self.workspace, name) for name in ("counters", "phase_times", "sums")}
         return state | sums | {"place": self.place, "wall_time": self.wall_time}
 
     def contents(self) -> Contents:
-        """All that the rest of the run depends on and all that was kept so far, for `restore`."""
+        """The state that the rest of the run depends on and all rows recorded so far, for `restore`."""
         return Contents(self._changing() | self.collector.position(), self.collector.kept())
 
     def restore(self, contents: Contents) -> None:
-        """Go on from where `contents` was called."""
+        """Continue from the point at which `contents` was called."""
         for name, array in self._changing().items():
             array[:] = contents.state[name]
         self._enter(int(self.place[0]))
         self.collector.restore(*contents)
 
     def result(self, status: Status) -> Result:
-        """The result."""
+        """Assemble the result of the run."""
         samples, poincare = self.collector.finish()
         return Result(
             parameters=self.p,
@@ -288,12 +288,12 @@ class _Run:
         )
 
     def close(self) -> None:
-        """Leave the arrays to later runs; this one is over."""
+        """Return the arrays for use by later runs."""
         give_back(self.case, self.order, self.workspace)
 
 
 def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], told: bool) -> Callable[..., int]:
-    """The engine, compiled for models of this kind: it decides the types of all ``arguments`` of a run."""
+    """The engine, compiled for this kind of model: the kind determines the types of all ``arguments`` of a run."""
     kind = (len(model.more_blocks), len(model.compliance), len(model.normal), len(model.ramp))
     if kind not in _ENGINES:
         with compiling(told):
@@ -302,7 +302,7 @@ def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]]
 
 
 _ENGINES: dict[tuple[int, ...], Callable[..., int]] = {}
-"""By blocks of lanes, laws of contact and ramp."""
+"""Compiled engines by blocks of lanes, laws of contact and ramp."""
 
 
 def static_start(p: Parameters) -> State:
@@ -359,7 +359,7 @@ def _step_limit(model: layout.Model, duration: float) -> int:
 
 
 def _pause_after(model: layout.Model, audit_every_step: bool) -> int:
-    """Steps between pauses, fewer where they cost more: checkpoints, progress and Ctrl-C have their turn then."""
+    """Steps between pauses, which serve checkpoints, progress and Ctrl-C; fewer where a step costs more."""
     cost = (1 + model.more_blocks[0]) * (6 if audit_every_step else 1)
     return max(1, STEPS_PER_PAUSE // cost)
 
@@ -403,12 +403,12 @@ def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[st
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
-    """The state that a motion of case `p` starts from, at time 0; None is the static start.
+    """The initial state of a motion of case `p`, at time 0; None is the static start.
 
     Raises
     ------
     SimulationError, ParameterError
-        If the other motion ends early, or its parameters are not right: the disc must have as many modes.
+        If the preceding motion ends early, or its parameters break a rule: the disc must have as many modes.
     """
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
@@ -425,20 +425,20 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
-    """The state of case `p` a while (s) after its start; raises `SimulationError` if the motion did not get there."""
+    """The state of case `p` at a time (s) after its start; raises `SimulationError` if the motion ends earlier."""
     run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), record=Record(events=False))
     return run.raise_for_status().final_state
 
 
 def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
-    """A state with something added to the slider's coordinates, the disc under it going along.
+    """A state with perturbed coordinates of the slider; the disc under the slider moves with it.
 
     Parameters
     ----------
-    u : m, in the shape in which the disc deflects under a steady force at the slider: a_l grows by
+    u : m, with the disc's deflection under a steady force at the slider: a_l increases by
         u (psi_l/omega_l^2) / sum psi^2/omega^2
-    u_velocity : m/s, as a blow at the slider leaves it: alpha_l grows by u_velocity psi_l / sum psi^2
-    f : rad/s; a slider that sticks then slips, one that is stopped then sticks
+    u_velocity : m/s, as after a blow at the slider: alpha_l increases by u_velocity psi_l / sum psi^2
+    f : rad/s; a sticking slider then slips, and one whose f becomes 0 sticks
     """
     modes = mode_arrays(p)
     give = modes.psi / modes.omega**2
@@ -463,10 +463,10 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 
 
 def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case as a start of case `p`, at time 0.
+    """A state of another case, transferred to case `p` at time 0.
 
-    Modal coordinates stay.  Where modes have other amplitudes under the slider, it keeps its distance from the disc; in
-    rigid contact there is none.  A state with another number of modes is left for `simulate` to refuse.
+    Modal coordinates are kept.  If the modal amplitudes differ, the slider keeps its distance from the disc, which is
+    zero in rigid contact.  A state with another number of modes is passed on, and `simulate` refuses it.
     """
     psi, own = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
@@ -484,15 +484,15 @@ def transfer_state(p: Parameters, state: State) -> State:
 
 
 def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | None = None) -> xr.DataTree:
-    """Simulate a named case of a study; the tree has the layout described in `disc_model.data.dataset`.
+    """Simulate a named case of a study; `disc_model.data.dataset` describes the layout of the tree.
 
-    A failure becomes a status in the dataset instead of ending the study.
+    A failure is recorded as a status in the dataset and does not end the study.
 
     Parameters
     ----------
     checkpoint : file from which an interrupted case continues, see `simulate`
-    choose : finds the modes of a case that leaves them to a quantity of the motion, see `disc_model.studies.modes`;
-        needed for such a case alone
+    choose : function that chooses the modes by a quantity of the motion, see `disc_model.studies.modes`; needed only
+        for a case that asks for such a choice
     """
     from disc_model.data.dataset import failed_groups, json_attribute, to_tree
 

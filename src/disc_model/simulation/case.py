@@ -1,4 +1,4 @@
-"""What a simulation is requested: where it starts, what it keeps, and one case of a study as a text."""
+"""Requests to a simulation: initial state, recorded quantities, and a case of a study as a text."""
 
 from __future__ import annotations
 
@@ -64,19 +64,19 @@ class Span(Checked):
 
     @model_serializer(mode="wrap")
     def _plain(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Without what is not said: the text of a case whose times are absolute is what it always was."""
+        """Leave out an absent ``last``, so that the content address of a case with absolute times stays the same."""
         said: dict[str, Any] = handler(self)
         if self.last is None:
             said.pop("last", None)
         return said
 
     def resolved(self, start: float, t_end: float) -> Self:
-        """The same with absolute times, for a run from ``start`` to ``t_end``.
+        """The same span with absolute times, for a run from ``start`` to ``t_end``.
 
         Raises
         ------
         ParameterError
-            If it begins at the end of the run or later, and says no time at which it ends.
+            If the span has no stop time and begins at the end of the run or later.
         """
         if self.last is None and self.stop < math.inf:
             return self
@@ -111,19 +111,19 @@ class Window(Span):
     envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     def _end(self, first: float, t_end: float) -> float:
-        """An envelope that continues to the end leaves out that instant, which would be a bin of its own."""
+        """End of the span; an envelope up to ``t_end`` excludes that instant, which would be a bin of its own."""
         if self.envelope is None:
             return t_end
         return max(t_end - 0.5 / self.rate, first + 0.25 / self.rate)
 
     @property
     def count(self) -> int:
-        """Number of samples before any folding."""
+        """Number of samples, before they are combined to an envelope."""
         return math.floor(self.last_sample) + 1
 
     @property
     def last_sample(self) -> float:
-        """Number of the last sample, from 0 on, not yet rounded down; infinite where floats reach no further."""
+        """Index of the last sample, from 0 on, before rounding down; infinite beyond the range of floats."""
         return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
 
@@ -142,15 +142,15 @@ class Poincare(Checked):
 
 
 class Record(Checked):
-    """What a simulation keeps; by default the events and the statistics alone.
+    """Quantities that a simulation keeps; by default the events and the statistics alone.
 
     Parameters
     ----------
     windows : uniform samples; one `Window`, or several
     poincare : samples at the drive's period
-    events : whether to keep the table of events (they are counted in any case)
-    audit_every_step : audit both energy balances on every step instead of every 256th
-        (costs a factor of about ten in time)
+    events : whether to keep the table of events (events are always counted)
+    audit_every_step : whether to audit both energy balances on every step instead of every 256th
+        (the run takes about ten times as long)
     """
 
     windows: tuple[Window, ...] = ()
@@ -164,7 +164,7 @@ class Record(Checked):
         return (windows,) if isinstance(windows, Window) else windows
 
     def resolved(self, start: float, t_end: float) -> Record:
-        """With absolute times in all windows, for a run from ``start`` to ``t_end``.
+        """The same record with absolute times in all windows, for a run from ``start`` to ``t_end``.
 
         Raises
         ------
@@ -187,7 +187,7 @@ class Record(Checked):
         return self.replace(windows=tuple(windows))
 
     def outside(self, start: float, t_end: float) -> Iterator[str]:
-        """Windows that a run does not enter, in words: no error, since runs made in pieces may share a record."""
+        """Descriptions of windows outside a run; these are no error, since the parts of a run may share a record."""
         for i, window in enumerate(self.windows):
             if window.start > t_end or window.stop < start:
                 yield f"windows[{i}] = [{window.start:g}, {window.stop:g}] s"
@@ -197,14 +197,14 @@ class Record(Checked):
 # Where a motion starts
 
 START = "start"
-"""The axis of a grid along which motions start in different ways, by name."""
+"""Name of the axis of a grid along which the initial conditions vary."""
 Coordinate = Literal["u", "u_velocity", "f"]
 
 _OPTIONAL: dict[str, Any] = {
     name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
 }
 SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL)
-"""Parameters of which any may be left out; rules between several are checked if all of them are there."""
+"""Parameters of which any may be absent; rules between several are checked if all of them are present."""
 
 
 class Prerun(Strict):
@@ -220,7 +220,7 @@ class Prerun(Strict):
     @field_validator("parameters")
     @classmethod
     def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
-        """As `Parameters` understands them: floats, whole numbers, words."""
+        """The values as `Parameters` converts them: floats, whole numbers, words."""
         if given.get("n_diameters") == AUTO:
             raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
         checked = SomeParameters(**given)
@@ -249,11 +249,11 @@ class Start(Strict):
 
 
 _LATER = ("start", "truncation", "modes", "ramps")
-"""What came later: left out of the text at its default, so that old addresses hold."""
+"""Fields added later: a default is left out of the text, so that older content addresses stay valid."""
 
 
 class CaseSpec(Strict):
-    """A case ready to be run: everything a simulation depends on, and nothing else (no titles)."""
+    """A case ready to be run: everything that a simulation depends on, and nothing else (no titles)."""
 
     parameters: Parameters
     t_end: float
@@ -265,14 +265,14 @@ class CaseSpec(Strict):
     audit_every_step: bool = False
     start: Start = Start()
     truncation: str = ""
-    """How the number of modes was chosen, as JSON; empty if it was given, or is to be chosen."""
+    """Record of how the number of modes was chosen, as JSON; empty if it was given, or is still to be chosen."""
     modes: str = ""
-    """What the number of modes is to be chosen by when the case is run, as JSON; empty if it is known."""
+    """Quantity and tolerance by which the run shall choose the number of modes, as JSON; empty if it is known."""
     ramps: tuple[Ramp, ...] = ()
 
     @property
     def record(self) -> Record:
-        """What `disc_model.simulation.api` is asked to keep."""
+        """The quantities that `disc_model.simulation.api` shall keep."""
         return Record(
             windows=tuple(window for _, window in self.windows),
             poincare=self.poincare,
@@ -287,14 +287,14 @@ class CaseSpec(Strict):
 
     @property
     def canonical(self) -> str:
-        """JSON text, equal for equal cases however they were written; `from_canonical` reads it."""
+        """JSON text that is equal for equal cases, however they were written; `from_canonical` reads it."""
         fields = type(self).model_fields
         unsaid = {name for name in _LATER if getattr(self, name) == fields[name].default}
         return canonical_json(self.model_dump(exclude=unsaid) | {"parameters": self.parameters.canonical})
 
     @property
     def beside(self) -> str:
-        """JSON text of what is requested beside the parameters."""
+        """JSON text of all fields but the parameters."""
         return canonical_json({name: x for name, x in json.loads(self.canonical).items() if name != "parameters"})
 
     @property
@@ -304,5 +304,5 @@ class CaseSpec(Strict):
 
     @classmethod
     def from_canonical(cls, text: str) -> CaseSpec:
-        """The case of a text that `canonical` has made."""
+        """The case described by a text of `canonical`."""
         return cls.model_validate(json.loads(text))

@@ -1,4 +1,4 @@
-"""The whole disc in motion: modal coordinates recorded at chosen times, and the deflection that they make."""
+"""Motion of the whole disc: modal coordinates at chosen times, and the deflection that follows from them."""
 
 from __future__ import annotations
 
@@ -26,25 +26,25 @@ _NOTHING = Record(events=False)
 def snapshots(
     p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
 ) -> tuple[State, ...]:
-    """Where the system is at given times: its modal coordinates among the rest.
+    """States of the system at given times, with its modal coordinates.
 
     Parameters
     ----------
     p : the case
     times : s, ascending, shape (n,); none before the initial state's
-    tol, initial_state : as of `disc_model.simulate`
+    tol, initial_state : as in `disc_model.simulate`
 
     Returns
     -------
     tuple of State
-        One a time.
+        One for each time.
 
     Raises
     ------
     ParameterError
-        Times that are no ascending finite numbers, or begin too early; and as `disc_model.simulate`.
+        If times are not ascending finite numbers, or begin too early; and as `disc_model.simulate`.
     SimulationError
-        If the motion cannot go on to the last of them.
+        If the motion ends before the last time.
     """
     faults = _foreign(p, initial_state)
     wanted = _numbers(times)
@@ -70,8 +70,8 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     Parameters
     ----------
     p : the case
-    states : one, or one a time, such as `snapshots` returns
-    r : m, radii from a to b, or among those at which a table gives shapes, shape (n_r,)
+    states : one state, or several, such as `snapshots` returns
+    r : m, radii from a to b, or within those at which a table gives shapes, shape (n_r,)
     theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
 
     Returns
@@ -82,7 +82,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     Raises
     ------
     ParameterError
-        Radii off the disc, angles that are no finite numbers, states of other modes; a disc given without shapes.
+        If a radius is off the disc, an angle is not finite, a state has other modes, or the disc has no shapes.
     """
     import xarray as xr
 
@@ -91,7 +91,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     shapes = mode_shapes(p, radii)
     w = np.empty((len(given), len(radii), len(angles)))
     for i, state in enumerate(given):
-        # modal coordinates are along and across the slider's direction, and the slider has come so far
+        # modal coordinates are relative to the slider, whose angle is Omega t - psi
         turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
@@ -129,12 +129,12 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
 
 
 def _foreign(p: object, initial_state: object) -> list[str]:
-    """Arguments of another type."""
+    """Faults of arguments of another type."""
     state = initial_state is None or isinstance(initial_state, State)
     return foreign_case(p) + broken((state, "initial_state", initial_state, "must be a State"))
 
 
 def _numbers(values: ArrayLike) -> Array | None:
-    """Finite numbers, shape (n,); None if they are none."""
+    """The values as an array of shape (n,); None if they are not finite numbers."""
     given = [values] if is_number(values) else values
     return np.asarray(given, dtype=float) if is_finite_array(given) else None

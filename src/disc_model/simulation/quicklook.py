@@ -1,4 +1,4 @@
-"""A first look at one run: contact force and disc displacement, the whole run beside its last moments."""
+"""Quick plot of one run: contact force and disc displacement, one column for each recorded window."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PANELS = ("P", "w")
 
 
 class Sampled(Protocol):
-    """What a figure needs of a `disc_model.Result`."""
+    """Attributes of a `disc_model.Result` that the figure uses."""
 
     @property
     def samples(self) -> tuple[Mapping[str, NDArray[np.float64]], ...]: ...
@@ -31,7 +31,7 @@ class Sampled(Protocol):
 
 
 class _ShownOnce(Figure):
-    """A figure of pyplot's that a notebook draws once, though pyplot and the value of a cell both show it."""
+    """A pyplot figure that a notebook draws once, although both pyplot and the value of a cell show it."""
 
     drawn = False
 
@@ -46,7 +46,7 @@ class _ShownOnce(Figure):
 
 
 def quicklook(result: Sampled) -> Figure:
-    """Contact force (top) and disc displacement under the slider (bottom); one column a window.
+    """Plot contact force (top) and disc displacement under the slider (bottom), one column for each window.
 
     Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """
@@ -87,7 +87,7 @@ def _draw(axes: Axes, window: Mapping[str, NDArray[np.float64]], name: str, scal
 
 
 def _mark_separation(axes: NDArray[Any], time: NDArray[np.float64], first: float) -> None:
-    """A line at the first separation, where the window shows it."""
+    """Draw a line at the first separation if it lies within the window."""
     if time.size and time[0] <= first <= time[-1]:
         for panel in axes:
             panel.axvline(first, color="C3", linewidth=0.8, linestyle="--")

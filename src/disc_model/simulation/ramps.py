@@ -1,4 +1,4 @@
-"""Slow ramps of the drive speed or of the preload: what is requested, and what Omega and N are at any time."""
+"""Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class Ramp(Checked):
 
 
 class Piece(NamedTuple):
-    """A stretch of time over which Omega and N change at constant rates, from their values at its begin.
+    """An interval of time over which Omega and N change at constant rates.
 
     begin, end : s
     angle : rad, of the drive point at ``begin``
-    Omega, Omega_rate, N, N_rate : rad/s, rad/s^2, N, N/s
-    constant : whether both are the case's own, before any ramp
+    Omega, Omega_rate, N, N_rate : rad/s, rad/s^2, N, N/s; values at ``begin``
+    constant : whether Omega and N are those of the case, before any ramp
     """
 
     begin: float
@@ -72,7 +72,7 @@ class Piece(NamedTuple):
 
 
 def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
-    """What is wrong with ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
+    """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
     if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
         yield Fault(("ramps",), shown(ramps), "must be a Ramp or a tuple of them")
         return
@@ -93,7 +93,7 @@ def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
 
 
 def pieces(p: Parameters, ramps: Iterable[Ramp]) -> tuple[Piece, ...]:
-    """The stretches of constant rates, in order, the last without end; ramps to the value that there is are none."""
+    """The intervals of constant rates, in order, the last one unbounded; ramps to the present value do not count."""
     lines = {name: _line(getattr(p, name), [ramp for ramp in ramps if ramp.parameter == name]) for name in RAMPED}
     knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
     found = [Piece(0.0, knots[0] if knots else math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)]
@@ -116,7 +116,7 @@ def values_at(p: Parameters, ramps: Sequence[Ramp], name: str, times: ArrayLike)
 
 
 def _line(value: float, ramps: list[Ramp]) -> list[tuple[float, float, float]]:
-    """Time, value and rate where either begins to be another, the first before all time."""
+    """Times at which the rate changes, with value and rate from then on; the first time is -inf."""
     line = [(-math.inf, value, 0.0)]
     for ramp in sorted(ramps, key=lambda ramp: ramp.start):
         if ramp.to != value:

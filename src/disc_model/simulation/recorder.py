@@ -1,10 +1,10 @@
-"""What a run keeps: rows, as the engine gives them, and checkpoints, from which it continues.
+"""Recorded rows of a run, and the checkpoints from which an interrupted run continues.
 
-A simulation that was interrupted continues from its last checkpoint as if nothing had happened. The file of a run holds
-the state of the engine and all rows kept so far. It is written in one piece and with a checksum: an interruption leaves
-the checkpoint before it. Only the very same run uses it: same arguments, same modes, same sources, same versions. What
-else stands in its place, a checkpoint of another run or a file that is none, is renamed, with a warning that says why.
-Its new name says which run it belongs to, and that run takes it back.
+A run that continues from its last checkpoint gives the same result as an uninterrupted one. The file of a run holds
+the state of the engine and all rows recorded so far. It is written atomically and with a checksum: an interruption
+leaves the previous checkpoint. Only the same run uses it: same arguments, modes, sources and versions. A checkpoint
+of another run in its place, or a file that is no checkpoint, is renamed, and a warning says why. The new name
+identifies the other run, which finds its checkpoint again under that name.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ from disc_model.simulation.case import Poincare, Record, Window
 log = logging.getLogger(__name__)
 
 SET_ASIDE = ".other"
-"""Ending that gets what stands in the checkpoint's place but is none of this run."""
+"""Suffix given to a file in the checkpoint's place that does not belong to this run."""
 SHARE = 0.1
-"""Of the time, at most, that checkpoints take."""
+"""Largest share of the wall time that writing checkpoints may take."""
 
 Array = NDArray[Any]
 
 
 class Contents(NamedTuple):
-    """What a run needs to go on: ``state`` changes from one checkpoint to the next, ``rows`` only ever grow."""
+    """Contents of a checkpoint: ``state`` changes from one checkpoint to the next, ``rows`` only grow."""
 
     state: dict[str, Array]
     rows: dict[str, list[Array]]
@@ -53,7 +53,7 @@ class Contents(NamedTuple):
 def identity(
     p: Parameters, t_end: float, tol: float, record: Record, stop_at: str | None, max_steps: int, start: Iterable[Array]
 ) -> dict[str, str]:
-    """All that decides a run's result, by name; ``start`` are the arrays of the state it starts from."""
+    """All values that determine a run's result, by name; ``start`` are the arrays of its initial state."""
     modes = mode_arrays(p)
     return {
         "parameters": p.canonical_json,
@@ -70,7 +70,7 @@ def identity(
 
 
 def faults(path: object, every: object) -> Iterator[str]:
-    """What is wrong with the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulation.api`."""
+    """Faults of the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulate`."""
     if path is not None:
         from disc_model.data.dataset import LONGEST_NAME, may_be_file
 
@@ -82,12 +82,12 @@ def faults(path: object, every: object) -> Iterator[str]:
 
 
 class Checkpoint:
-    """The file of one run.
+    """The checkpoint file of one run.
 
     Parameters
     ----------
-    path : where; not to be shared by runs at the same time
-    every : s of wall time between two checkpoints; more where writing takes longer than `SHARE` of it, but for 0
+    path : the file; simultaneous runs must not share it
+    every : s of wall time between two checkpoints; longer if writing takes more than `SHARE` of it, unless it is 0
     belongs_to : the run's `identity`
     """
 
@@ -97,7 +97,7 @@ class Checkpoint:
         self._next = clock.monotonic() + every
 
     def load(self) -> Contents | None:
-        """What the run's file holds, set aside or not; None if there is none."""
+        """Contents of the run's file, which may have been renamed; None if it does not exist."""
         found, aside = self._read(), self._aside(content_key(canonical_json(self.belongs_to)))
         if found is None and aside.exists():
             os.replace(aside, self.path)
@@ -106,7 +106,7 @@ class Checkpoint:
         return found
 
     def _read(self) -> Contents | None:
-        """What the file holds; one that is none of this run is set aside."""
+        """Contents of the file; a file that does not belong to this run is renamed."""
         from disc_model.data.dataset import DamagedFile, verify_checksum
 
         try:
@@ -154,7 +154,7 @@ class Checkpoint:
         return clock.monotonic() >= self._next
 
     def save(self, contents: Contents) -> None:
-        """Write a checkpoint; if that fails, the run continues and the one that there is stays."""
+        """Write a checkpoint; if that fails, the run continues and the previous checkpoint stays."""
         from disc_model.data.dataset import write_atomically
 
         arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
@@ -176,23 +176,23 @@ class Checkpoint:
         self._next = now + (max(self.every, (now - began) / SHARE) if self.every > 0 else 0)
 
     def remove(self) -> None:
-        """Remove the file of a complete run; one that this run neither used nor wrote stays."""
+        """Remove the file of a complete run; a file that this run neither used nor wrote stays."""
         if self._mine:
             self.path.unlink(missing_ok=True)
 
 
 # ----------------------------------------------------------------------------------------------------
-# Rows: buffers between the engine and the arrays that a result keeps
+# Rows: buffers between the engine and the arrays of a result
 
-BUFFER = 1 << 15  # rows of a buffer: large enough that draining costs nothing, small enough to stay in the cache
-SMALL_BUFFER = 1 << 8  # of the rows of events at first: a large one takes longer to make than a short simulation
+BUFFER = 1 << 15  # rows of a buffer: large enough for cheap draining, small enough to stay in the cache
+SMALL_BUFFER = 1 << 8  # rows of the first buffer of events: a large one takes longer to make than a short simulation
 _COLUMN = {name: i for i, name in enumerate(sampling.ROW)}
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
 
 class Collector:
-    """Hands the engine its buffers, empties them when it pauses, and shapes what was kept."""
+    """Provides the engine's buffers, empties them at each pause, and assembles the recorded arrays."""
 
     def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
         self._windows = list(record.windows)
@@ -212,7 +212,7 @@ class Collector:
         self.rows = np.empty((self.capacity + per_step, len(sampling.ROW)))
         self.event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
         self._keep_events = record.events
-        # what was kept, in the order in which it came: arrays are added to these lists and nothing else
+        # recorded arrays in order of time; these lists only grow
         self._events: list[Array] = []
         self._parts: list[list[Array]] = [[] for _ in grids]
         self._rest: list[list[Array]] = [[] for _ in grids]  # of bins that are not full
@@ -221,24 +221,24 @@ class Collector:
         """Time of the first loss of contact, s; nan if there was none."""
 
     def position(self) -> dict[str, NDArray[Any]]:
-        """What the rest of the run depends on.  Only just after `drain`: the buffers are not part of it."""
+        """The collector's state for a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
         none = np.zeros((0, len(sampling.ROW)))
         rest = {f"rest_{i}": np.concatenate([none, *parts]) for i, parts in enumerate(self._rest)}
         return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rest}
 
     def kept(self) -> dict[str, list[Array]]:
-        """What was kept so far: lists that only grow."""
+        """The rows recorded so far, as lists that only grow."""
         return {"events": self._events} | {f"samples_{i}": parts for i, parts in enumerate(self._parts)}
 
     def restore(self, position: Mapping[str, NDArray[Any]], kept: Mapping[str, Sequence[Array]]) -> None:
-        """Go on from what `position` and `kept` gave."""
+        """Continue from the values of `position` and `kept`."""
         self.sampled[:], self.first_separation = position["sampled"], float(position["first_separation"][0])
         self._rest = [[position[f"rest_{i}"]] for i in range(len(self._rest))]
         for name, parts in self.kept().items():
             parts[:] = kept.get(name, ())
 
     def drain(self, counters: NDArray[np.int64]) -> None:
-        """Take over what the buffers hold and empty them."""
+        """Copy the rows from the buffers and empty them."""
         n_events, n_rows = int(counters[event_loop.EVENT_ROWS]), int(counters[event_loop.SAMPLE_ROWS])
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if n_events:
@@ -274,11 +274,11 @@ class Collector:
         self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
 
     def _fold_of(self, i: int) -> int | None:
-        """Samples to a bin of an envelope, None where samples are kept as they are."""
+        """Samples in a bin of an envelope; None where single samples are kept."""
         return self._windows[i].envelope if i < len(self._windows) else None
 
     def events(self) -> Array:
-        """All events kept, shape (n, len(EVENT_ROW))."""
+        """All recorded events, shape (n, len(EVENT_ROW))."""
         if len(self._events) == 1:
             return self._events[0]
         return np.concatenate([np.zeros((0, len(event_loop.EVENT_ROW))), *self._events])
@@ -295,9 +295,9 @@ class Collector:
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
-    """Columns of all parts, one after the other; filled part by part, because a part fits into the cache.
+    """Columns of all parts, concatenated; they are filled part by part, because a part fits into the cache.
 
-    The parts are taken out of the list, so that memory holds all but one of them once.
+    Each part is removed from the list, so that memory never holds more than one part twice.
     """
     columns = {name: np.empty(sum(map(len, parts))) for name in names}
     start = 0
@@ -320,7 +320,7 @@ def _fold(cells: Array) -> Array:
 
 
 def _check_room(record: Record, Omega: float, start: float, t_end: float, longest_step: float) -> None:
-    """Raise `ParameterError` if no memory holds what is kept, the samples of an open bin, and those of a step."""
+    """Raise `ParameterError` if memory cannot hold the recorded rows, an open bin's samples and those of a step."""
     row, folded, room = 8 * len(sampling.ROW), 8 * len(_FOLDED_ROW), _memory()
 
     def needed(asked: Window | Poincare, rate: float, envelope: int | None = None) -> float:
@@ -338,7 +338,7 @@ def _check_room(record: Record, Omega: float, start: float, t_end: float, longes
 
 
 def _memory() -> float:
-    """Bytes of this machine's memory; infinite where that cannot be asked."""
+    """Size of this machine's memory in bytes; infinite where the system does not tell it."""
     try:
         return float(os.sysconf("SC_PAGE_SIZE")) * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError, OSError):
@@ -346,7 +346,7 @@ def _memory() -> float:
 
 
 def _uniform(window: Window, start: float, t_end: float) -> tuple[float, float, float, float]:
-    """First time, interval, number of samples within the run, theta."""
+    """Sampling grid of a window: first time, interval, number of samples within the run, theta."""
     interval = min(1 / window.rate, sys.float_info.max)
     skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
     reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)
@@ -357,7 +357,7 @@ def _uniform(window: Window, start: float, t_end: float) -> tuple[float, float, 
 
 
 def _stroboscopic(poincare: Poincare, Omega: float, start: float, t_end: float) -> tuple[float, float, float, float]:
-    """As `_uniform`, at whole multiples of the drive's period; none if the drive rests."""
+    """Sampling grid at whole multiples of the drive's period, as in `_uniform`; no samples if the drive rests."""
     if Omega == 0:
         return 0.0, 1.0, 0, poincare.theta
     period = min(2 * math.pi / Omega, sys.float_info.max)

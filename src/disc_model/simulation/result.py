@@ -1,4 +1,4 @@
-"""What a simulation starts from and returns, and the engine's lanes behind it."""
+"""States and results of simulations, and their conversion to and from the engine's lanes."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
 
 @dataclass(frozen=True, eq=False, repr=False)
 class State:
-    """Where the system is, in the slider's frame.
+    """State of the system in the slider's frame.
 
     Attributes
     ----------
@@ -56,14 +56,14 @@ class State:
     direction : sgn(f) in slip, 0 otherwise
     psi : rad, drive point's angle ahead of the slider
     f : rad/s, the slider's angular speed over the disc
-    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: a
-        start with another u is refused, and u_velocity is not looked at
+    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: an
+        initial state with another u is refused, and its u_velocity is ignored
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
-    known : multiplicity of the root that the phase's switch function has at this very instant (0 away from a switch)
-    case_key : the case in which it was computed; phase and `known` of a switch are found anew in any other
-    mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` that a, b, alpha and beta belong to. A case
-        with others refuses the state. None if it was made by hand
+    known : multiplicity of the root of the phase's event function at this instant (0 away from an event)
+    case_key : the case in which it was computed; in any other case, phase and `known` of an event are determined anew
+    mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
+        with other amplitudes refuses the state. None if the state was made by hand
     """
 
     time: float
@@ -85,8 +85,8 @@ class State:
     def replace(self, **changes: Any) -> State:
         """A copy with some values changed.
 
-        A new time is meant exactly, so that `time_low` starts at 0 with it.  With any other change the state is no
-        longer that of its case, and `case_key` becomes empty.
+        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the case in which it
+        was computed, and empties `case_key`.
         """
         if "time" in changes:
             changes = {"time_low": 0.0} | changes
@@ -101,12 +101,12 @@ class State:
         )
 
     def save(self, path: str | Path) -> None:
-        """Write it as netCDF, to the last bit.
+        """Write the state as netCDF; `load` reads back the same bits.
 
         Raises
         ------
         disc_model.data.dataset.WriteError
-            If there is no such folder, or the disk is full.
+            If the folder does not exist, or the disk is full.
         """
         import xarray as xr
 
@@ -129,9 +129,9 @@ class State:
         Raises
         ------
         ParameterError
-            If it holds no state.
+            If the file holds no state.
         disc_model.data.dataset.DamagedFile
-            If it is not what was written.
+            If the checksum of the file does not match.
         """
         from disc_model.data import dataset
 
@@ -148,27 +148,27 @@ class State:
 
 _MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
 _PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
-"""Units of what a state's file holds, by shape."""
+"""Units of the variables in a state's file: one value a mode, and scalars."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Result:
-    """A finished simulation, or as much of it as could be computed; see `status`.
+    """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes
     ----------
-    parameters, t_end (s), tol, record : what was asked
-    status, message : how it ended; the message says at what time, in what phase and why
-    event_rows : shape (n_events, len(EVENT_ROW)), what `events` is made of: phase by its place in `PHASES`, kind by
-        that in `EVENT_KINDS`
+    parameters, t_end (s), tol, record : as given to `simulate`
+    status, message : how the simulation ended; the message gives the time, the phase and the reason
+    event_rows : shape (n_events, len(EVENT_ROW)), the data of `events`: phase by its index in `PHASES`, kind by its
+        index in `EVENT_KINDS`
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
-        just after the event; made when it is first asked for
+        just after the event; made at its first use
     first_separation : s, nan if contact was never lost
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : one dict of arrays per window
-    poincare : dict of arrays, None if not asked for
-    ramps : those that were asked for
+    poincare : dict of arrays, None if not requested
+    ramps : as given to `simulate`
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
         energy_residual_transverse, energy_residual_inplane, audited_steps, wall_time (s)
     """
@@ -190,7 +190,7 @@ class Result:
 
     @cached_property
     def events(self) -> pd.DataFrame:
-        """The switches as a table: to make one takes longer than a short simulation."""
+        """The events as a table, made at its first use, because making it takes longer than a short simulation."""
         import pandas as pd
 
         def words(name: str, meanings: tuple[str, ...]) -> pd.Categorical[str]:
@@ -201,12 +201,12 @@ class Result:
         return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
-        """Omega (rad/s) or N (N) at given times (s), on ramps and off them.
+        """Omega (rad/s) or N (N) at given times (s), ramps included.
 
         Raises
         ------
         ParameterError
-            For another name, or times that are no finite numbers.
+            If the name is another one, or a time is not a finite number.
         """
         known = isinstance(name, str) and name in RAMPED
         errors.refuse(
@@ -218,23 +218,23 @@ class Result:
         return values_at(self.parameters, self.ramps, name, times)
 
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
-        """All of it in the layout of files, with CF attributes; see `disc_model.data.dataset`.
+        """The whole result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
 
         Parameters
         ----------
-        names : of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+        names : names of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
 
         Raises
         ------
         ParameterError
-            If they are not as many different names as windows.
+            If the names are not distinct, or not as many as windows.
         """
         from disc_model.data.dataset import to_tree
 
         return to_tree(self._groups(names))
 
     def to_dataset(self, group: str = "") -> xr.Dataset:
-        """One group of `to_tree`.
+        """One group of `to_tree` as a dataset.
 
         Parameters
         ----------
@@ -243,7 +243,7 @@ class Result:
         Raises
         ------
         ParameterError
-            If there is no such group.
+            If the group does not exist.
         """
         groups = self._groups()
         if not isinstance(group, str) or group not in groups:
@@ -283,28 +283,28 @@ class Result:
 
         Parameters
         ----------
-        names : of the windows, as for `to_tree`
+        names : names of the windows, as for `to_tree`
 
         Raises
         ------
         ParameterError
-            As of `to_tree`.
+            Under the conditions of `to_tree`.
         disc_model.data.dataset.WriteError
-            If there is no such folder, or the disk is full.
+            If the folder does not exist, or the disk is full.
         """
         from disc_model.data.dataset import save
 
         save(self.to_tree(names), path)
 
     def plot(self) -> Figure:
-        """A first look: contact force and disc displacement, one column a window, as a matplotlib figure.
+        """Quick plot of contact force and disc displacement, one column a window, as a matplotlib figure.
 
         Raises
         ------
         ParameterError
             If no window was recorded.
         ImportError
-            If there is no matplotlib; the message says which extra brings it.
+            If matplotlib is not installed; the message names the extra that installs it.
         """
         try:
             from disc_model.simulation.quicklook import quicklook
@@ -323,18 +323,18 @@ class Result:
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {kept})"
 
     def raise_for_status(self) -> Result:
-        """Return self, or raise the `SimulationError` of an incomplete run."""
+        """Return self if the run is complete; otherwise raise its `SimulationError`."""
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
 
 
 _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
-"""What netCDF takes as the name of a group, whatever its characters take in bytes, and everybody can read."""
+"""Names that netCDF accepts for a group, whatever their length in bytes, and that are readable."""
 
 
 def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
-    """Names of a result's windows: each becomes a group of a file, beside those that are there in any case."""
+    """Names of a result's windows, checked: each becomes a group of a file, beside the groups of every file."""
     given = list(names) if np.iterable(names) and not isinstance(names, str) else [names]
     good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in given)
     if not good or not len(given) == len(result.samples) == len(set(given) - set(BESIDE_WINDOWS)):
@@ -348,14 +348,14 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
 # Between `Parameters` and `State` (modes in the order of `plate_modes`) and the engine's lanes
 
 CASES = 32
-"""Cases whose constants and workspaces are kept: tens of kilobytes each, with a thousand modes a few megabytes."""
+"""Number of cases whose constants and workspaces are cached: tens of kilobytes each, megabytes with 1000 modes."""
 
 
 class Workspace(NamedTuple):
-    """What the engine writes to in a run: of one run at a time.
+    """Arrays to which the engine writes; only one run uses them at a time.
 
-    state, probe : where the run is, and where it looks ahead
-    series : of one step; the next begins them anew
+    state, probe : current state of the run, and state at a trial time ahead of it
+    series : Taylor series of one step; the next step overwrites them
     counters, phase_times, sums : as in `event_loop.RunBuffers`
     """
 
@@ -368,15 +368,15 @@ class Workspace(NamedTuple):
 
 
 class EngineCase(NamedTuple):
-    """What the engine is given of a case.  Shared by all runs of the case, and therefore never written.
+    """Constants of a case for the engine.  All runs of the case share them, and none writes to them.
 
     model, start : the engine's constants, and the static start
-    key, amplitudes : what states of the case carry as `case_key` and `mode_amplitudes`
-    present : of a, b, alpha and beta of all modes, in this order, the numbers of those that there are: modes without
-        nodal diameter have no b and beta
-    places : of these in `layout.EngineState.disc`
-    point : u, u' (but for the slope's share) and slope B of the disc under the slider from `layout.EngineState.disc`
-    idle : workspaces that no run uses now, by the order of their series; all that changes here
+    key, amplitudes : `case_key` and `mode_amplitudes` of the states of the case
+    present : indices of the existing coordinates in the sequence a, b, alpha, beta of all modes; modes without nodal
+        diameter have no b and beta
+    places : their indices in `layout.EngineState.disc`
+    point : matrix from `layout.EngineState.disc` to u, u' (without the slope's share) and slope B under the slider
+    idle : workspaces that no run uses at present, by the order of their series; the only field that changes
     """
 
     model: layout.Model
@@ -391,7 +391,7 @@ class EngineCase(NamedTuple):
 
 @lru_cache(maxsize=CASES)
 def engine_case(p: Parameters) -> EngineCase:
-    """The engine's constants of a case; what equal parameters have found before is found again."""
+    """The engine's constants of a case, cached for equal parameters."""
     warn_of_doubts(p)
     modes = mode_arrays(p)
     names = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0")
@@ -416,7 +416,7 @@ def engine_case(p: Parameters) -> EngineCase:
 
 
 def _point(model: layout.Model) -> np.ndarray:
-    """See `EngineCase`."""
+    """The matrix `point` of `EngineCase`."""
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     point = np.zeros((3, layout.disc_size(width, n0, len(model.compliance) == 1)))
     u, v, slope = point[:, : 2 * (width + n0)]
@@ -427,9 +427,9 @@ def _point(model: layout.Model) -> np.ndarray:
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace of the caller's own, at the static start, with nothing counted; for `give_back` in the end.
+    """A workspace for one run, at the static start, with counters at 0; `give_back` returns it.
 
-    To make one takes as long as 30 steps.
+    Workspaces are reused, because making one takes as long as 30 steps.
     """
     try:
         found = case.idle[order].pop()
@@ -445,12 +445,12 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
 
 
 def give_back(case: EngineCase, order: int, workspace: Workspace) -> None:
-    """Leave a workspace to later runs."""
+    """Return a workspace for use by later runs."""
     case.idle.setdefault(order, []).append(workspace)
 
 
 def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
-    """The engine's state as a `State`; key: of the case if it is not its own, as on ramps."""
+    """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on ramps."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
@@ -481,11 +481,11 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
 
 
 def write_state(case: EngineCase, given: State, state: layout.EngineState, key: str = "") -> bool:
-    """Put ``given`` into the engine's state; key: of the case if it is not its own, as on ramps.
+    """Write ``given`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
 
     Returns
     -------
-    Whether the engine is to find out what holds at this instant, before any time passes: at a switch of another case.
+    Whether the engine has to determine the phase at this instant first: the state lies at an event of another case.
 
     Raises
     ------
@@ -512,9 +512,9 @@ def write_state(case: EngineCase, given: State, state: layout.EngineState, key: 
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
-    """Look at a state at a switch of another case: what vanishes in that case need not in this one.
+    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here.
 
-    A slider that touches the disc, and neither leaves nor hits it, is put into contact, where the engine is to find out
+    A slider that touches the disc with zero relative velocity is put into contact, and the engine then determines
     whether it stays there.  Returns whether that is so.
     """
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
@@ -535,17 +535,17 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
 
 
 SAME_HEIGHT = 1e-9
-"""Of the disc's deflection: far more than rounding, and far less than what anybody means by another height."""
+"""Tolerance of heights, relative to the disc's deflection: far above rounding, far below any intended difference."""
 SAME_AMPLITUDE = 1e-9
-"""Of the largest amplitude: modes computed on two processors differ by 1e-13 of it at most, as measured."""
+"""Tolerance relative to the largest amplitude: modes from two processors differ by at most 1e-13 (measured)."""
 
 
 def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
-    """In contact the disc says where the slider is: another u would be passed over in silence."""
+    """Refuse another u in contact, where the disc determines the slider's height and u would be ignored silently."""
     row = case.point[0]
     w = float(row.dot(state.disc))
     off = abs(u - w)
-    # what is within this share of w itself, as nearly always, need not be compared with the modes' shares
+    # the cheap comparison with w itself nearly always suffices
     if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
         rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
         raise ParameterError(Fault(("initial_state", "u"), shown(u), rule))
@@ -554,7 +554,7 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
 def _faults(given: State, case: EngineCase) -> list[str]:
     faults: list[str] = []
     n_modes = len(case.amplitudes)
-    # contact and its force can begin at once where contact is compliant
+    # in compliant contact, contact and its force can begin at the same instant
     highest_known = 7 if len(case.model.compliance) == 1 else 3
 
     def add(name: str, rule: str, value: object = None) -> None:
@@ -586,7 +586,7 @@ def _faults(given: State, case: EngineCase) -> list[str]:
 
 
 def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) -> list[str]:
-    """What is wrong with a state's `mode_amplitudes` for a case whose modes have these, shape (n_modes,)."""
+    """Faults of a state's `mode_amplitudes` for a case whose modes have these amplitudes, shape (n_modes,)."""
     own = given.mode_amplitudes
     if own is None or own is amplitudes:
         return []
@@ -605,12 +605,12 @@ def _is_finite(value: object) -> bool:
 
 
 def _is_among(value: object, known: Collection[int]) -> bool:
-    """Whether a value is one of a few whole numbers; a bool is none."""
+    """Whether a value is one of the given whole numbers; a bool does not count as one."""
     return is_number(value) and value in known
 
 
 def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
-    """Whether values are finite real numbers: so many, or any number of them, and in one dimension if `flat`."""
+    """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if `flat`."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
@@ -622,13 +622,13 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
 # ----------------------------------------------------------------------------------------------------
 # From the one tolerance a user gives to the order and the local tolerance of the series
 
-# Local truncation error for a tolerance of 1.  Event times over a second of motion then are as good as the tolerance
-# says, measured against the long-double references (docs/accuracy.md).
+# Local truncation error for a tolerance of 1.  With it the errors of event times over a second of motion equal the
+# tolerance, as measured against the long-double references (docs/accuracy.md).
 LOCAL = 80.0
-# The same on a compliant contact: three times as many steps follow a motion of the slider on the contact that little
-# damps, and errors gather in it.
+# The same on a compliant contact: it takes three times as many steps, and errors accumulate in the weakly damped
+# vibration of the slider on the contact.
 LOCAL_COMPLIANT = LOCAL / 16
-# A looser step is no cheaper, because the series must reach from switch to switch anyway, and begins to lose switches.
+# A looser tolerance is no cheaper, because the series must reach from event to event anyway, and it may miss events.
 LOOSEST = 1e-5
 
 
@@ -638,6 +638,6 @@ def series_tolerance(tol: float, compliant: bool = False) -> float:
 
 
 def series_order(tol: float) -> int:
-    """Degree of the Taylor series, an even number: cheapest for the tolerance, measured (20 at 1e-10)."""
+    """Degree of the Taylor series, an even number: the cheapest one for the tolerance, as measured (20 at 1e-10)."""
     digits = -math.log10(series_tolerance(tol))
     return min(max(2 * round(digits + 1.6), 18), 28)

@@ -1,7 +1,7 @@
-"""Where motions are stable: cycles and their multipliers, steady sliding, bifurcations, Lyapunov exponents.
+"""Stability of motions: limit cycles and their multipliers, steady sliding, bifurcations, Lyapunov exponents.
 
-From the bottom up: `return_map` takes a state from one release of stick to the next, with its derivative, and finds
-fixed points and their multipliers; `cycle` finds that of a case; `continuation` follows it in one parameter, through
-folds, and the borders of its stability in two; `curves` finds all of those in a range, and `resonances` says what they
-are.  `attractor` says what a motion comes to.
+`return_map` maps a state from one release of stick to the next, with the derivative, and finds fixed points and their
+multipliers. `cycle` finds the stick-slip cycle of a case. `continuation` follows the cycle in one parameter, through
+folds, and its stability borders in two parameters. `curves` finds all such borders in a range, and `resonances`
+assigns resonances to them. `attractor` identifies the attractor to which a motion converges.
 """

@@ -1,4 +1,4 @@
-"""Bifurcation diagrams: what a motion settles to, sampled once a turn of the drive, against one parameter."""
+"""Bifurcation diagrams: the motion after a transient, sampled once a turn of the drive, against one parameter."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 MOST_SAMPLES = 1_000_000
-"""Of one value: hours of work, and 40 MB."""
+"""Largest number of samples for one value of the parameter: hours of work, and 40 MB."""
 STATUS_NAMES = tuple(status.value for status in Status)
 
 
@@ -44,25 +44,25 @@ def bifurcation_samples(
     ----------
     p : the case
     name : a numeric parameter, such as Omega, N, c_p or k_p
-    values : SI units, in the order in which they are run
-    transient : s, left out at every value
-    samples : number of turns sampled after it
-    follow : start each value where the one before ended (which shows hysteresis: run values up, then down) instead of
-        from `initial_state`
-    initial_state : None is the static start
-    theta : rad, where `w_point` is taken
+    values : values of the parameter in SI units, in the order of simulation
+    transient : s, duration before the samples, at every value
+    samples : number of turns sampled after the transient
+    follow : whether each value starts from the end of the previous one instead of from `initial_state`. Values that
+        rise and then fall show hysteresis
+    initial_state : state at the start; None is the static start
+    theta : rad, angle at which `w_point` is taken
     tol : as in `simulate`
 
     Returns
     -------
-    Dataset with dimensions (the parameter, sample): psi, psi_velocity, P, u, w_point, phase; per value
-    first_separation (s, of its run), separations, stick_fraction, status.  Samples that a run did not reach are nan
-    (phase -1), and its status says why.
+    Dataset with dimensions (the parameter, sample): psi, psi_velocity, P, u, w_point, phase; for each value
+    first_separation (s), separations, stick_fraction and status of its run.  Samples that a run did not reach are nan
+    (phase -1), and its status gives the reason.
 
     Raises
     ------
     ParameterError
-        Bad input; the message names each argument, its value and the rule.
+        If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
     import xarray as xr
 

@@ -1,4 +1,4 @@
-"""Curves of cycles: the equation that holds along them, and the walk that all continuations share.
+"""Curves of cycles: the equation that defines them, and the stepping that all continuations share.
 
 A cycle is a zero of F(x, q) = R(x, q) - x, in scaled unknowns.  R is the return map, x the point of the section and q
 the free parameters; the Jacobian of F by both comes from the variational equations.  Distances mix the point, over the
@@ -39,17 +39,17 @@ from disc_model.stability.return_map import (
 
 
 REORDERED = "the order of events changes"
-"""How the reason for which a branch of cycles that separate ends may begin."""
+"""Beginning of the reason for which a branch of separating cycles ends."""
 
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
-"""Values of parameters that have none in Table 1, or 0."""
+"""Typical values of parameters whose value in Table 1 is missing or 0."""
 
 CORRECTIONS = 8
-"""Newton steps allowed to a corrector before the arclength is halved."""
+"""Newton steps of a corrector before the arclength is halved."""
 
 
 class CorrectorFailed(Exception):
-    """The corrector found no cycle, or the motion no return; the message says which."""
+    """The corrector found no cycle, or the motion did not return; the message says which."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class CyclePoint:
 class CycleProblem:
     """F(x, q) in scaled unknowns z = (x / size, q / scales).
 
-    With an `order` cycles may lose contact, and are those that switch so often: beyond them the map has a corner.
+    With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
@@ -91,12 +91,12 @@ class CycleProblem:
             raise CorrectorFailed(str(error)) from None
 
     def state(self, z: Array) -> State:
-        """The motion's state, at the end of stick, of which z are the unknowns."""
+        """The state at the end of stick that the unknowns z describe."""
         map_ = ReturnMap(self.case(z), self.tol)
         return map_.state(z[: self.n] * self.size / self.scale * map_.scale)
 
     def unknowns(self, state: State) -> Array:
-        """z of a state on the section in the case at hand."""
+        """Unknowns z of a state on the section in the present case."""
         q = np.array([getattr(self.base, name) for name in self.names]) / self.scales
         return np.concatenate([self._reference.point(state) / self.size, q])
 
@@ -161,13 +161,13 @@ def newton_step(matrix: Array, right: Array) -> Array:
 
 
 def default_scale(p: Parameters, name: str) -> float:
-    """Change of a parameter that counts as much as the static deflection itself: its value, or part of a usual one."""
+    """Change of a parameter that weighs as much as the static deflection: its value, or a fifth of a typical one."""
     usual = USUAL.get(name, Parameters.model_fields[name].default)
     return max(abs(float(getattr(p, name))), 0.2 * usual)
 
 
 # ----------------------------------------------------------------------------------------------------
-# The continue_curve
+# The curve
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,15 +176,15 @@ class Branch:
 
     Attributes
     ----------
-    parameters : names of the free ones
+    parameters : names of the free parameters
     values : shape (n_points, n_parameters), in SI units
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
     multipliers : complex, (n_points, n), largest modulus first
-    diameters : int, (n_points,), nodal diameters of the modes that have most energy in the leading multiplier's vector
+    diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
-    folds : (n_folds, n_parameters), values where the first parameter turns, located to rounding; on a branch in one
-        parameter only
-    ended : why it ends, in words
+    folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
+        in one parameter
+    ended : reason for which the branch ends
     """
 
     parameters: tuple[str, ...]
@@ -202,7 +202,7 @@ class Branch:
         return len(self.period)
 
     def bifurcation_types(self) -> list[str]:
-        """Of each point: the bifurcation its leading multiplier stands for."""
+        """Bifurcation that the leading multiplier of each point indicates."""
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
@@ -217,9 +217,9 @@ def check(
     steps: object,
     more: Sequence[str] = (),
 ) -> None:
-    """Raise `ParameterError` on these faults and on those of what continuations are given.
+    """Raise `ParameterError` for the faults of a continuation's arguments and for `more`.
 
-    count, names, bounds : the free parameter and its bounds; of two, both names and a mapping of them to bounds
+    count, names, bounds : one free parameter and its bounds; or two names and a mapping of names to bounds
     """
     given = names if isinstance(names, tuple | list) else [names]
     known = all(isinstance(name, str) and name in PARAMETERS for name in given)
@@ -238,7 +238,7 @@ def check(
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
-    """A cycle as a point of the curve; raises `ParameterError` if there is none that can be followed."""
+    """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
     rule = (
         "guess: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
     )
@@ -271,7 +271,7 @@ def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array,
 
 @dataclass(frozen=True)
 class Place:
-    """A point of a curve, and the curve's unit tangent there."""
+    """A point of a curve and the curve's unit tangent at that point."""
 
     point: CyclePoint
     tangent: Array
@@ -282,15 +282,15 @@ AnyPlace = TypeVar("AnyPlace", bound=Place)
 
 @dataclass(frozen=True)
 class StepControl:
-    """How a curve is followed.
+    """Step lengths and limits of a continuation.
 
     Parameters
     ----------
-    step, longest, shortest : arclength of the first step, of the longest and of the shortest
-    max_points : bound on the number of points
-    scale : value of the parameter that counts as one in the arclength; its own by default. Of one parameter only
-    growth, easy, sharpest : a step grows by the first where the cosine of the tangent's turn is above the second; where
-        it is below the third, a shorter one is taken
+    step, longest, shortest : arclength of the first, the longest and the shortest step
+    max_points : largest number of points
+    scale : value of the parameter that counts as one in the arclength; by default its own. For one parameter only
+    growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
+        `easy`; below `sharpest` the step is shortened
     """
 
     step: float = 0.02
@@ -325,13 +325,14 @@ def continue_curve(
     meet: Callable[[AnyPlace, AnyPlace], None],
     leaves: Callable[[list[AnyPlace], float], str],
 ) -> tuple[list[AnyPlace], str]:
-    """Places along a curve, and why they end.
+    """Places along a curve, and the reason for which the curve ends.
 
     Parameters
     ----------
-    take : the next place at an arclength, its tangent either way; raises `CorrectorFailed` where a shorter step may do
-    meet : is told of each step's two ends; raises `CorrectorFailed` where the curve has to end at the first
-    leaves : why the curve ends at the last of the places, given also the last step's arclength; "" if it continues
+    take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
+        step may succeed
+    meet : receives both ends of each step; raises `CorrectorFailed` if the curve has to end at the first one
+    leaves : returns why the curve ends at the last place, "" if it continues; it also receives the last arclength
     """
     places, ds = [start], steps.step
     while len(places) < steps.max_points:
@@ -352,7 +353,7 @@ def continue_curve(
 def _step(
     take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, steps: StepControl
 ) -> tuple[AnyPlace, float]:
-    """The next place at arclength ``ds``, halved as often as it is lost, and that arclength."""
+    """The next place at arclength ``ds``, which is halved after each failure, and the arclength taken."""
     while True:
         try:
             new = take(here, ds)

@@ -1,9 +1,9 @@
-"""Frequencies of steady sliding, and those of the stick-slip cycle's multipliers beside them.
+"""Frequencies of steady sliding, and the corresponding frequencies of the stick-slip cycle's multipliers.
 
-A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T, and without its sign, since
-multipliers come with their conjugates.  Each goes to the mode of sliding whose shape is most like its eigenvector, by
-one assignment for all; of two conjugates that one counts that is like the mode of positive frequency; and n is the
-whole number that brings f nearest to the mode's own frequency.
+A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T. Its sign is undetermined,
+because multipliers come in conjugate pairs.  One assignment matches all multipliers to the modes of sliding by the
+modal assurance criterion. Of two conjugates, the one that resembles the mode of positive frequency counts. The whole
+number n brings f nearest to the frequency of the mode.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ from disc_model.stability.sliding import SteadySliding
 
 @dataclass(frozen=True, eq=False)
 class Frequencies:
-    """Modes of steady sliding, by ascending frequency in the slider's frame, and what the cycle makes of them.
+    """Modes of steady sliding, by ascending frequency in the slider's frame, and the multipliers that match them.
 
     Attributes
     ----------
     cycle : the stick-slip cycle of the case
-    frequency, growth_rate : Hz, 1/s, shape (n,), of steady sliding; what does not oscillate is left out
-    diameters : of the modes of the disc with most of the energy; -1 if the slider's motion in the plane has most
-    forward : share of those modes' energy in waves that travel with the slider, which it sees at f - l Omega / 2 pi
-    cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers that go to each mode, the larger growth rate
-        of two; nan without a cycle, and for the slider's motion in the plane, which stick forgets
-    mac : (n,), squared cosine of the angle between the shapes of the mode and of its multiplier
+    frequency, growth_rate : Hz, 1/s, shape (n,), of steady sliding; eigenvalues without oscillation are left out
+    diameters : nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
+    forward : share of these modes' energy in waves that travel with the slider, which it sees at f - l Omega / 2 pi
+    cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers matched to each mode, the larger growth rate
+        of two; nan without a cycle, and for the slider's in-plane motion, which stick resets
+    mac : (n,), modal assurance criterion between the shapes of the mode and of its multiplier
     """
 
     cycle: FloquetResult
@@ -51,7 +51,7 @@ class Frequencies:
 
 @compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
-    """Of steady sliding and of the stick-slip cycle near the static start; arrays are empty without the former."""
+    """Frequencies of steady sliding and of the stick-slip cycle near the static start; empty without steady sliding."""
     cycle = floquet(p, tol=tol)
     frequency, growth_rate, diameters, forward, shapes = _sliding_modes(p, cycle.sliding)
     found = np.full((3, len(frequency)), math.nan)
@@ -64,7 +64,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
 def _sliding_modes(
     p: Parameters, sliding: SteadySliding
 ) -> tuple[Array, Array, NDArray[np.int64], Array, ComplexArray]:
-    """As of `Frequencies`, and shapes: rows of a, alpha, b, beta of all modes of the disc, u, u', shape (m, n)."""
+    """First fields of `Frequencies`, and shapes: rows of a, alpha, b, beta of all modes, u, u', shape (m, n)."""
     if not len(sliding.eigenvalues):
         nothing = np.zeros(0)
         return nothing, nothing, np.zeros(0, np.int64), nothing, np.zeros((0, 0), complex)
@@ -82,7 +82,7 @@ def _sliding_modes(
     by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
     diameters = by_l.argmax(axis=0)
     of_l = l[:, None] == diameters
-    # a + i b turns one way, a - i b the other
+    # a + i b and a - i b are the waves that travel in opposite directions
     waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
     in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
     diameters = np.where(in_plane > energy.sum(axis=0), -1, diameters)
@@ -103,7 +103,7 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     multipliers, vectors = np.linalg.eig(jacobian)
     shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
-    # each mode has room for two multipliers: one like its shape, one like the conjugate
+    # two multipliers may match a mode: one resembles its shape, one the conjugate
     mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
     rows, columns = linear_sum_assignment(-mac)
     place = np.full(len(mac), -1)
@@ -120,7 +120,7 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
             mac[np.arange(len(own)), own],
         ]
     )
-    # where there are fewer multipliers than room, some mode got none
+    # with fewer multipliers than places, some modes have none
     found[:, (own < 0) | (other < 0)] = math.nan
     return found
 
@@ -130,7 +130,7 @@ def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexAr
     parts = []
     for part in (shape.real, shape.imag):
         a, alpha, b, beta = part[:-2].reshape(4, -1)
-        # apart, since in contact the height would be the disc's
+        # in separation, because in contact the height would be the disc's
         given = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, known=0)
         parts.append(map_.point(given.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
     return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

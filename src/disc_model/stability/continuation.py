@@ -1,7 +1,7 @@
-"""A cycle followed in one parameter, and borders of its stability in two, by pseudo-arclength.
+"""Continuation of a cycle in one parameter, and of its stability borders in two, by pseudo-arclength.
 
-On the surface F = 0 of `disc_model.stability.branch`, `continue_cycle` follows the cycle itself: folds, where two
-cycles meet, are points like any other. Over two parameters `continue_border` follows neutral curves and folds.
+`continue_cycle` follows the cycle along F = 0 of `disc_model.stability.branch`; a fold, where two cycles meet, is a
+regular point of that curve. `continue_border` follows neutral curves and folds in the plane of two parameters.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ from disc_model.stability.return_map import Array, ComplexArray, Counts, multipl
 
 CYCLE = StepControl()
 BORDER = StepControl(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
-"""How borders are followed: each point costs several cycles."""
+"""Steps along borders, where each point costs several cycles."""
 UNLOCATED = "a fold that cannot be located"
-"""How the reason for which a branch ends may begin."""
+"""Beginning of one of the reasons for which a branch ends."""
 
 
 @compiling()
@@ -62,25 +62,25 @@ def continue_cycle(
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    From a state `guess` a cycle that loses contact is followed as well, with its impacts, as long as its switches keep
-    their order. Where a further one would appear or one vanish, the map has a corner: the branch ends and says which.
+    From a state `guess` the cycle may lose contact. It is followed with its impacts as long as its events keep their
+    order. If an event would appear or vanish, the return map has a corner: the branch ends and names that event.
 
     Parameters
     ----------
     p : case whose cycle is the first point
     name : the free parameter, one of Omega, N, D_star, c, c_p, k, k_p, E, m
-    bounds : values between which to follow it
-    direction : 1 to begin with rising values, -1 with falling ones
-    guess : where the first cycle is sought: near the next release after a state, as in `floquet`, or near a point of
-        the section; the static equilibrium by default
-    releases : of the cycle near a state
+    bounds : values of the parameter between which the cycle is followed
+    direction : 1 to begin with increasing values, -1 with decreasing ones
+    guess : place of the first cycle: near the next release after a state, as in `floquet`, or near a point of the
+        section; the static equilibrium by default
+    releases : number of releases in a period of the cycle near a state
     tol : as in `floquet`
-    steps : how long steps are, and how many
+    steps : length and number of the steps
 
     Raises
     ------
     ParameterError
-        Bad input, or no cycle to start from.
+        If an argument breaks a rule, or no cycle is found to start from.
     """
     check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases, points=True))
     at_state = isinstance(guess, State)
@@ -119,7 +119,7 @@ def _next(problem: CycleProblem, here: Place, ds: float) -> Place:
 
 
 def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, tangent: Array) -> float:
-    """Scaled parameter at the fold between two points: its component of the curve's tangent vanishes there."""
+    """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
     length = float(tangent @ (after.z - before.z))
     chord = (after.z - before.z) / length
 
@@ -146,13 +146,13 @@ def _nearest(values: ComplexArray, former: complex) -> complex:
 
 
 def _on_circle(jacobian: Array, former: complex) -> tuple[float, complex]:
-    """log of the modulus of the multiplier that continues `former`."""
+    """Logarithm of the modulus of the multiplier nearest to `former`, and that multiplier."""
     mu = _nearest(np.linalg.eigvals(jacobian).astype(complex), former)
     return math.log(abs(mu)), mu
 
 
 def _at_one(jacobian: Array, former: complex) -> tuple[float, complex]:
-    """The real multiplier that continues `former`, less one."""
+    """The real multiplier nearest to `former`, less one, and that multiplier."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     real = values[values.imag == 0]
     if len(real) == 0:
@@ -177,17 +177,17 @@ def continue_border(
 
     Parameters
     ----------
-    kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", that on
-        which a multiplier is one, from the point of a branch of `continue_cycle` that is nearest to its fold
-    p, guess : a case near the curve, and the point of the section to start Newton's method from
+    kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", the
+        curve on which a multiplier is one, starting from the point of a branch nearest to its fold
+    p, guess : a case near the curve, and the point of the section at which Newton's method starts
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
-    bounds : of both; the curve is followed until it leaves them, closes or ends
+    bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
     direction, tol, steps : as in `continue_cycle`
 
     Raises
     ------
     ParameterError
-        Bad input, no cycle to start from, or no curve of this kind near it.
+        If an argument breaks a rule, no cycle is found to start from, or no curve of this kind is near it.
     """
     known = broken((isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'"))
     check(
@@ -220,26 +220,26 @@ def continue_border(
 
 
 _DIFFERENCE = 1e-4
-"""Arclength over which a multiplier's gradient along the surface is taken."""
+"""Arclength of the finite difference for a multiplier's gradient along the surface."""
 
 
 @dataclass(frozen=True)
 class _Ways:
-    """At a point of the curve, all in the unknowns z: unit tangent, gradients of the test function and of the
-    multiplier within the surface."""
+    """Directions at a point of the curve, in the unknowns z: the unit tangent, and the gradients of the test function
+    and of the multiplier within the surface."""
 
     along: Array
     gradient: Array
     multiplier: ComplexArray
 
     def predicted(self, mu: complex, move: Array) -> complex:
-        """Where a move takes the multiplier."""
+        """The multiplier after a move, to first order."""
         return mu + complex(self.multiplier @ move)
 
 
 @dataclass(frozen=True)
 class _OnCurve(Place):
-    """A place with the multiplier that is followed, and what changes it."""
+    """A place with the multiplier that is followed, and its derivatives."""
 
     mu: complex
     ways: _Ways
@@ -260,11 +260,11 @@ def _ways(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> 
 
 
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
-"""On the way to a curve: longest step, largest change of the multiplier in one, and number of steps."""
+"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
 def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> tuple[CyclePoint, complex]:
-    """From a cycle near the curve onto it, by the shortest way on the surface."""
+    """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
     value, mu = test(point.jacobian, mu)
     for _ in range(REACHES):
         if abs(value) < 1e-10:

@@ -1,4 +1,4 @@
-"""Where the cycle loses stability and where it ceases to exist, in the plane of two parameters; see docs/method.md."""
+"""Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see docs/method.md."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap
 
 SAME_PLACE, SAME_PERIOD = 0.01, 0.02
-"""A curve known already passes within that share of the parameters' ranges, its cycles within that relative period."""
+"""A place lies on a known curve within this share of the parameters' ranges, if periods agree to this share."""
 OTHERS_GROW = 1e-3
-"""1/s; a neutral curve is the border of stability where no other multiplier grows faster than this."""
+"""1/s; a neutral curve is a border of stability if no other multiplier grows faster than this."""
 
 MOST_POINTS = 100_000
-"""Along a line: an hour of work."""
+"""Largest number of points along a line: an hour of work."""
 SHORTEST = 1e-4
-"""Arclength of the shortest step: where more is needed, as where switches graze, a curve ends."""
+"""Arclength of the shortest step: a curve ends where a shorter one would be needed, as where an event grazes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,8 +42,8 @@ class StabilityCurve:
     values : shape (n_points, 2), SI units
     adjoins_stable_cycle : bool, (n_points,), whether a stable cycle is on one side: no other multiplier has modulus > 1
     period : s, (n_points,)
-    multipliers : complex, (n_points,), the leading one
-    resonance : the resonance that it belongs to, at its middle
+    multipliers : complex, (n_points,), the leading multiplier
+    resonance : the resonance to which the curve belongs, determined at its middle
     """
 
     kind: str
@@ -78,23 +78,23 @@ def stability_curves(
 
     Parameters
     ----------
-    p : the case; its values of the two parameters do not matter
-    names : the parameters
-    bounds : of both
-    lines : values of the second parameter at which the bounds of the first are crossed in search of curves
-    points : cycles looked for along each line; between those that differ in stability or existence lies a curve
-    max_points : of a curve, each way from where it was met
+    p : the case; its values of the two parameters are ignored
+    names : the two parameters
+    bounds : bounds of both parameters
+    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves
+    points : cycles computed along each line; a curve lies between two that differ in stability or existence
+    max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
     tol : as in `floquet`
 
     Returns
     -------
-    The curves, and what could not be followed, in words.
+    The curves, and descriptions of those that could not be followed.
 
     Raises
     ------
     ParameterError
-        Bad input; the message names each argument, its value and the rule.
+        If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
     other = broken(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
@@ -130,7 +130,7 @@ def stability_curves(
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
-    """Where the cycle changes stability or ends along a line: followed from either side, into the gap between cases."""
+    """Places along a line where the cycle changes stability or ends, found by continuation from both neighbours."""
     growth = np.array([find_cycle(case, tol).growth_rate for case in cases])
     for i, (one, two) in enumerate(pairwise(growth)):
         if (np.isnan(one) and np.isnan(two)) or one * two > 0:
@@ -147,7 +147,7 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
 
 
 def _first_event(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
-    """The first fold, or crossing of the unit circle, on the way from a case to another value of a parameter."""
+    """The first fold or crossing of the unit circle between a case and another value of a parameter."""
     begin = float(getattr(case, name))
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
@@ -179,7 +179,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
 
 
 def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: float, span: Array) -> bool:
-    """Whether a curve of this kind, of cycles of this period, passes a place of the plane."""
+    """Whether a known curve of this kind, with cycles of this period, passes through a place of the plane."""
     for curve in found:
         if curve.kind != kind:
             continue
@@ -198,7 +198,7 @@ def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: flo
 def _trace(
     seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, Any]
 ) -> StabilityCurve:
-    """The curve through a seed, both ways; `how` as in `continue_border`."""
+    """The curve through a seed, followed in both directions; `how` as in `continue_border`."""
     follow = partial(continue_border, seed.kind, seed.case, names, bounds, guess=seed.point, **how)
     back = follow(direction=-1)
     on = None if back.ended == "the curve is closed" else follow(direction=1)

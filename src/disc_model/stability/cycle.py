@@ -1,6 +1,6 @@
 """`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its stability.
 
-Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, which stick forgets.
+Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, because stick resets f to 0.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ from disc_model.stability.return_map import (
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 
 RETURNS_TRIED = (1, 2, 3)
-"""Cycles with up to so many releases a period are looked for."""
+"""Numbers of releases in a period of the cycles that are sought."""
 TRANSIENT = 60
 """Returns simulated from the static start before Newton's method is tried again."""
 
 
 class CycleStatus(StatusBase):
-    """What was found; `advice` says what it means and what to do."""
+    """Result of the search for a cycle; `advice` says what it means and what to do."""
 
     OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
     NO_CYCLE = (
@@ -56,7 +56,7 @@ class CycleStatus(StatusBase):
 
 
 class CycleError(DiscModelError):
-    """There is no cycle to speak of; the message says what was found instead."""
+    """No cycle was found; the message says what was found instead."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,19 +65,19 @@ class FloquetResult:
 
     Attributes
     ----------
-    parameters, tol : what was asked
-    status, message : what was found; without a cycle numbers are nan, arrays empty and `state` None
+    parameters, tol : as given to `floquet`
+    status, message : result of the search; without a cycle numbers are nan, arrays empty and `state` None
     period : s
-    multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, and 2
-        more on a compliant contact
+    multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, plus 2
+        on a compliant contact
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
     state : on the section, at the end of stick
-    bifurcation_type : that of the leading multiplier when it crosses the unit circle: "fold" (real, positive),
+    bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
         "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
-    releases, backward_releases, reversals, separations, sticks : counts over a period
-    residual : of the return map, relative to the norm of the static deflection
+    releases, backward_releases, reversals, separations, sticks : numbers of these events in a period
+    residual : residual of the return map, relative to the norm of the static deflection
     sliding : steady sliding of the same case
     """
 
@@ -116,12 +116,12 @@ class FloquetResult:
 
     @property
     def attractors(self) -> tuple[str, ...]:
-        """Which of "stick_slip" and "steady_sliding" exist and are stable."""
+        """Those of "stick_slip" and "steady_sliding" that exist and are stable."""
         found = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
         return tuple(name for name, stable in found if stable)
 
     def raise_for_status(self) -> FloquetResult:
-        """Return self, or raise `CycleError` if no cycle was found."""
+        """Return self if a cycle was found; otherwise raise `CycleError`."""
         if self.status is not CycleStatus.OK:
             raise CycleError(f"{self.message}. {self.status.advice}")
         return self
@@ -134,27 +134,27 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     Parameters
     ----------
     p : the case
-    tol : relative, of the series and of the return map's residual; 1e-14 to 1e-6
-    guess : look for a cycle near the next release after this state, such as a simulation's last one; it may lose
-        contact
-    releases : of stick in a period of the cycle near that state
+    tol : relative tolerance of the series and of the return map's residual; 1e-14 to 1e-6
+    guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
+        lose contact
+    releases : number of releases in a period of the cycle near that state
 
     Returns
     -------
     FloquetResult
-        Also if there is no cycle: its `status` and `message` then say what was found instead.
+        It is also returned if no cycle exists: `status` and `message` then say what was found instead.
 
     Raises
     ------
     ParameterError
-        Bad input; the message names the argument, its value and the rule.
+        If an argument breaks a rule; the message names the argument, its value and the rule.
     """
     refuse([*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)])
     return find_cycle(p, tol) if guess is None else find_cycle_near(p, guess, releases, tol)
 
 
 def guess_faults(guess: object, releases: object, *, points: bool = False) -> list[str]:
-    """What is wrong with where a cycle of so many releases is looked for: a state, or else a point of the section."""
+    """Faults of a guess and of its number of releases; the guess is a state or, if `points`, a point of the section."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     fits = guess is None or isinstance(guess, State) or (points and is_finite_array(guess))
     return broken(
@@ -164,10 +164,10 @@ def guess_faults(guess: object, releases: object, *, points: bool = False) -> li
 
 
 def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) -> FloquetResult:
-    """The cycle Newton's method finds from `guess` (a point of the section), the static equilibrium by default.
+    """The cycle that Newton's method finds from `guess`, a point of the section; the static equilibrium by default.
 
-    Where it finds none from the equilibrium, the motion from there is simulated for some returns, and cycles of up to
-    three releases are looked for from where it has come to.
+    If it finds none from the equilibrium, the motion from there is simulated for some returns. Cycles of up to three
+    releases are then sought from the end of that motion.
     """
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
@@ -183,7 +183,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) ->
 
 
 def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-12) -> FloquetResult:
-    """A cycle near the next release after a state; it may lose contact."""
+    """The cycle near the next release after a state; it may lose contact."""
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol, patience=PATIENT)
@@ -201,7 +201,7 @@ def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-
 
 
 def run_through_once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
-    """A cycle run through several times, as one that is run through once if it is that."""
+    """A fixed point with its shortest period: a cycle that is traversed several times is reduced to a single pass."""
     times = found.flight.counts.releases
     for releases in (n for n in range(1, times) if times % n == 0):
         once = newton(map_, found.x, tol=tol, releases=releases, may_separate=found.flight.counts.separations > 0)
@@ -211,24 +211,24 @@ def run_through_once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoi
 
 
 def may_stick_and_slip(p: Parameters) -> bool:
-    """Whether there is a drive, and friction and a spring against it."""
+    """Whether the case has a drive, a preload, friction and an in-plane spring."""
     return min(p.Omega, p.N, p.mu_s, p.k_p) > 0
 
 
 def never_pulls(p: Parameters) -> bool:
-    """Whether nothing pulls at a slider that sticks so that it would ever slip: it rests on the disc for good."""
+    """Whether a sticking slider never slips, because spring and damper cannot reach the limit of friction."""
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
 def _degenerate(p: Parameters, tol: float) -> FloquetResult:
-    """What a case is that cannot stick and slip."""
+    """The result for a case that cannot have a stick-slip cycle."""
     if never_pulls(p):
         return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
     return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
 
 
 def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
-    """Look again from where a simulated transient has come to; else report what the motion does."""
+    """Search again from the end of a simulated transient; without success, report the kind of motion."""
     p, x = map_.parameters, map_.static
     for _ in range(TRANSIENT):
         flight, x, _, _ = map_.evaluate(x, tangent=False)
@@ -243,7 +243,7 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
 
 
 def _said(flight: Flight) -> tuple[CycleStatus, str]:
-    """What a flight of the transient is called that did not return."""
+    """Status and message of a transient's flight that did not return."""
     lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
     slips = f"the slider slips on for {flight.period:.3g} s without sticking"
     said = {
@@ -268,12 +268,12 @@ def _counted(counts: Counts) -> str:
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
-    """The result where there is no cycle."""
+    """The result without a cycle."""
     return FloquetResult(p, tol, status, f"{status}: {found}")
 
 
 def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
-    """The result of a cycle that Newton's method has found to a tolerance."""
+    """The result for a fixed point that Newton's method has found to the tolerance."""
     flight, values = found.flight, multipliers(found.jacobian)
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)

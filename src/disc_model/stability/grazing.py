@@ -1,4 +1,4 @@
-"""Which switch a cycle nearly makes, or makes only just: where a branch of cycles that separate ends, one grazes."""
+"""The event that grazes along a cycle: where one is about to appear or vanish, a branch of separating cycles ends."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from disc_model.simulation.result import Result, State
 Array = NDArray[np.float64]
 
 RATE = 1e5
-"""Hz; what lies between samples is taken from the parabola through three of them."""
+"""Sampling rate, Hz; minima between samples are those of the parabola through three of them."""
 GRAZES = 1e-3
-"""A switch grazes that is missed, or made, by less than this share of its scale."""
+"""An event grazes if it is missed, or occurs, by less than this share of its scale."""
 
 
 class Watched(NamedTuple):
-    """What ends a phase by falling to 0.
+    """An event function, which ends a phase when it falls to 0.
 
-    switch : in words; kind : of the event
-    values : (n,), at the samples, as a share of its scale
-    during : (n,), whether it is watched then
+    switch : name of the event in words; kind : kind of the event
+    values : (n,), at the samples, relative to its scale
+    during : (n,), whether the function applies at the sample
     """
 
     switch: str
@@ -38,11 +38,11 @@ class Watched(NamedTuple):
 
 
 def grazing(p: Parameters, state: State, period: float) -> str:
-    """What grazes along a cycle, in words.
+    """Description of the event that grazes along a cycle.
 
     Parameters
     ----------
-    state : of the cycle
+    state : a state on the cycle
     period : s
     """
     window = Window(start=0.0, stop=period, rate=RATE)
@@ -52,7 +52,7 @@ def grazing(p: Parameters, state: State, period: float) -> str:
 
 
 def margins(p: Parameters, run: Result) -> Iterator[tuple[float, str]]:
-    """By how much each kind of event is missed, and its omission where it is made; shares of Omega, N and mu_s N."""
+    """Margins by which each kind of event is missed, or occurs; relative to Omega, N and mu_s N."""
     time = run.samples[0]["time"]
     events = run.events
     for one in _watched(p, run.samples[0]):
@@ -77,9 +77,9 @@ def _nearest_dip(one: Watched) -> float:
 
 
 def _shallowest(one: Watched, ends: NDArray[np.int64]) -> float:
-    """How far below 0 the shallowest of the dips would go that end at switches; inf if there is none.
+    """Depth below 0 of the shallowest extrapolated dip that ends at an event; inf if there is none.
 
-    ends : the first sample after each switch
+    ends : the first sample after each event
     """
     last = ends[(ends >= 3) & (ends < len(one.values))]
     last = last[one.during[last - 1] & one.during[last - 2] & one.during[last - 3]]

@@ -1,9 +1,9 @@
-"""Lyapunov exponents of a motion through all its switches, for what follows a loss of contact.
+"""Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
-Columns of the variational equations travel with the motion and are made orthonormal again at equal times (Benettin's
-method); the mean rates at which they grow are the largest exponents.  One of them is zero, along the motion, unless
-it comes to rest.  It says nothing, and a column turns towards the motion slowly; so that it can be left out: the first
-column is then the motion's own rate, which stays that, and the others are kept orthogonal to it.
+Columns of the variational equations follow the motion and are orthonormalised at equal intervals (Benettin's method);
+their mean growth rates are the largest exponents.  The exponent along the motion is zero, unless the motion comes to
+rest.  It carries no information, and columns turn towards that direction slowly, so that it can be left out. The first
+column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
 """
 
 from __future__ import annotations
@@ -38,29 +38,28 @@ _BLOCKS = 16
 MOST_INTERVALS = 10_000_000
 """Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
 CLEAR = 4.0
-"""An exponent is not zero if it differs from it by so many of its errors."""
+"""An exponent differs from zero if it exceeds this many of its errors."""
 CONVERGED = 0.05, 0.002
-"""An exponent has converged if the first half of the time gives the same as the second, to this share or this much in
-1/s."""
+"""An exponent has converged if both halves of the time agree to this share of it, or to this difference in 1/s."""
 
 
 @dataclass(frozen=True, eq=False)
 class Lyapunov:
-    """The largest exponents.
+    """The largest Lyapunov exponents.
 
     Attributes
     ----------
-    status : how the computation ended; otherwise the exponents are those of the time covered
-    exponents : 1/s, shape (count,), largest first. -inf stands for a direction in which small changes vanish in
-        finite time: stick forgets f, and rigid contact u and u'. It also stands for one in which they fall below the
-        tolerance within one interval, which a shorter `interval` resolves
-    errors : 1/s, shape (count,): the standard error from the scatter between 16 stretches of the time covered, or the
-        difference between its two halves if that is larger, as while the columns still turn; nan for -inf
+    status : how the computation ended; if it ended early, the exponents are those of the time covered
+    exponents : 1/s, shape (count,), largest first. -inf stands for a direction in which disturbances vanish in finite
+        time: stick resets f, and rigid contact resets u and u'. It also stands for a direction in which they fall
+        below the tolerance within one interval; a shorter `interval` resolves it
+    errors : 1/s, shape (count,): the standard error from the scatter of 16 segments of the time covered. The
+        difference between its two halves replaces it if that is larger. nan for -inf
     duration : s, time covered after the transient
     separations : losses of contact in that time
-    history : 1/s, shape (16, count), the exponents of the stretches
+    history : 1/s, shape (16, count), the exponents of the segments
     trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
-    final_state : where the motion ended, to go on from
+    final_state : state at the end of the motion
     """
 
     status: LyapunovStatus
@@ -102,21 +101,21 @@ def lyapunov_exponents(
     Parameters
     ----------
     p : the case
-    duration : s, over which rates are averaged, after the transient and after as much time again, in which the columns
-        turn into their directions: with rates that differ by 0.05/s that takes tens of seconds
+    duration : s, averaging time. It follows the transient and an equal time in which the columns converge to their
+        directions: with rates that differ by 0.05/s that takes tens of seconds
     transient : s, simulated first and left out
     count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
         u, u'; one less if the trivial one is left out
-    interval : s, between orthonormalisations; at most `MOST_INTERVALS` of them make the duration
-    initial_state : None is the static start
-    tol : of the series
-    leave_out_trivial : leave out the exponent along the motion, which is zero; there is none if no switch occurs, as in
-        steady sliding
+    interval : s, between orthonormalisations; the duration holds at most `MOST_INTERVALS` of them
+    initial_state : state at the start; None is the static start
+    tol : tolerance, as in `simulate`
+    leave_out_trivial : whether to leave out the exponent along the motion, which is zero; it does not exist without
+        events, as in steady sliding
 
     Raises
     ------
     ParameterError
-        Bad input; the message names each argument, its value and the rule.
+        If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
     _check(p, duration, transient, count, interval, initial_state, tol, leave_out_trivial)
     duration, transient, interval, tol = float(duration), float(transient), float(interval), float(tol)
@@ -140,7 +139,7 @@ def lyapunov_exponents(
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
     if state.x[layout.PHASE] == layout.STICK:
         columns[tangent.F_ROW - tangent.N_SLIDER_ROWS] = 0.0
-    # what a column has below its own tolerance, or rounding, it does not have
+    # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
     _bind(model, state, t)
     _, left = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
@@ -173,15 +172,15 @@ def lyapunov_exponents(
 def _orthonormalise(
     columns: Array, rows: NDArray[np.intp], metric: Array, left: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Make those columns orthonormal that are left, and zero those that depend on the others.
+    """Orthonormalise the remaining columns, and set those to zero that depend on the others.
 
-    rows, metric : of the coordinates, (n,); see `_metric`, (n, 1)
-    left : numbers of columns
-    vanished : length, relative to a column's own, of a rest that counts as none
+    rows, metric : rows of the coordinates, (n,), and their `_metric`, (n, 1)
+    left : indices of the remaining columns
+    vanished : length of an orthogonal part, relative to the column, below which it counts as zero
 
     Returns
     -------
-    logarithms of growth and numbers of the columns that are still left, one shape (at most as many as before,)
+    logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,)
     """
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, left)] * metric)
@@ -190,7 +189,7 @@ def _orthonormalise(
         if not dependent.size:
             columns[np.ix_(rows, left)] = q / metric
             return np.log(lengths), left
-        # one at a time: those behind it were made orthogonal to a direction that means nothing
+        # one at a time, because later columns were made orthogonal to a direction that is mere rounding
         columns[:, left[dependent[0]]] = 0.0
         left = np.delete(left, dependent[0])
 
@@ -198,7 +197,7 @@ def _orthonormalise(
 def _summary(
     status: LyapunovStatus, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
 ) -> Lyapunov:
-    """The `count` largest exponents of logarithms of growth over equal times, shape (n, count or one more)."""
+    """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or one more)."""
     covered = len(logs) * interval
     if len(logs) < _BLOCKS:
         return _nothing(status, count, covered, end)
@@ -207,7 +206,7 @@ def _summary(
         errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
     exponents, trivial = np.sum(logs, axis=0) / covered, math.nan
     order = np.argsort(-exponents, kind="stable")
-    # a motion that has come to rest, or slides, has no trivial one
+    # a motion at rest or in steady sliding has no trivial exponent
     if leave_out_trivial and log[variational.RELEASES] + log[variational.STICKS] + log[variational.SEPARATIONS] > 0:
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
@@ -216,14 +215,14 @@ def _summary(
 
 
 def _drift(history: Array) -> Array:
-    """Difference between the means of the first stretches and of the last: (count,)."""
+    """Difference between the means of the two halves: (count,)."""
     one, two = np.split(history, 2)
     with np.errstate(invalid="ignore"):  # of -inf
         return np.asarray(np.abs(np.mean(one, axis=0) - np.mean(two, axis=0)))
 
 
 def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
-    """No exponents: too little time was covered."""
+    """The result without exponents: too little time was covered."""
     nan = np.full(count, math.nan)
     return Lyapunov(status, nan, nan, covered, 0, np.full((_BLOCKS, count), math.nan), state)
 
@@ -259,18 +258,18 @@ def _check(
 
 
 def _is_within(value: object, least: float) -> bool:
-    """Whether a value is a finite number, and not too small."""
+    """Whether a value is a finite number and not below `least`."""
     return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]
 
 
 def _coordinates(model: layout.Model) -> NDArray[np.intp]:
-    """Rows of a column but for those of lanes that hold no mode, in which rounding would stay for ever."""
+    """Rows of a column without those of empty lanes, in which rounding errors would stay for ever."""
     lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
     return np.concatenate([lanes, width + lanes, np.arange(2 * width, tangent.n_rows(model))])
 
 
 def _metric(model: layout.Model) -> Array:
-    """Square roots of twice the energy of a unit of each row of a column: (rows,)."""
+    """Square root of twice the energy of a unit of each row of a column: (rows,)."""
     one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
     slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
     contact = 1 / model.compliance[0] if len(model.compliance) == 1 else 0.0
@@ -280,6 +279,6 @@ def _metric(model: layout.Model) -> Array:
 
 
 def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:
-    """Set u, u' of columns to those of the disc in rigid contact; between switches they are not carried along there."""
+    """Set u, u' of columns to those of the disc in rigid contact, where they are not integrated between events."""
     if state.x[layout.PHASE] != layout.SEPARATION:
         saltation.slider_rows(model, state, t)

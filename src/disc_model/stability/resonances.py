@@ -1,4 +1,4 @@
-"""Resonances of the stick-slip cycle: which one a multiplier belongs to, and how figures name it."""
+"""Resonances of the stick-slip cycle: the one to which a multiplier belongs, and its label in figures."""
 
 from __future__ import annotations
 
@@ -34,23 +34,23 @@ class Resonance:
 
     @property
     def label(self) -> str:
-        """As figures show it, such as "2 f_s = 135.42 Hz" or "4 f_s = 290.28 Hz - 2 Ω/2π"."""
+        """Label in figures, such as "2 f_s = 135.42 Hz" or "4 f_s = 290.28 Hz - 2 Ω/2π"."""
         shift = f" {'-' if self.sign < 0 else '+'} {self.diameters} Ω/2π" if self.sign else ""
         return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{shift}"
 
 
 def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
-    """The resonance that a cycle's multiplier belongs to.
+    """The resonance to which a cycle's multiplier belongs.
 
-    Over a period the slider turns by Omega T against the disc.  A free mode of frequency f and l diameters is therefore
-    seen at f -/+ l Omega / 2 pi; one that the slider binds, so that it stands in the slider's frame, at f itself.
-    Modulo f_s that is the multiplier's angle over 2 pi T.  The harmonic is the multiple of f_s nearest to it (of
-    f_s / 2 for a negative real multiplier).
+    Over a period the slider turns by Omega T against the disc.  In the slider's frame a free mode of frequency f and l
+    diameters therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.
+    Modulo f_s that is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for
+    a negative real multiplier).
 
     Parameters
     ----------
     period : s
-    diameters : l of the modes to choose from, as in `Branch.diameters`; all by default, and then chance may choose
+    diameters : l of the candidate modes, as in `Branch.diameters`; all by default, when a coincidence may decide
     """
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
@@ -73,8 +73,8 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     """Frequency (Hz), number of diameters and whether the slider takes part, for every mode of disc and slider at rest.
 
-    A coupled mode takes the diameters of the disc's mode that has most of its energy; its partner, which the slider
-    leaves alone, keeps its own.  On a compliant contact there is one more, in which the slider moves against the disc.
+    A coupled mode has the diameters of the disc's mode with most of its energy; the uncoupled mode of a pair keeps its
+    own.  A compliant contact adds one mode, in which the slider moves against the disc.
     """
     modes = mode_arrays(p)
     frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k, contact_give(p))

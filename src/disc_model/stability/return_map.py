@@ -1,9 +1,9 @@
 """The return map of the stick-slip cycle, its fixed points and their multipliers.
 
-The section is "stick is about to be released forwards": f = 0 and r_0 F = mu_s P.  A point of it is its modal
-coordinates alone, because psi follows from the release condition; they are scaled so that the norm is that of the
-disc's energy: omega a, omega b, alpha, beta.  The map's Jacobian comes from the variational equations
-(`disc_model.engine.variational`), also with respect to parameters.
+The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
+coordinates alone, because psi follows from the release condition. They are scaled to the norm of the disc's energy:
+omega a, omega b, alpha, beta.  The map's Jacobian and its derivatives with respect to parameters come from the
+variational equations (`disc_model.engine.variational`).
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
 ROUGHEST = 1e-10
-"""Tolerance of flights, whatever residual is requested: a rougher map is too rough itself for a residual of 1e-8."""
+"""Largest tolerance of flights, whatever residual is requested: a rougher map could not reach a residual of 1e-8."""
 
 FINER = 1 / 20
-"""Of the cycle's tolerance, that of flights: the Jacobian asks more of the series than event times do."""
+"""Tolerance of flights relative to the cycle's: the Jacobian needs a more accurate series than event times do."""
 
 PATIENT = 60.0
-"""Patience with motions that may separate: the slider then passes many places at which the quiet one would stick. They
-are given some 5 s, as long as the stretches that are looked at."""
+"""Factor on the time allowed for a return if the motion may separate, because the slider may then slip for long. It
+allows about 5 s, the length of the segments that are examined."""
 
 COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
-"""Tolerance and order of the series and tolerance of the columns where a Jacobian only has to point the right way."""
+"""Tolerance and order of the series, and tolerance of the columns, for a Jacobian that only gives a direction."""
 
 USUAL_RATE = 1.25
-"""Times that of the disc's highest frequency: so fast a rate, as of all published cases, needs no shorter steps."""
+"""Rate relative to the disc's highest frequency up to which steps are not shortened: all published cases are below."""
 
 RETURNED = exit_codes.RETURNED
 ENDS = {
@@ -57,7 +57,7 @@ ENDS = {
 
 
 def case_faults(p: object, analysis: str) -> list[str]:
-    """What is no case, or one that ``analysis`` cannot do: without modes nothing could lose its stability."""
+    """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can become unstable."""
     if not isinstance(p, Parameters):
         return foreign_case(p)
     return broken(
@@ -66,10 +66,10 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, and shorter on a stiff system.
+    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter on a stiff system.
 
-    That takes the time unit for one radian of the fastest oscillation. Strong dampers, springs on a light slider and
-    fast drives are faster, and a steady motion, which sizes its own steps, shows nothing of them.
+    That function takes the time unit for one radian of the fastest oscillation. Strong dampers, a light slider on
+    springs and a fast drive are faster still, and do not show in the steps of a steady motion.
     """
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     stiffness = max(model.unit**-2, max(model.k, model.k_p) / model.m)
@@ -79,7 +79,7 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
-    """What a unit of a parameter, one of `PARAMETERS`, changes in the equations: a column of `Tangent.parameters`."""
+    """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
     if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
         raise ParameterError(Fault(("parameter",), shown(name), "must be a parameter that the case has"))
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
@@ -113,7 +113,7 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
 
 
 class Counts(NamedTuple):
-    """How often each switch occurs in a flight, or in a period of a cycle."""
+    """Number of events of each kind in a flight, or in a period of a cycle."""
 
     releases: int
     backward_releases: int
@@ -124,7 +124,7 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True)
 class Flight:
-    """What happened between two returns. Times in s."""
+    """The motion between two returns: its outcome, durations (s) and numbers of events."""
 
     outcome: int
     period: float
@@ -135,16 +135,16 @@ class Flight:
 
 
 class ReturnMap:
-    """The map of one case; it owns the engine's work space, so that one object serves one thread.
+    """The return map of one case; it owns the engine's arrays, so that one object serves one thread.
 
     Attributes
     ----------
-    size : dimension n of the section, four for each pair of modes, two for each axisymmetric one, and on a compliant
+    size : dimension n of the section: four for each pair of modes, two for each axisymmetric one, and on a compliant
         contact two for the slider's u, u'
-    scale : shape (n,), coordinates over modal displacements and velocities: omega, or 1; over u and u' likewise
-    diameters : nodal diameters of the mode of each coordinate, those of the slider, which come last, left out
-    static : shape (n,), static equilibrium under the preload: the static start, and Newton's
-    patience : by how much longer than usual a return may take; see `PATIENT`
+    scale : shape (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
+    diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
+    static : shape (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    patience : factor on the time allowed for a return; see `PATIENT`
     """
 
     def __init__(
@@ -197,12 +197,12 @@ class ReturnMap:
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
     ) -> tuple[Flight, Array, Array, Array]:
-        """Follow the motion from `x` to the `releases`-th next release, to the map's tolerance or `COARSE`.
+        """Follow the motion from `x` to the `releases`-th next release, with the map's tolerance or `COARSE`.
 
         Returns
         -------
         flight, end (n,), Jacobian (n, n), derivatives by the map's parameters (n, number of parameters); the last two
-        hold nothing of use without `tangent` or if the flight did not return.
+        are meaningless without `tangent` or if the flight did not return.
         """
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
@@ -225,7 +225,7 @@ class ReturnMap:
         )
 
     def next_release(self, start: State) -> tuple[int, Array]:
-        """The point of the section that the motion from `start` reaches first, and how it got there (`RETURNED`)."""
+        """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
         write_state(self._case, start, self._state)
         course = variational.IntegrationLimits(
             self.order, self.tolerance, math.inf, self.longest, 1, may_separate=True, tangent=False
@@ -234,7 +234,7 @@ class ReturnMap:
         return code, self._coordinates()
 
     def point(self, state: State) -> Array:
-        """The point of the section at which a state, such as `state` gave, lies."""
+        """The point of the section of a state that lies on it."""
         write_state(self._case, state, self._state)
         return self._coordinates()
 
@@ -250,7 +250,7 @@ class ReturnMap:
         return float(transitions.force_in_stick(model, state, transitions.stick_force(model, state)))
 
     def _place(self, x: Array) -> None:
-        """Put the work space's state onto the point `x` of the section."""
+        """Set the engine's state to the point `x` of the section."""
         state, column = self._state, np.zeros(self._slider + columns.N_SLIDER_ROWS)
         column[self._section.rows] = x / self.scale
         state.disc[:], state.x[:] = 0.0, 0.0
@@ -259,7 +259,7 @@ class ReturnMap:
         state.x[layout.PSI] = variational.release_angle(self.model, state)
 
     def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
-        """Where the motion from `x` is at its next releases, one by one, as long as it returns."""
+        """Points of the motion from `x` at its next releases, at most `most`, as long as it returns."""
         for _ in range(most):
             flight, x, _, _ = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
             if flight.outcome != RETURNED:
@@ -272,7 +272,7 @@ class ReturnMap:
 
 
 class FixedPoint(NamedTuple):
-    """A point that the map takes to itself: what happens on the way, the map's Jacobian, and the distance left."""
+    """A fixed point of the map, with the flight from it, the map's Jacobian, and the norm of the residual."""
 
     x: Array
     flight: Flight
@@ -281,13 +281,13 @@ class FixedPoint(NamedTuple):
 
 
 COARSE_TRIES = 3
-"""So many first Jacobians are coarse: they only have to point the right way."""
+"""Number of first Jacobians that are coarse, because they only give a direction."""
 GOOD_STEP = 0.05
-"""A step that leaves less than this share of the residual spares the next one its own Jacobian."""
+"""If a step leaves less than this share of the residual, the next step reuses its Jacobian."""
 
 
 def rounding(tol: float, factor: float) -> float:
-    """Relative residual that may be left where it falls no further; a rough `tol` is no excuse for more than 1e-8."""
+    """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than 1e-8."""
     return max(tol, min(factor * tol, 1e-8))
 
 
@@ -302,9 +302,8 @@ def newton(
 ) -> FixedPoint | None:
     """Fixed point of the map, by Newton's method with a line search and reused Jacobians; None if it finds none.
 
-    Found means that the residual is below `tol` times the norm of the static deflection, or that rounding, of up to
-    ten thousand times that but not above 1e-8, keeps it from falling further.  The Jacobian is that of the point
-    returned.
+    The residual must fall below `tol` times the norm of the static deflection. If rounding stops it earlier, up to ten
+    thousand times as much is accepted, but never more than 1e-8.  The Jacobian is evaluated at the fixed point.
     """
     size = max(float(np.linalg.norm(map_.static)), 1e-300)
     identity = np.eye(map_.size)
@@ -346,7 +345,7 @@ def newton(
 
 
 def _solve(matrix: Array, right: Array) -> Array:
-    """Newton's step; the shortest one if the matrix is singular."""
+    """The Newton step; if the matrix is singular, the least-squares solution of least norm."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
@@ -354,22 +353,22 @@ def _solve(matrix: Array, right: Array) -> Array:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Multipliers of a cycle, and what they say of it
+# Multipliers of a cycle, and the stability that follows from them
 
 
 def multipliers(jacobian: Array) -> ComplexArray:
-    """Eigenvalues of the return map's Jacobian, largest modulus first; of a complex pair the upper one first."""
+    """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts first in each pair."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
 
 
 def growth_rate(multiplier: complex, period: float) -> float:
-    """log of the modulus over the period, 1/s; -inf for a multiplier of zero."""
+    """Logarithm of the modulus over the period, 1/s; -inf for a multiplier of zero."""
     return math.log(abs(multiplier)) / period if multiplier else -math.inf
 
 
 def bifurcation_type(multiplier: complex) -> str:
-    """Which bifurcation a multiplier brings when it crosses the unit circle."""
+    """Kind of bifurcation when a multiplier crosses the unit circle."""
     if multiplier.imag != 0:
         return "neimark_sacker"
     return "fold" if multiplier.real > 0 else "period_doubling"

@@ -1,7 +1,7 @@
 """Steady sliding: the slider rests in space, f = Omega, and the disc stands still in the slider's frame.
 
-The equilibrium of the equations of slip (docs/model.md, Slip) and its stability.  With d = 2 xi omega the disc's
-response to the force P that rotates over it is
+The module computes the equilibrium of the equations of slip (docs/model.md, Slip) and its stability.  With
+d = 2 xi omega the disc's response to the force P that rotates over it is
 
     b_l = d l Omega a_l / (l^2 Omega^2 - omega^2),
     a_l = psi_l P / (l^2 Omega^2 - omega^2 + d^2 l^2 Omega^2 / (l^2 Omega^2 - omega^2)),
@@ -46,15 +46,15 @@ class SteadySliding:
 
     Attributes
     ----------
-    status, message : whether it exists and why not; otherwise numbers are nan and arrays empty
-    contact_force : N, P, or R under the normal force
+    status, message : whether the equilibrium exists, or why not; numbers are then nan and arrays empty
+    contact_force : N; it is P, or R under the normal force
     psi : rad, angle of the drive point ahead of the slider
     a, b, alpha, beta : shape (n_modes,), rows of `plate_modes`
     eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
-        and 2 more on a compliant contact
-    growth_rate : 1/s, largest real part
-    jacobian : of the equations of slip there; rows a and alpha of all modes, b and beta of the pairs, psi, f, and u, u'
-        on a compliant contact
+        plus 2 on a compliant contact
+    growth_rate : 1/s, largest real part of the eigenvalues
+    jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
+        u, u' on a compliant contact
     """
 
     status: SlidingStatus
@@ -71,17 +71,17 @@ class SteadySliding:
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances die out: the growth rate is negative."""
+        """Whether small disturbances decay: the growth rate is negative."""
         return self.growth_rate < 0
 
 
 def steady_sliding(p: Parameters) -> SteadySliding:
-    """Equilibrium f = Omega and its eigenvalues.
+    """Find the equilibrium f = Omega and its eigenvalues.
 
     Raises
     ------
     ParameterError
-        If `p` is no `Parameters`, or has no modes.
+        If `p` is not a `Parameters`, or has no modes.
     """
     refuse(case_faults(p, "steady_sliding"))
     if p.Omega == 0:
@@ -113,10 +113,10 @@ def steady_sliding(p: Parameters) -> SteadySliding:
 class _Law:
     """The law of contact at the equilibrium.
 
-    beta : B / r_0, but 0 under the vertical force, which does not feel it
-    resistance : what holds the slider back over the contact force
-    force : P, or R under the normal force
-    denominator : of that force in slip
+    beta : B / r_0, but 0 under the vertical force, which does not depend on it
+    resistance : in-plane force on the slider over the contact force
+    force : contact force: P, or R under the normal force
+    denominator : denominator of the contact force in slip
     """
 
     def __init__(self, p: Parameters, S2: float, beta: float, vertical: float) -> None:
@@ -140,7 +140,7 @@ def _absent(status: SlidingStatus) -> SteadySliding:
 
 
 def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Array, float]:
-    """a, b (n_modes,) and the vertical force."""
+    """Modal coordinates a, b (n_modes,) and the vertical force at the equilibrium."""
     turned = modes.diameters * p.Omega
     gap = turned**2 - modes.omega**2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -155,7 +155,7 @@ def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Ar
 def _jacobian(
     p: Parameters, modes: Modes, damping: Array, a: Array, b: Array, beta: Array, slope: float, law: _Law
 ) -> Array:
-    """Of the equations of slip at the equilibrium.
+    """Jacobian of the equations of slip at the equilibrium.
 
     Rows a, alpha of all modes, b, beta of the pairs, psi, f, and u, u' on a compliant contact.
     """

@@ -1,8 +1,8 @@
-"""Which attractor of a case each of many motions comes to: the quiet cycle, a known one, or one that is new.
+"""Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-A motion is followed in legs of some seconds.  What these decide is said in docs/algorithms.md, Identifying the outcome.
-What stays near an unstable cycle has not settled; what is new and not periodic has to stay to the horizon, for it might
-be on its way past an unstable motion.
+A motion is followed in legs of some seconds, as docs/algorithms.md, Identifying the outcome, describes.  A motion that
+stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
+the motion might only be passing an unstable one.
 """
 
 from __future__ import annotations
@@ -48,28 +48,28 @@ from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
 from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
-"""Legs over which a motion has to come closer to a known attractor, and to stay as it is on another one."""
+"""Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
 WATCHED = 1.0
-"""s, at the end of a leg, over which the range is taken: a hundred oscillations and more."""
+"""s, at the end of a leg, over which the range is taken: a hundred oscillations or more."""
 STEADY = 1e-3
-"""Relative change of the range over those legs that is no drift: samples of a periodic motion vary by a tenth."""
+"""Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
 SAME = 0.05
-"""Stretches that differ by less are those of one attractor; a drift, going on as it does, may have left half of it."""
+"""Segments that differ by less belong to one attractor; the extrapolated rest of a drift may reach half of it."""
 SMALLEST = 1e-3
-"""Ranges, over the static deflection, below which they are alike: the slider rests in height. And changes over a period
-of a motion that is as good as periodic."""
+"""Range, over the static deflection, below which ranges count as equal: the slider's height is constant. It also bounds
+the change over a period of a motion that counts as periodic."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
-"""Downward kicks of the static start from which attractors are looked for, over the static deflection."""
+"""Downward perturbations of the static start from which attractors are sought, over the static deflection."""
 
 
 class Basins:
-    """The attractors of a case: the quiet cycle, and those on which motions settle, from `OWN_STARTS` and then others.
+    """The attractors of a case: the quiet cycle, and those reached from `OWN_STARTS` and from later starts.
 
     Parameters
     ----------
-    horizon : s, for which a motion is followed at most
-    near : distance in range from an attractor, relative, within which a motion that comes closer is taken to be on it;
-        0: all are followed to the horizon
+    horizon : s, longest simulated time of a motion
+    near : relative difference in range from an attractor within which an approaching motion counts as being on it;
+        with 0 all motions are followed to the horizon
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class Basins:
             self.reached(perturb(p, start, u=-kick * self.static) if kick else start)
 
     def reached(self, state: State) -> OutcomeResult:
-        """What the motion from a state at time 0 comes to; an attractor that is new is known from now on."""
+        """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
         stretches: list[Segment] = []
         first, since, least = math.nan, -1, math.inf
         while True:
@@ -127,7 +127,7 @@ class Basins:
     def _difference(self, one: Segment, other: Segment) -> float:
         """Largest relative difference of ranges, shares of the phases and separations per second.
 
-        Shares below `SAME`, and less than two separations in a leg, differ by their difference over these.
+        Differences of shares below `SAME`, and of less than two separations in a leg, are relative to these limits.
         """
         ranges = [max(stretch.range, self.smallest) for stretch in (one, other)]
         compared = [(*ranges, self.smallest), (one.separation_rate, other.separation_rate, 2 / FIRST_LEG)]
@@ -137,9 +137,9 @@ class Basins:
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
     def _nears(self, stretches: Sequence[Segment], state: State, least: float) -> tuple[bool, float]:
-        """Whether the motion is near the quiet cycle and comes nearer as the multipliers say.
+        """Whether the motion approaches the quiet cycle as its multipliers predict, and the new `least`.
 
-        least : distance at which it did not, given back with it; one that is not less is not tried
+        least : smallest distance tested so far; a test is made only at a smaller one
         """
         last, near = stretches[-1], self.cycle
         if near is None or last.separation_rate > 0 or last.range > stretches[0].range:
@@ -153,7 +153,7 @@ class Basins:
         return False, least
 
     def _found(self, ranges: Sequence[float]) -> Attractor | None:
-        """The known attractor that the motion nears, before it has settled there."""
+        """The known attractor that the motion approaches before it has settled; None if there is none."""
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < NEARING or not others:
             return None
@@ -174,9 +174,9 @@ class Basins:
         return abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1] or _left(ranges) <= SAME / 2 * ranges[-1]
 
     def _settled_on(self, leg: Result, stays: bool) -> Attractor | None:
-        """The attractor of a motion that has settled; None as long as that is not sure.
+        """The attractor of a motion that has settled; None as long as it is uncertain.
 
-        stays : whether it has been as it is until the horizon
+        stays : whether the motion has been steady until the horizon
         """
         found = self._described(leg)
         if found is None:
@@ -190,7 +190,7 @@ class Basins:
         return same
 
     def _described(self, leg: Result) -> Attractor | None:
-        """What a motion is on, undecided if that is no cycle nor rest; None near an unstable cycle."""
+        """The attractor of a motion, undecided if it is neither a cycle nor rest; None near an unstable cycle."""
         stretch = segment_of(leg)
         calm = at_rest(self.p, leg, self.tol)
         if calm is not None:
@@ -205,12 +205,12 @@ class Basins:
         )
 
     def _stays(self, near: NearCycle) -> bool:
-        """Whether a motion hardly moves on the section over a period of the cycle near it, as on a torus it would."""
+        """Whether a motion hardly moves on the section over a period of the near cycle; on a torus it would move."""
         at = near.x + near.distance
         return bool(np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size)
 
     def _same(self, one: Attractor, other: Attractor) -> bool:
-        """Whether two are one: periodic ones by their fixed points, others by their stretches."""
+        """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
         if one.points is not None and other.points is not None:
             apart = min(float(np.linalg.norm(one.points[0] - point)) for point in other.points)
             return apart <= SAME_POINT * self.size
@@ -223,9 +223,9 @@ class Basins:
 
 
 def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> NearCycle | None:
-    """The cycle near which a motion is by the end of a stretch with its events; it may lose contact.
+    """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact.
 
-    Periods of up to half the releases of the stretch are looked for, and at most of so many.
+    Periods of up to half the releases of the record are tried, and of up to `most` releases.
     """
     releases = int((stretch.events["kind"] == "stick_to_slip").sum())
     if not releases or not may_stick_and_slip(p):
@@ -240,8 +240,8 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
 
 
 class Regularity(NamedTuple):
-    """What a motion is; after how many switches it repeats, 0 if that is not shown; how nearly, s; and where its
-    cycle is, if that is known."""
+    """Kind of a motion; number of events after which it repeats, 0 if that is not shown; closure, s; and a state on
+    its cycle, if that is known."""
 
     kind: Outcome
     period: int = 0
@@ -250,10 +250,10 @@ class Regularity(NamedTuple):
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
-    """Of a motion from a state on, by its separations, or by its releases if it has none, and by its largest exponent.
+    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent.
 
-    That is the one but for the exponent along the motion. It is zero on a torus and positive in chaos. Below zero all
-    motions nearby come together: they come to one cycle, be its period too long to be seen.
+    The exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is
+    negative, all neighbouring motions converge to one cycle, even if its period is too long to be observed.
     """
     run = simulate(p, state.time + SETTLING * FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
@@ -275,15 +275,15 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
 
 
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
-    """A state after a kick of stated energy in a random direction.
+    """A state after a perturbation of given energy in a random direction.
 
-    The direction is uniform in the energy of the disc's modes: omega a, omega b, alpha, beta of each.  Slider and disc
-    under it go along; f and psi stay.  The energy (J) is that of the kick itself: of the modes, of the slider's mass m
-    and of its spring k.
+    The direction is uniform in the energy norm of the disc's modes: omega a, omega b, alpha, beta of each.  The slider
+    moves with the disc; f and psi are unchanged.  The energy (J) is that of the perturbation alone: of the modes, of
+    the slider's mass m and of its spring k.
 
     Parameters
     ----------
-    key : whole numbers that make the direction, the same for the same numbers
+    key : whole numbers that determine the direction
     """
     if energy == 0:
         return state
@@ -306,7 +306,7 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
 
 
 def _left(values: Sequence[float]) -> float:
-    """What a drift of the values has left if its changes go on as they did: infinite if they do not become smaller."""
+    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do not decrease."""
     changes = np.diff(values[-4:])
     before, last = abs(changes[-2]), abs(changes[-1])
     if not (np.all(changes > 0) or np.all(changes < 0)):

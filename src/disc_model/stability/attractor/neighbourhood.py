@@ -1,8 +1,8 @@
-"""Motions near a cycle, or near steady sliding: whether they leave or near it as its multipliers say.
+"""Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers predict.
 
 Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested, not
-assumed: the motion is followed over some seconds and compared with J^n d, in its size and in the rate at which the
-leading multiplier's part grows.  That a motion nearly repeats proves nothing, since one on a torus does as well.
+assumed: the motion is followed over some seconds and compared with J^n d. The comparison covers the size and the
+growth rate of the leading multiplier's part.  Near repetition alone proves nothing, because a torus shows it as well.
 """
 
 from __future__ import annotations
@@ -26,34 +26,34 @@ from disc_model.stability.return_map import RETURNED, Array, ComplexArray, Retur
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 
 CYCLE_TOL = 1e-12
-"""Tolerance of cycles and their multipliers: roundings leave as much."""
+"""Tolerance of cycles and their multipliers, at the level of rounding errors."""
 TESTS = ((0.3, 1.2), (1.5, 6.0))
-"""Times over which a motion is compared with the linear one, s; the rate of growth is taken between them. The longer
-test is made where the shorter one does not pass: it tells slower rates."""
+"""Times at which a motion is compared with the linear one, s; its growth rate is taken between them. The longer test
+follows if the shorter one fails, because it resolves slower rates."""
 AGREES = 0.1
-"""Largest difference between the two motions, relative to the linear one: it errs by the square of the distance, which
-is a tenth of the static deflection at most."""
+"""Largest difference between the two motions, relative to the linear one. The error of the linear map is of second
+order in the distance, which is at most a tenth of the static deflection."""
 RATE_AGREES = 0.5
-"""Largest difference between their rates of growth, as a share of the linear one's: the sign of the rate is told."""
+"""Largest difference between their growth rates, relative to the linear one: it decides the sign of the rate."""
 ARRIVED = 1e-8
-"""A motion so near to a stable cycle, over the static deflection, is on it: ten thousand times what roundings leave."""
+"""A motion as near to a stable cycle, over the static deflection, is on it: the limit is 10,000 times the rounding."""
 WAITS = (0.0, 1.5, 6.0, 15.0)
-"""Times after which the test is begun, s. Near a resonance the start lies further from the cycle than the linear map
-reaches, and comes within its reach as the modes die out that are damped best."""
+"""Times at which the test begins, s. Near a resonance the start lies outside the range of the linear map, and enters it
+when the strongly damped modes have decayed."""
 AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
-"""Distances from the cycle, over the static deflection, up to which a departure may be followed by multipliers."""
+"""Distances from the cycle, over the static deflection, up to which multipliers may represent a departure."""
 DEPARTS = 0.25
-"""Largest share of a departing motion, on its section, that is not the leading multiplier's part; and largest
-difference between the rate at which that part grows and the multiplier's, as a share of it. It is corrected for."""
+"""Largest share of a departing motion, on its section, outside the leading eigenspace. It also bounds the relative
+difference between the growth rate and the multiplier's, for which the departure is corrected."""
 NEAR = AMPLITUDES[0]
-"""Distance from a cycle, over the static deflection, within which a motion may be near it: none is linear beyond."""
+"""Distance from a cycle, over the static deflection, within which a motion counts as near it: none is linear beyond."""
 SAME_POINT = 1e-4
-"""Fixed points nearer than this, over the static deflection, are one: a thousand times nearer than those of the cycles
-known beside each other, and a million times further apart than their residuals."""
+"""Fixed points nearer than this, over the static deflection, are the same. Distinct known cycles differ a thousand
+times as much, and residuals are a million times smaller."""
 NEARLY_PERIODIC = NEAR / 2
-"""Change over a period, over the static deflection, from which a cycle is looked for."""
+"""Change over a period, over the static deflection, below which a cycle is sought."""
 LARGEST_PERIOD = 8
-"""Releases in a period, at most, of cycles that are looked for from the section alone, where time counts."""
+"""Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +62,9 @@ class NearCycle:
 
     Attributes
     ----------
-    follows_cycle : whether it follows the linear map there, for good if the cycle is stable
+    follows_cycle : whether the motion follows the linear map, and so stays on the cycle if that is stable
     x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
-    waited : s, until the motion has come to where it follows the linear map: the distance is that then
+    waited : s, until the motion follows the linear map; `distance` is taken at that time
     """
 
     cycle: FloquetResult
@@ -82,7 +82,7 @@ class NearCycle:
 
     @property
     def kind(self) -> Outcome:
-        """What a motion on the cycle is: quiet if it is that of the static start, or near it."""
+        """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
         if np.linalg.norm(self.x - self.map.static) <= NEAR * self.size:
@@ -92,7 +92,7 @@ class NearCycle:
         return Outcome.QUIET if same else Outcome.OTHER_CYCLE
 
     def moved(self, at: Array, periods: int, *, coarse: bool = True) -> tuple[Array, float]:
-        """Where a motion on the section is so many periods later, and the time that takes, s; nan if it does not."""
+        """Point of a motion on the section some periods later, and the time taken, s; nan if it does not return."""
         flight, end, _, _ = self.map.evaluate(
             at,
             releases=periods * self.cycle.releases,
@@ -104,7 +104,7 @@ class NearCycle:
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
-    """The cycle near the static start, and whether it is the start's own; without one, what was found instead."""
+    """The cycle near the static start, and whether the start follows it; without a cycle, the result of the search."""
     cycle = find_cycle(p, CYCLE_TOL)
     if cycle.status is not CycleStatus.OK:
         return cycle
@@ -115,13 +115,13 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 def cycle_near(
     map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, stable: bool = True
 ) -> NearCycle | None:
-    """The cycle near which a motion at a point of the section is, and whether it follows its multipliers; None if none.
+    """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
     Parameters
     ----------
-    again : as `recurrence` gives it
-    may_separate : whether it may lose contact
-    stable : whether only a stable one can be the motion's own
+    again : result of `recurrence`
+    may_separate : whether the cycle may lose contact
+    stable : whether only a stable cycle is accepted as followed by the motion
     """
     change, releases = again
     if not change <= NEARLY_PERIODIC:
@@ -136,19 +136,19 @@ def cycle_near(
 def recurrence(
     map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD, *, may_separate: bool = False
 ) -> tuple[float, int]:
-    """Least change from a release to a later one, relative to the static deflection, and how many lie between."""
+    """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
     size = float(np.linalg.norm(map_.static))
     later = map_.returns(x, most, may_separate=may_separate, coarse=True)
     changes = [float(np.linalg.norm(now - x) / size) for now in later]
     if not changes:
         return math.nan, 0
-    # of those that are about as good the shortest
+    # the shortest of those with about the least change
     releases = next(i for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
     return changes[releases - 1], releases
 
 
 def follows(near: NearCycle, at: Array) -> bool:
-    """Whether the motion at a point of the section departs from a cycle, or nears it, as its multipliers say."""
+    """Whether the motion at a point of the section departs from a cycle or approaches it as its multipliers predict."""
     return any(_linear(near, at - near.x, times) for times in TESTS)
 
 
@@ -156,7 +156,7 @@ def departs_after(near: NearCycle, horizon: float) -> bool:
     """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
     begun = first_release(near.cycle.parameters) + near.waited
     room = max(0, math.ceil((horizon - begun) / near.cycle.period))
-    # the leading part alone: most do not, and this says so at once
+    # the leading part alone excludes most motions at once
     leading = _left_vector(near.jacobian)
     right = _left_vector(near.jacobian.T)
     part = float(abs(leading @ near.distance)) / float(abs(leading @ right))
@@ -165,12 +165,12 @@ def departs_after(near: NearCycle, horizon: float) -> bool:
 
 
 def first_release(p: Parameters) -> float:
-    """Time at which the static start first slips, s: then it is on the section."""
+    """Time at which the motion from the static start first slips, s, and is then on the section."""
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
 def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[float] = WAITS) -> NearCycle:
-    """A motion at a point of the section, seen from a cycle."""
+    """The motion at a point of the section in relation to a cycle."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
     _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
@@ -188,7 +188,7 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
 
 
 def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
-    """Whether the motion at that distance departs from the cycle, or nears it, as its multipliers say."""
+    """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
     leading = _left_vector(jacobian)
     least = ARRIVED * near.size if cycle.stable else 0.0
@@ -196,7 +196,7 @@ def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> boo
     done = 0
     counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
     for count in counts:
-        # what coarse flights leave out would show beside so small a distance
+        # the errors of coarse flights would matter at so small a distance
         moved, took = near.moved(moved, count - done, coarse=bool(np.linalg.norm(distance) > SAME_POINT * near.size))
         expected = np.linalg.matrix_power(jacobian, count - done) @ expected
         error = float(np.linalg.norm(moved - x - expected))
@@ -208,7 +208,7 @@ def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> boo
 
 
 def _at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
-    """Whether the leading part grows by a rate (1/s) from one time to another, or has become as small as it can."""
+    """Whether the leading part grows at a rate (1/s) between two times, or has fallen to `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
     return abs(math.log(parts[1] / parts[0]) / time - rate) <= RATE_AGREES * abs(rate)
@@ -217,24 +217,24 @@ def _at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
     """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it.
 
-    size : what leads, the modulus of a map's eigenvalues or the real part of those of equations
+    size : function that ranks eigenvalues: the modulus for a map, the real part for differential equations
     """
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
 def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
-    """How long the leading multiplier tells of a motion's departure, at most `room` periods, and its distance then.
+    """Time over which multipliers represent a motion's departure, at most `room` periods, and the distance at its end.
 
     Returns
     -------
-    time : s, 0 if it does not tell
-    distance : on the section
+    time : s, 0 if they do not represent it
+    distance : distance from the cycle on the section
     """
     period = near.cycle.period
     powers = [near.jacobian]
     most = math.log(1e100) / max(math.log(abs(near.cycle.multipliers[0])), 1e-300)
-    while 2 ** len(powers) <= min(room, most):  # no departure is followed as far as numbers go
+    while 2 ** len(powers) <= min(room, most):  # `most` keeps the powers from overflow
         powers.append(powers[-1] @ powers[-1])
     for amplitude in (a for a in AMPLITUDES if a <= furthest):
         n, distance = 0, near.distance
@@ -253,9 +253,9 @@ def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tu
 
 
 def _faster(near: NearCycle, distance: Array) -> float:
-    """By what share a departing motion grows faster than the leading multiplier says; infinite if it is another one.
+    """Relative excess of a departing motion's growth rate over the leading multiplier's; infinite for another motion.
 
-    Its phase is not asked for: it drifts with the amplitude long before the growth does, and decides nothing.
+    The phase is ignored: it drifts with the amplitude long before the growth rate does, and does not matter.
     """
     left, right = _left_vector(near.jacobian), _left_vector(near.jacobian.T)
     right = right / (left @ right)
@@ -281,7 +281,7 @@ def _faster(near: NearCycle, distance: Array) -> float:
 
 
 def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
-    """Whether a motion that slides nears stable steady sliding as the eigenvalues there say."""
+    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
     sliding = steady_sliding(p)
     if not sliding.stable or state.phase != "slip":
         return False

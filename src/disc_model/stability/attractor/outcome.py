@@ -1,7 +1,7 @@
-"""What becomes of one motion within a horizon: told by multipliers where they prove it, else simulated.
+"""The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
 
 The static start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
-Newton's method finds from it.  What follows from that, and what is simulated, is said in docs/algorithms.md, Regions.
+Newton's method finds from it.  docs/algorithms.md, Regions, describes the conclusions and the simulations.
 """
 
 from __future__ import annotations
@@ -36,22 +36,22 @@ from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
 
 FIRST_LEG = 5.0
-"""s, simulated before a motion is looked at again: dozens of cycles, and some turns of the disc at published speeds."""
+"""s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
 GROWTH = 1.5
-"""How much a change over a period must rise above its least value before to be called growth: roundings and beats with
-modes that die out make less."""
+"""Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
+modes cause less."""
 RATE = 4000.0
-"""Sampling rate of stretches, Hz: above twice the disc's highest frequency kept."""
+"""Sampling rate of segments, Hz: above twice the highest modal frequency."""
 
 
 @dataclass(frozen=True)
 class Segment:
-    """What a stretch of motion was like.
+    """Description of a segment of a motion.
 
     P_min, P_max : N, range of the contact force
-    u_min, u_max : m, of the slider's height over static equilibrium
-    stick_fraction, slip_fraction, separation_fraction : of the time
-    separation_rate : 1/s
+    u_min, u_max : m, range of the slider's height over static equilibrium
+    stick_fraction, slip_fraction, separation_fraction : shares of the time
+    separation_rate : 1/s, separations per time
     """
 
     P_min: float
@@ -65,19 +65,19 @@ class Segment:
 
     @property
     def range(self) -> float:
-        """Of the slider's height, m."""
+        """Range of the slider's height, m."""
         return self.u_max - self.u_min
 
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """What motions come to.
+    """An attractor.
 
     Attributes
     ----------
-    kind : what it is
-    segment : of a leg on it
-    period, releases, growth_rate : of a periodic one, s, 1 and 1/s; nan, 0 and nan otherwise
+    kind : outcome of motions on it
+    segment : segment of a motion on it
+    period, releases, growth_rate : s, 1 and 1/s, of a periodic attractor; nan, 0 and nan otherwise
     points : shape (releases, n), its points on the section; None if none are known
     """
 
@@ -91,23 +91,23 @@ class Attractor:
 
 @dataclass(frozen=True, eq=False)
 class OutcomeResult:
-    """What a motion has come to.
+    """The outcome of a motion.
 
     Attributes
     ----------
     outcome : None if the simulation failed
-    simulated : s, 0 if multipliers decide
-    attractor : of those known to `disc_model.stability.attractor.classification.Basins`; None if it is none of them
-    cycle : the stable one to which it has come, or else the unstable one from which it departs; None if neither
-    departed : the unstable cycle from which its multipliers have led it away, None if all was simulated
+    simulated : s, simulated time; 0 if multipliers decide
+    attractor : one of the attractors of `disc_model.stability.attractor.classification.Basins`, or None
+    cycle : the stable cycle that the motion approaches, or else the unstable cycle from which it departs, or None
+    departed : the unstable cycle from which a departure was computed by multipliers; None if all was simulated
     first_separation : s, nan if there was none
-    time : s, at which that was known
-    state : where the simulation ended; None if there was none
-    failed : the simulation that could not go on
-    changes : from one period to the next, over the static deflection, at the end of each leg
-    times : of these ends, s
-    distance : from the cycle, over the static deflection, where it was left for it
-    segment : the last one before the horizon, if it was asked for and got there
+    time : s, at which the outcome was known
+    state : last state of the simulation; None if there was none
+    failed : the simulation that ended early
+    changes : changes from one period to the next, over the static deflection, at the end of each leg
+    times : times of these ends, s
+    distance : distance from the cycle, over the static deflection, at the end of the search
+    segment : the last segment before the horizon, if it was requested and reached
     """
 
     outcome: Outcome | None
@@ -126,22 +126,22 @@ class OutcomeResult:
 
     @property
     def word(self) -> str:
-        """The outcome as datasets say it."""
+        """The outcome as a word of datasets."""
         return self.outcome or "failed"
 
     @property
     def separates(self) -> bool:
-        """Whether it keeps losing contact."""
+        """Whether the motion loses contact again and again."""
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
 
     @property
     def status(self) -> Status:
-        """Of the simulation."""
+        """Status of the simulation."""
         return Status.OK if self.failed is None else self.failed.status
 
     @property
     def message(self) -> str:
-        """Why it could not go on."""
+        """Reason for which the simulation ended early, or ""."""
         return "" if self.failed is None else self.failed.message
 
 
@@ -156,17 +156,17 @@ def find_outcome(
     early: bool = True,
     late: float = 0.0,
 ) -> OutcomeResult:
-    """What a motion comes to within a horizon (s), or whether it separates first.
+    """Find the outcome of a motion within a horizon (s), or its separation if that comes first.
 
     Parameters
     ----------
-    tol : of what is simulated, as in `simulate`
-    near : what `cycle_of_static_start` says, if it is known
-    furthest : distance from a cycle, over the static deflection, up to which multipliers may tell of a departure: the
-        shorter, the better is the time of the first separation known; 0: all of it is simulated
-    start : where to start, at time 0; None is the static start
-    early : whether a motion is left once its outcome is shown; else it is followed to the horizon
-    late : s, length of the stretch before the horizon that is to be described
+    tol : tolerance of simulations, as in `simulate`
+    near : result of `cycle_of_static_start`, if it is known
+    furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
+        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated
+    start : initial state, at time 0; None is the static start
+    early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
+    late : s, length of the segment before the horizon that is described
     """
     course = _OutcomeSearch(p, horizon, tol, furthest, start, early, late)
     if early and start is None and course.map is not None:
@@ -177,10 +177,10 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A motion on its way: where it is, and what was seen so far.
+    """State of a search: the present state of the motion, and the results so far.
 
-    shown : the cycle that it follows linearly: the first, or the stable one to which it has come
-    left : the unstable cycle that it has departed from
+    shown : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
+    left : the unstable cycle from which the motion has departed
     """
 
     p: Parameters
@@ -234,7 +234,7 @@ class _OutcomeSearch:
             near = self._look(result.final_state)
 
     def _simulated(self, leg: float) -> Result:
-        """Go on for a time (s), or to the first separation; the stretch to be described is a leg of its own."""
+        """Simulate for a time (s), or to the first separation; the segment to be described is a leg of its own."""
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(self.time + leg, mark) for mark in marks if self.time < mark)
         record = Record(events=False)
@@ -264,7 +264,7 @@ class _OutcomeSearch:
         )
 
     def _depart(self, near: NearCycle) -> float:
-        """Follow the linear map away from an unstable cycle, as far as it may be; the time then, s."""
+        """Follow the linear map away from an unstable cycle, as far as it is valid; returns the time at its end, s."""
         begun = self.time + near.waited
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = departure(near, room, self.furthest)
@@ -274,7 +274,7 @@ class _OutcomeSearch:
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:
-        """The cycle that the motion follows linearly; once it departs from one, only a stable one."""
+        """The cycle that the motion follows linearly; after a departure only a stable one counts."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         if self.map is None or x is None or code != RETURNED:
             return None
@@ -288,14 +288,14 @@ class _OutcomeSearch:
 
 
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
-    """Whether the slider rests on the disc, for good, or comes to steady sliding; None if that is not shown."""
+    """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if neither is shown."""
     if shares(leg)[0] == 1 and never_pulls(p):
         return Outcome.AT_REST
     return Outcome.STEADY_SLIDING if nears_sliding(p, leg.final_state, tol) else None
 
 
 def growing(changes: Sequence[float]) -> bool:
-    """Whether changes have risen, over two or more: an instability, even if it is bounded later."""
+    """Whether two successive changes have risen above an earlier one: an instability, even if it is bounded later."""
     d = np.array(changes)
     if len(d) < 3:
         return False
@@ -305,15 +305,15 @@ def growing(changes: Sequence[float]) -> bool:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What a stretch was like
+# Description of segments
 
 
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
-    """Go on from a state (None: the static start) for a duration (s) and describe the last stretch of it.
+    """Simulate from a state (None: the static start) for a duration (s), and describe the last segment of it.
 
-    There is no stretch if the simulation did not get there.
+    The segment is None if the simulation ended early.
     """
     begin = 0.0 if state is None else state.time
     stop = begin + duration
@@ -330,10 +330,10 @@ def final_segment(
 def sweep(
     p: Parameters, name: str, values: Sequence[float], dwell: float, late: float, tol: float
 ) -> Iterator[tuple[tuple[int, int], Result, Segment | None]]:
-    """Carry the motion through values of a parameter, up and down again, for ``dwell`` s at each.
+    """Follow the motion through values of a parameter, up and down again, for ``dwell`` s at each.
 
-    Yields the way (0 up, 1 down) and the number of the value, the run there, and its last stretch of ``late`` s; where
-    a run could not go on there is no stretch, and the sweep ends.
+    Yields the direction (0 up, 1 down) and the index of the value, the run there, and its last segment of ``late`` s.
+    If a run ends early, the segment is None and the sweep ends.
     """
     state: State | None = None
     for place in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
@@ -345,13 +345,13 @@ def sweep(
 
 
 def segment_of(result: Result) -> Segment:
-    """Ranges over the one window of samples of a result, and shares of all its time."""
+    """The segment of a result: ranges over its single window of samples, and shares of its whole time."""
     P, u = result.samples[0]["P"], result.samples[0]["u"] - result.u_0
     return Segment(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
 
 
 def shares(result: Result) -> tuple[float, float, float, float]:
-    """Of the time of a result: spent in stick, slip and separation; and separations per second."""
+    """Shares of a result's time in stick, slip and separation, and separations per second."""
     statistics = result.statistics
     stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
     total = stick + slip + separation
