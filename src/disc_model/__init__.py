@@ -4,8 +4,8 @@
     >>> result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 60)
     >>> result.first_separation
 
-Names are imported when first used, so that `import disc_model` costs nothing and numba is loaded only to
-simulate.
+Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only for
+simulations.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Discs given by a table of modes, as finite elements and modal tests find them: from CSV files and back."""
+"""Discs given by a table of modes, from finite elements or modal tests: reading and writing of CSV files."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ COLUMNS = {
     "damping_ratio": ("damping_ratio", 1.0),
     "circles": ("circles", 1.0),
 }
-"""What each column of a table says of a `Disc`, and by what it is multiplied; besides, there may be shapes."""
+"""Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
 SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")
-"""The column of the shapes at a radius."""
+"""Name of the column with the shapes at a radius."""
 STATIC_COMPLIANCE = "static_compliance_m_per_N"
-"""What a commented line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
+"""Value that a comment line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
 LARGEST = 10_000_000
-"""Bytes of a table."""
+"""Largest size of a table in bytes."""
 
 
 def read_disc(path: str | os.PathLike[str]) -> Disc:
-    """A disc from a table of its modes.
+    """Read a disc from a table of its modes.
 
     Parameters
     ----------
-    path : CSV file; columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``,
-        ``amplitude_per_sqrt_kg``, and perhaps ``damping_ratio``, ``circles``, and shapes at some radii, such as
+    path : CSV file. Its columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``, and
+        ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, and shapes at radii, such as
         ``shape_at_0.08_m``. Lines that begin with # are comments; one may give ``static_compliance_m_per_N: ...``
 
     Returns
@@ -50,7 +50,7 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     Raises
     ------
     ParameterError
-        If the file cannot be read or is no such table; the message names the column or mode, its value and the rule.
+        If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
     """
     lines = _text(path).splitlines()
     values: dict[str, Any] = {"static_compliance": _static_compliance(lines, path)}
@@ -61,7 +61,7 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
 
 
 def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
-    """Names of the columns, and the cells of each mode; rows without text, as spreadsheets append them, are skipped."""
+    """Names of the columns, and the cells of each mode; empty rows, which spreadsheets append, are skipped."""
     try:
         table = [[cell.strip() for cell in row] for row in csv.reader(lines, skipinitialspace=True)]
     except csv.Error as error:
@@ -78,7 +78,7 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
 
 
 def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
-    """The disc of a table; what is wrong with a number is told of its column, mode and cell."""
+    """The disc of a table; a fault in a number names its column, mode and cell."""
     radii = {float(match[1]): at for at, name in enumerate(names) if (match := SHAPE.fullmatch(name))}
     places: dict[tuple[str, ...], int] = {}
     for at, (target, factor) in ((at, COLUMNS[name]) for at, name in enumerate(names) if name in COLUMNS):
@@ -99,7 +99,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
 
 
 def _number(cell: str, factor: float = 1.0) -> float | str:
-    """What is no number is left for `Disc` to refuse."""
+    """The number in a cell; other text is returned unchanged, and `Disc` refuses it."""
     try:
         return float(cell) * factor
     except ValueError:
@@ -115,7 +115,7 @@ def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str]
 
 
 def disc_table(p: Parameters) -> str:
-    """The modes of a case as a table that `read_disc` reads; their digits bring each number back as it was."""
+    """Write the modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
     from disc_model.flexibility import residual_flexibility
 
     modes, lines = mode_arrays(p), []
@@ -158,7 +158,7 @@ def _static_compliance(lines: list[str], path: object) -> float | None:
 
 
 def _column_faults(names: list[str]) -> list[Fault]:
-    """What is wrong with the names of the columns."""
+    """Faults of the names of the columns."""
     faults = []
     for name in names:
         if name not in COLUMNS and not SHAPE.fullmatch(name):

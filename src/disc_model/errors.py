@@ -1,4 +1,4 @@
-"""What was wrong, where, and what is right: exceptions, how faults are said, and how a computation ended."""
+"""Exceptions, the wording of faults in the input, and the statuses with which computations end."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from disc_model.renamed import renamed
 
 
 class DiscModelError(Exception):
-    """Base class of everything this package raises on purpose."""
+    """Base class of the exceptions of this package."""
 
 
 def script(main: Callable[..., None]) -> Callable[..., None]:
-    """Call the function of a script with the words of its command, unless the script is only imported.
+    """Call the main function of a script with the command's arguments, unless the script is only imported.
 
-    An error of this package ends the script with its message alone, no traceback.
+    An error of this package ends the script with its message and without a traceback.
     """
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
@@ -39,13 +39,13 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
 
 
 class Fault(str):
-    """What is wrong with one value: the text ``path=value: rule``, which knows its parts.
+    """A fault of one value: the text ``path=value: rule``, with its parts as attributes.
 
     Attributes
     ----------
-    path : names and indices that lead to the value; empty if it is the whole
-    value : as messages show it; "" if it is not shown
-    rule : that it breaks
+    path : names and indices that lead to the value; empty if the fault concerns the whole input
+    value : the value as messages show it; "" if it is not shown
+    rule : the rule that the value breaks
     """
 
     __slots__ = ("path", "rule", "value")
@@ -64,16 +64,16 @@ class Fault(str):
 
     @classmethod
     def of(cls, path: tuple[str, ...], value: Any, rule: str) -> Fault:
-        """A fault with its value shown."""
+        """A fault with the value in the form that messages show."""
         return cls(path, shown(value), rule)
 
     def inside(self, place: tuple[str, ...]) -> Fault:
-        """The same fault, of a part that lies at a place in the whole."""
+        """The same fault, with its path extended by the place of the part in the whole."""
         return Fault((*place, *self.path), self.value, self.rule)
 
     @property
     def in_file(self) -> str:
-        """As messages on files say it: ``path = value: rule``."""
+        """The fault as messages on files show it: ``path = value: rule``."""
         return f"{'.'.join(self.path) or 'study'}{f' = {self.value}' if self.value else ''}: {self.rule}"
 
 
@@ -83,7 +83,7 @@ class ParameterError(DiscModelError, ValueError):
     Attributes
     ----------
     faults : tuple of str
-        The single faults, in the order in which the message lists them.
+        The individual faults, in the order of the message.
     """
 
     def __init__(self, *faults: str) -> None:
@@ -95,13 +95,13 @@ class ParameterError(DiscModelError, ValueError):
 
 
 def refuse(faults: Collection[str]) -> None:
-    """Raise one `ParameterError` that lists faults, if there are any."""
+    """Raise one `ParameterError` that lists all faults, if there are any."""
     if faults:
         raise ParameterError(*faults)
 
 
 def broken(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of arguments: those among ``(holds, name, value, rule)`` that do not hold."""
+    """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold."""
     return [Fault((name,), shown(value), rule) for holds, name, value, rule in rules if not holds]
 
 
@@ -110,11 +110,11 @@ class ModeError(DiscModelError):
 
 
 class SimulationError(DiscModelError):
-    """A simulation that ended before its time. See the subclasses."""
+    """A simulation ended early; the subclass says why."""
 
 
 class PainleveParadox(SimulationError):
-    """The slip denominator 1 + m S2 + sgn(f) mu_k B/r_0 reached 0: no solution beyond, or two."""
+    """The slip denominator 1 + m S2 + sgn(f) mu_k B/r_0 reached 0, beyond which there is no solution, or two."""
 
 
 class StepLimit(SimulationError):
@@ -122,7 +122,7 @@ class StepLimit(SimulationError):
 
 
 class Stalled(SimulationError):
-    """Time no longer advances: switches follow each other without end."""
+    """Time no longer advances, because events accumulate (Zeno behaviour)."""
 
 
 class NonFinite(SimulationError):
@@ -130,23 +130,23 @@ class NonFinite(SimulationError):
 
 
 # ----------------------------------------------------------------------------------------------------
-# How faults are said, those of pydantic's among them
+# Wording of faults, including those that pydantic reports
 
 
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
-    """Pydantic's faults as this package says them.
+    """The faults of a pydantic error in this package's words.
 
     Parameters
     ----------
-    raw : what was validated
-    model : as what; an unknown name is told with those that its fields have, and the model's ``_word`` for a name, or
-        its ``_unknown`` for what is wrong with it
+    raw : the input that was validated
+    model : the model that validated it. The fault of an unknown name lists the names of its fields; the model's
+        ``_word`` stands for a name in messages, and its ``_unknown`` replaces the rule
     """
     for item in error.errors(include_url=False):
         path, kind, value = _path(item, raw), item["type"], item["input"]
         context = item.get("ctx", {})
         reason = context.get("error")
-        if isinstance(reason, ParameterError):  # of a `Checked` inside
+        if isinstance(reason, ParameterError):  # raised by a `Checked` inside
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
@@ -188,11 +188,11 @@ _RULES = _BOUNDS | {
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
     "string_type": "must be text",
 }
-"""What pydantic's kinds of fault break, in this package's words, filled in from what pydantic says of the fault."""
+"""Rules by pydantic's kind of fault, in this package's words; pydantic's context of the fault fills the braces."""
 
 
 def _shown_faulty(kind: str, value: Any) -> str:
-    """A value that breaks a rule; a mapping says nothing that its path does not."""
+    """The text of a value that breaks a rule; "" for a mapping, whose path says enough."""
     if isinstance(value, Mapping | BaseModel):
         return ""
     if kind not in _BOUNDS or isinstance(value, bool):  # pydantic counts False, which is no number here
@@ -204,7 +204,7 @@ def _shown_faulty(kind: str, value: Any) -> str:
 
 
 def shown(value: Any) -> str:
-    """A value as messages show it: short, and numbers as -1 whether they were written -1, -1.0 or "-1"."""
+    """The text of a value in messages: shortened, and a float without a final ".0", so that -1.0 reads as -1."""
     text = repr(value)
     if isinstance(value, float):
         return text.removesuffix(".0")
@@ -212,7 +212,7 @@ def shown(value: Any) -> str:
 
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
-    """What may have been meant, and the known names; of many names only the one that comes close, if one does."""
+    """Text with the most similar known name and the known names; with `all_of_them` false, only one of the two."""
     if new := renamed(name, known):
         return new
     folded = {field.lower(): field for field in known}
@@ -222,10 +222,10 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
 
 
 def _models_at(model: type[BaseModel], place: Sequence[Any]) -> list[type[BaseModel]]:
-    """The models that lie at a place inside a model.
+    """The models at a place inside a model.
 
-    Of a union's branches those whose tag is a part of the place, where it is one; other names of branches are passed
-    over.
+    A tag in the place selects the branches of a union that have this tag; other parts of the place that name no field
+    are skipped.
     """
     here = [model]
     for step in place:
@@ -238,7 +238,7 @@ def _models_at(model: type[BaseModel], place: Sequence[Any]) -> list[type[BaseMo
 
 
 def _tags(model: type[BaseModel]) -> set[Any]:
-    """What a model may be called as a branch of a union: its name, or the words that one of its fields is to be."""
+    """Tags of a model as a branch of a union: its name, and the literal values of its fields."""
     words = (
         get_args(field.annotation) for field in model.model_fields.values() if get_origin(field.annotation) is Literal
     )
@@ -246,14 +246,14 @@ def _tags(model: type[BaseModel]) -> set[Any]:
 
 
 def _models(annotation: Any) -> list[type[BaseModel]]:
-    """Models that a type mentions."""
+    """Models that occur in a type."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     return [model for part in get_args(annotation) for model in _models(part)]
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
-    """Where a fault lies in the input: pydantic's place also has names of a union's branches, which are not there."""
+    """Path of a fault in the input; pydantic's place also has names of a union's branches, which the input lacks."""
     place: tuple[Any, ...] = item["loc"]
     value, absent = item["input"], ()
     if item["type"] == "missing":
@@ -266,7 +266,7 @@ def _path(item: Any, raw: Any) -> tuple[str, ...]:
 
 
 def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Ways through the input along `place`, and where they end: a step leads on where there is such a key or index."""
+    """Paths through the input along `place`, and the values at their ends; steps without a key or index are skipped."""
     if not place:
         yield (), here
         return
@@ -279,15 +279,15 @@ def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...]
 
 
 # ----------------------------------------------------------------------------------------------------
-# Statuses: words that carry their sentence
+# Statuses: words with advice
 
 
 class StatusBase(enum.StrEnum):
-    """Base of all statuses.  A member is given as ``NAME = word, advice``; its value is the word.
+    """Base of all statuses.  A member is defined as ``NAME = word, advice``; its value is the word.
 
     Attributes
     ----------
-    advice : what the outcome means and what to change, in a sentence
+    advice : a sentence that says what the status means and what to change
     """
 
     advice: str
@@ -322,5 +322,5 @@ class Status(StatusBase):
 
     @property
     def complete(self) -> bool:
-        """Whether the simulation did what was asked."""
+        """Whether the simulation reached ``t_end`` or the event at which it had to stop."""
         return self in (Status.OK, Status.STOPPED)

@@ -1,9 +1,9 @@
-"""Modes of an axisymmetric solid by finite elements of its section: a disc with a hat, from its drawing to a `Disc`.
+"""Modes of an axisymmetric solid by finite elements of its section: from the drawing of a disc with a hat to a `Disc`.
 
 With u_r cos(l theta), u_z cos(l theta) and u_theta sin(l theta) the elasticity of a solid of revolution separates into
 one problem on the section for each number l of nodal diameters.  It is solved with quadratic quadrilaterals of
 scikit-fem (extra ``fe``).  The shapes are mass-normalised over the whole solid, so that the axial displacement under
-the slider is the amplitude that a `Disc` asks for.
+the slider is the amplitude that a `Disc` requires.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 SEEN = 1e-6
-"""Modes whose amplitude under the slider is a smaller share of the largest move in the plane of the disc alone."""
+"""Least amplitude under the slider, relative to the largest: modes below it move in the plane of the disc alone."""
 SAME_PLACE = 1e-9
 """m; the slider must run through a node of the mesh."""
 MOST_ELEMENTS = 100_000
-"""In the rectangle around a section; more are a slip of units."""
+"""Largest number of elements in the rectangle around a section; more indicate a mistake in units."""
 MOST_MODES = 64
-"""With as many nodal diameters; more are a slip of units, and would take minutes to find."""
+"""Largest number of modes with equal nodal diameters; more indicate a mistake in units, and would take minutes."""
 
 
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
-    """A mesh of a section that is a union of rectangles.
+    """Make a mesh of a section that is a union of rectangles.
 
     Parameters
     ----------
-    rectangles : (r from, r to, z from, z to) of each, m
-    size : m, edges of the elements at most
+    rectangles : (r from, r to, z from, z to) of each rectangle, m
+    size : m, largest edge of an element
 
     Returns
     -------
@@ -86,33 +86,34 @@ def disc_of_section(
     highest_Hz: float,
     damping_ratio: float = 0.0,
 ) -> Disc:
-    """The modes of a solid of revolution that move under the slider.
+    """Find the modes of a solid of revolution that move under the slider.
 
     Parameters
     ----------
-    mesh : of the section, coordinates (r, z) in m; see `section`
+    mesh : mesh of the section, coordinates (r, z) in m; see `section`
     E, nu, rho : Pa, 1 and kg/m^3
-    clamped : of coordinates (r, z) of shape (2, k), the middles of the edges around the section, which edges are held
-    slider : (r, z) under it, m; a node of the mesh
+    clamped : function that says which edges around the section are held, from the coordinates (r, z) of their middles,
+        shape (2, k)
+    slider : (r, z) of the point under the slider, m; a node of the mesh
     highest_Hz : modes up to this frequency are found
-    damping_ratio : of every mode
+    damping_ratio : damping ratio of every mode
 
     Returns
     -------
     Disc
-        Modes ordered by frequency; ``circles`` counts those of as many nodal diameters. Shapes are those at the height
-        of the slider.
+        Modes ordered by frequency; ``circles`` numbers the modes of equal nodal diameters. Shapes are those at the
+        height of the slider.
 
     Raises
     ------
     ParameterError
-        If a number breaks its rule, the section is in pieces or not held, the slider is at no node, or no mode moves
-        under it.
+        If a number breaks its rule, the section is in pieces or not held, the slider is not at a node, or no mode
+        moves under it.
 
     Warns
     -----
     ImplausibleValue
-        If E and rho are those of no solid.
+        If no solid has such values of E and rho.
     """
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
@@ -159,7 +160,7 @@ def disc_of_section(
 
 
 def _pieces(mesh: MeshQuad) -> int:
-    """Number of parts of a mesh that share no node."""
+    """Number of parts of a mesh that have no node in common."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -171,14 +172,14 @@ def _pieces(mesh: MeshQuad) -> int:
 def _harmonic(
     basis: Any, l: int, material: tuple[float, float, float], held: Any, places: NDArray[np.intp], highest: float
 ) -> tuple[list[float], list[list[float]]]:
-    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and how some unknowns move in each.
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of some unknowns.
 
-    The first of these moves upwards.
+    The sign of a mode makes the first of these unknowns positive.
     """
     from scipy.sparse.linalg import eigsh
 
     stiffness, mass = _matrices(basis, l, *material)
-    if l == 0:  # what turns about the axis moves nothing else
+    if l == 0:  # rotation about the axis is uncoupled from the other displacements
         held = np.union1d(held, basis.split_indices()[2])
     free, count = basis.complement_dofs(held), 4
     K, M = stiffness[free][:, free].tocsc(), mass[free][:, free].tocsc()
@@ -201,7 +202,7 @@ def _harmonic(
 
 
 def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any, Any]:
-    """Stiffness and mass of the solid for one harmonic."""
+    """Stiffness and mass matrices of the solid for one harmonic."""
     form = _skfem().BilinearForm
     lame, shear = E * nu / ((1 + nu) * (1 - 2 * nu)), E / 2 / (1 + nu)
     angle = math.pi if l else 2 * math.pi  # of cos^2(l theta)

@@ -2,10 +2,10 @@
 
 Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over all its modes.  That
 is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in
-closed form here.  What the modes kept do not give is the residual flexibility: ``contact_compliance="residual"`` puts
-it back.
+closed form here.  The difference from the sum over the modes kept is the residual flexibility, which
+``contact_compliance="residual"`` places in the contact.
 
-For l >= 2 a harmonic is the one of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), and what the two edges add: four
+For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of the two edges: four
 functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
 """
 
@@ -24,22 +24,22 @@ from disc_model.plate import mode_arrays
 Array = NDArray[np.float64]
 
 HIGHEST_HARMONIC = 4096
-"""Harmonics summed one by one; those beyond are as in the unbounded plate unless the slider runs on the very edge."""
+"""Highest harmonic of the sum; beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
 
 ROUNDING = 1e-13
-"""How good the harmonics' closed forms are, relative: their functions are alike at large l."""
+"""Relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l."""
 
 MODAL_SUM = (60, 20)
-"""Diameters and circles of the modal sum that stands for all modes where the modes are ``as_published``."""
+"""Diameters and circles of the modal sum that represents all modes if the modes are ``as_published``."""
 
 
 @dataclass(frozen=True)
 class Flexibility:
     """Static flexibility of the disc's point under the slider, m/N.
 
-    total : of all modes
-    kept : of the modes of the case
-    remainder : how far ``total`` may be off: a bound for ``orthonormal``, for ``as_published`` an estimate
+    total : flexibility of all modes
+    kept : flexibility of the modes of the case
+    remainder : error of ``total``: a bound for ``orthonormal``, an estimate for ``as_published``
     """
 
     total: float
@@ -48,21 +48,21 @@ class Flexibility:
 
     @property
     def residual(self) -> float:
-        """Of the modes left out, total - kept, m/N."""
+        """Flexibility of the modes left out, total - kept, m/N."""
         return self.total - self.kept
 
 
 def residual_flexibility(p: Parameters) -> Flexibility:
-    """Static flexibility of all modes and of those kept; what is left is ``contact_compliance="residual"``.
+    """Static flexibility of all modes and of those kept; their difference is ``contact_compliance="residual"``.
 
-    For ``orthonormal`` modes all of them together are the static deflection of the plate under a point load: exact.
-    Modes ``as_published`` are no expansion of a load, so that only their sum up to `MODAL_SUM` can be taken; its
-    remainder is a third of what the upper half of the sum gives, because terms fall at least as the third power.
+    For ``orthonormal`` modes the sum over all modes is exactly the static deflection of the plate under a point load.
+    Modes ``as_published`` do not expand a load, so that only their sum up to `MODAL_SUM` is available. Its remainder
+    is a third of the sum's upper half, because terms decrease at least as the third power.
 
     Raises
     ------
     ParameterError
-        If `p` is no `Parameters`.
+        If `p` is not a `Parameters`.
     ModeError
         If the modes cannot be computed.
     """
@@ -88,7 +88,7 @@ def contact_give(p: Parameters) -> float:
     Raises
     ------
     ParameterError
-        If the residual flexibility is requested and the modes of the case leave nothing out of the sum for it.
+        If the residual flexibility is requested, but the modes of the case leave no mode out.
     """
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
@@ -128,7 +128,7 @@ def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float
 
 @lru_cache(maxsize=256)
 def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
-    """Deflection under a point load in units of b^2 / D, and a bound on what is neglected."""
+    """Deflection under a point load in units of b^2 / D, and a bound on its error."""
     last = HIGHEST_HARMONIC
     harmonics = harmonic_flexibility(np.arange(last + 1), inner, x, nu)
     # sum of 1/(l (l^2 - 1)) over l > L is 1/(2 L (L + 1))
@@ -145,7 +145,7 @@ def _moment(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
 
 
 def _shear(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
-    """Kirchhoff shear at r = 1, likewise."""
+    """Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
     square = np.square(l)
     return w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
 
@@ -156,7 +156,7 @@ def _power(n: Array, r: float) -> Array:
 
 
 def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
-    """Harmonics l >= 2 (n,): the unbounded plate's, and what the edges add."""
+    """Harmonics l >= 2 (n,): those of the unbounded plate plus the effect of the edges."""
     n = l.astype(float)
     powers = np.stack([n, n + 2, -n, 2 - n])  # (4, n)
     # r^n over its value at the edge where it is largest: 1 for the first two, inner for the others

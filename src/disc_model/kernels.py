@@ -1,7 +1,7 @@
-"""Kinds of compiled kernels: which of them cases need, and how each is compiled before jobs need it.
+"""Kinds of compiled kernels: the kinds that cases need, and their compilation ahead of the jobs.
 
-A kind is what the compiler must know: what is computed, the law of contact, and whether one block of lanes holds the
-modes.  Its name is that of a job, such as ``floquet-rigid_normal-wide``.
+A kind is determined by the task, the law of contact, and whether one block of lanes holds the modes.  Its name is that
+of a job, such as ``floquet-rigid_normal-wide``.
 """
 
 from __future__ import annotations
@@ -16,35 +16,35 @@ from disc_model.parameters import AUTO, Disc, Parameters
 from disc_model.simulation.case import CaseSpec
 
 TASKS = ("simulate", "floquet", "ramp")
-"""A motion; a stick-slip cycle and its multipliers, for which the motion is computed as well; a motion on a ramp."""
+"""Motion; stick-slip cycle with multipliers, which needs the kernels of the motion as well; motion on a ramp."""
 _COMPLIANCE = 2.7e-7
-"""m/N; near the residual one, which takes two seconds to find."""
+"""m/N; close to the residual flexibility, whose computation takes two seconds."""
 LAWS: dict[str, dict[str, Any]] = {
     "rigid_vertical": {},
     "rigid_normal": {"contact_force": "normal"},
     "compliant_vertical": {"contact_compliance": _COMPLIANCE},
     "compliant_normal": {"contact_compliance": _COMPLIANCE, "contact_force": "normal"},
 }
-"""Laws of contact, the paper's first, each with what makes a case one of it."""
+"""Laws of contact, beginning with the paper's, each with the parameters that select it."""
 WIDTHS: dict[str, dict[str, Any]] = {"": {}, "-wide": {"n_diameters": 5}}
-"""Whether the pairs of modes fill more than one block of lanes."""
+"""Widths, with parameters that select them: the pairs of modes fill one block of lanes, or more than one."""
 PAIRS_OF_A_BLOCK = 4
 KINDS = tuple(f"{task}-{law}{width}" for width, law, task in product(WIDTHS, LAWS, TASKS))
 USUAL = tuple(kind for kind in KINDS if ("wide" in kind) + ("ramp" in kind) + ("rigid_vertical" not in kind) < 2)
-"""Those that differ from the paper's in one way at most: they are measured, and shipped with a wheel."""
+"""Kinds that differ from the paper's in at most one respect: they are measured, and shipped with a wheel."""
 DECIDING = frozenset({"contact_compliance", "contact_force", "n_diameters", "n_circles", "disc"})
-"""Parameters that decide the kind of a case."""
+"""Parameters that determine the kind of a case."""
 _DEFAULTS = {name: Parameters.model_fields[name].default for name in DECIDING}
 
 
 def kinds_of(cases: Iterable[Mapping[str, Any]], tasks: Iterable[str]) -> list[str]:
-    """The kinds that tasks need of cases, given by values of their parameters, in the order of `KINDS`."""
+    """The kinds that tasks need for cases, given by parameter values, in the order of `KINDS`."""
     found = {f"{task}-{one}" for case in cases for one, task in product(_models(case), tasks)}
     return [kind for kind in KINDS if kind in found]
 
 
 def kinds_of_case(spec: CaseSpec) -> list[str]:
-    """The kinds that a named case needs, with the motion that prepares it and the choice of its modes."""
+    """The kinds that a named case needs, including its prerun and the choice of its modes."""
     values: dict[str, Any] = spec.parameters.model_dump()
     tasks = ["simulate"] + ["ramp"] * bool(spec.ramps)
     if spec.modes:
@@ -57,7 +57,7 @@ def kinds_of_case(spec: CaseSpec) -> list[str]:
 
 
 def _models(values: Mapping[str, Any]) -> Iterator[str]:
-    """Law and width of a case; both widths where its modes are yet to be chosen."""
+    """Law and width of a case; both widths if its modes are still to be chosen."""
     known = {name: values.get(name, default) for name, default in _DEFAULTS.items()}
     law = f"{'compliant' if known['contact_compliance'] else 'rigid'}_{known['contact_force']}"
     disc, highest = known["disc"], known["n_diameters"]
@@ -78,8 +78,8 @@ def example(kind: str) -> Parameters:
 
 
 def compile_kernels(kind: str) -> float:
-    """Have the kernels of a kind compiled, so that jobs find them in the cache; s that it took."""
-    # not above: a study is read without the engine
+    """Compile the kernels of a kind, so that jobs find them in the cache; returns the time taken, s."""
+    # imported here, so that a study can be read without the engine
     from disc_model.simulation.api import simulate
     from disc_model.simulation.ramps import Ramp
     from disc_model.stability.cycle import floquet

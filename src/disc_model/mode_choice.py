@@ -1,8 +1,8 @@
-"""How many modes a case needs for what is asked of it: `choose_modes`.
+"""Choice of the number of modes that a case needs for a given quantity: `choose_modes`.
 
-By ``frequencies`` no motion is needed (`disc_model.truncation`).  By a quantity of the motion a model is taken where
-two larger ones agree with it; where none does, nothing is chosen, and the error says how far apart the largest are.
-A table of modes is all that there is of its disc, and is taken whole where its first modes do not do.
+The choice by ``frequencies`` needs no simulation (`disc_model.truncation`).  The choice by a quantity of the motion
+takes the first model with which two larger ones agree. Without agreement there is no choice, and the error gives the
+difference of the largest models.  For a disc given by a table, the last candidate is the whole table.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
-"""Diameters and circles of what may be chosen by a quantity of the motion: the last is compared with 99 modes."""
+"""Diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes."""
 GIVEN_UP = (4, 0)
-"""Where neither this candidate nor a smaller one, nor what they are compared with, has the quantity, no larger model is
-tried: up to 34 modes."""
+"""The search ends here if no model so far, of up to 34 modes, has the quantity: neither the candidates nor the models
+with which they are compared."""
 HORIZON = 600.0
-"""s in which the first separation is waited for."""
+"""s, simulated at most until the first separation."""
 LATE = (20.0, 10.0)
-"""s from the first separation to the stretch in which separations are counted, and its length."""
+"""s, time from the first separation to the interval in which separations are counted, and length of that interval."""
 
 Size = tuple[int, int]
 """Highest diameters and circles of a plate."""
@@ -53,31 +53,31 @@ def choose_modes(
     band: float = BAND,
     rich: tuple[int, int] = RICH,
 ) -> ModeChoice:
-    """Find the model with the fewest real modes that has a quantity right to ``tolerance``.
+    """Find the model with the fewest real modes whose error of a quantity is within ``tolerance``.
 
         >>> disc_model.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
         3
 
     Parameters
     ----------
-    case : `Parameters`, or values to make them of; their n_diameters and n_circles are ignored.  With
+    case : `Parameters`, or a mapping of their values; n_diameters and n_circles are ignored.  With
         ``contact_compliance="residual"`` each model has the flexibility of the modes that it leaves out
     tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for the growth rate and the first
         separation, 0.1 for the rate of separations
-    quantity : "frequencies", the coupled ones of disc and slider at rest in the band; "growth", the growth rate of the
-        stick-slip cycle; "first_separation", its time, if there is one within 600 s; "separation_rate", separations
-        per second from 20 to 30 s after the first one.  All but the first simulate
-    band : the frequencies asked for reach up to ``band`` times the lowest one of the disc
-    rich : highest diameters and circles of the model taken as right, and the largest candidate, for frequencies
+    quantity : "frequencies", the coupled frequencies of disc and slider at rest in the band; "growth", the growth rate
+        of the stick-slip cycle; "first_separation", its time within 600 s; "separation_rate", separations per second
+        from 20 to 30 s after the first one.  All but the first need simulations
+    band : frequencies up to ``band`` times the lowest one of the disc are compared
+    rich : for frequencies, highest diameters and circles of the reference model and of the largest candidate
 
     Raises
     ------
     ParameterError
-        If a value of the case breaks a rule, the quantity is unknown, the tolerance is below 1e-4, the band not above
-        0, or ``rich`` no pair of whole numbers.
+        If a value of the case breaks a rule, the quantity is unknown, the tolerance is below 1e-4, the band is not
+        above 0, or ``rich`` is not a pair of whole numbers.
     DiscModelError
-        If no model meets the tolerance: by a quantity of the motion, if none agrees with two larger ones, or if there
-        is no such quantity, as a growth rate where there is no cycle, or a first separation of a motion that is quiet.
+        If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
+        growth rate needs a cycle, and a first separation a motion that separates.
     """
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", CHOSEN_BY.get(quantity, 1.0) if tolerance is None else tolerance)
@@ -97,7 +97,7 @@ def choose_modes(
 
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
-    """The first candidate with which larger models agree; raises `DiscModelError` where there is none."""
+    """The first candidate with which larger models agree; raises `DiscModelError` if there is none."""
     values: dict[tuple[int, ...], float] = {}
     change = math.inf
     for size, *others in _compared(p):
@@ -120,9 +120,9 @@ def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
 
 
 def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
-    """Candidates, each with the larger models that it is compared with.
+    """Candidates, each with the larger models for comparison.
 
-    The first modes of a table are compared with twice as many and with all; if need be all are taken.
+    The first modes of a table are compared with twice as many and with all; the last candidate is the whole table.
     """
     if p.disc is None:
         yield from ((size, *larger(size)) for size in CANDIDATES)
@@ -141,13 +141,13 @@ def _model(p: Parameters, size: tuple[int, ...]) -> Parameters:
 
 
 def larger(size: Size) -> tuple[Size, Size]:
-    """The two models that a candidate is compared with."""
+    """The two larger models for comparison with a candidate."""
     diameters, circles = size
     return (2 * diameters, circles), (2 * diameters, circles + 1)
 
 
 def _change(mine: float, other: float) -> float:
-    """Relative to the larger model; infinite where one of them lacks the quantity: that both do is no agreement."""
+    """Change relative to the larger model; infinite if the quantity is missing in one model or in both."""
     if mine == other:
         return 0.0
     return abs(mine / other - 1.0) if math.isfinite(mine) and math.isfinite(other) and other else math.inf
@@ -163,7 +163,7 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Quantities of the motion.  What simulates is imported here: most who read parameters do not need it.
+# Quantities of the motion.  Simulation is imported inside the functions, because most importers do not need it.
 
 
 def growth(p: Parameters) -> float:
@@ -190,7 +190,7 @@ def separation_rate(p: Parameters) -> float:
 
 
 def _run(p: Parameters, t_end: float, **how: Any) -> Result:
-    """A simulation that has to come to its end, of which no events are kept."""
+    """A complete simulation without a record of events."""
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Record
 

@@ -1,4 +1,4 @@
-"""The model's parameters, in SI units, validated; and what all schemas stand on: kinds of numbers, strict bases."""
+"""The validated parameters of the model, in SI units; and the basis of all schemas: kinds of numbers, strict bases."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ else:
 TOLERANCES = (1e-15, 1e-2)
 """Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
 CYCLE_TOLERANCES = (1e-14, 1e-6)
-"""Those of the search for a cycle: relative residual of the return map."""
+"""Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
 
 
 @dataclass(frozen=True)
 class Unit:
-    """Marks the type of a number, or of something made of numbers, with the SI unit that they are in."""
+    """Marks the type of a number, or of a structure of numbers, with its SI unit."""
 
     name: str
 
@@ -46,7 +46,7 @@ class Unit:
 
 
 class Unfit(str):
-    """A text with a unit that cannot be turned into another one."""
+    """A text with a unit that cannot be converted to the requested one."""
 
     unit: str
 
@@ -54,21 +54,21 @@ class Unfit(str):
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
-"""A product of units to small powers: more could take any time to work out."""
+"""A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
 _ANGLES = ("rad", "deg", "rev", "turn", "rpm", "rps", "cycle", "°")
 
 
 @functools.lru_cache(maxsize=1)
 def _units() -> Any:
-    import pint  # takes a second, and few need it
+    import pint  # the import takes a second, and few callers need it
 
     return pint.UnitRegistry()
 
 
 def in_si(value: Any, unit: str) -> Any:
-    """A value, or all within it, in a unit: ``"150 GPa"`` is 1.5e11 where Pa is requested; what has no unit stays.
+    """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
 
-    To 15 digits, so that another spelling of a decimal number is the same number.
+    Results have 15 digits, so that equal decimal numbers in different units are equal.
     """
     if isinstance(value, list | tuple):
         return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
@@ -84,7 +84,7 @@ def in_si(value: Any, unit: str) -> Any:
             raise ValueError("Hz may mean turns or radians")
         converted = _units().Quantity(float(found[1]), found[2].replace("^", "**")).to("" if unit == "1" else unit)
         return float(f"{converted.magnitude:.15g}")
-    except Exception:  # pint's own, and those of Python's tokenizer, which share no base
+    except Exception:  # exceptions of pint and of Python's tokenizer, which have no common base
         unfit = Unfit(value)
         unfit.unit = unit
         return unfit
@@ -99,10 +99,10 @@ def _is_float(text: str) -> bool:
 
 
 def number(value: Any) -> Any:
-    """Turn what stands for a number into a float; leave the rest for pydantic to refuse.
+    """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else.
 
-    Strings are accepted because YAML reads ``1e-3`` as one. A bool is no number here, although Python says
-    so.
+    Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
+    treats it so.
     """
     if isinstance(value, Unfit):
         kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
@@ -119,7 +119,7 @@ def number(value: Any) -> Any:
 
 
 def whole(value: Any) -> Any:
-    """Like `number`, for counts: 4, 4.0 and "4" are the same, 4.5 is refused."""
+    """Convert a count as `number` does: 4, 4.0 and "4" are the same, 4.5 is refused."""
     if is_whole(value):
         return int(value)
     found = number(value)
@@ -129,13 +129,13 @@ def whole(value: Any) -> Any:
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number already, within the range of floats, and not what `number` would make one of."""
-    # the usual type first: to ask for the abstract one takes several times as long
+    """Whether a value is a number within the range of floats; text that `number` would convert is not."""
+    # the usual type first: the test for the abstract one takes several times as long
     if isinstance(value, float):
         return True
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return False
-    # what is beyond that range compares as less than infinity
+    # integers beyond the range of floats compare as less than infinity
     try:
         return math.isfinite(float(value)) or not -math.inf < value < math.inf  # type: ignore[operator]
     except OverflowError:
@@ -143,17 +143,17 @@ def is_number(value: object) -> bool:
 
 
 def is_whole(value: object) -> TypeGuard[int]:
-    """Whether a value is a whole number by its type, Python's or numpy's; a bool is none."""
+    """Whether a value is a whole number by its type, Python's or numpy's; a bool is not."""
     return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 def limits_rule(limits: tuple[float, float]) -> str:
-    """What a number within limits, such as `TOLERANCES`, has to be."""
+    """Text of the rule for a number within limits, such as `TOLERANCES`."""
     return f"must be within {limits[0]:g} and {limits[1]:g}"
 
 
 def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
-    """What is wrong with an argument that must be a number within limits."""
+    """Faults of an argument that must be a number within limits."""
     good = is_number(value) and limits[0] <= value <= limits[1]
     return [] if good else [Fault((name,), shown(value), limits_rule(limits))]
 
@@ -168,7 +168,7 @@ def _within(limits: tuple[float, float]) -> AfterValidator:
 
 
 def _drawable(text: str) -> str:
-    """Refuse formulas that matplotlib cannot set: it says so after everything was computed."""
+    """Refuse formulas that matplotlib cannot typeset, because it would report them only after all computations."""
     if "$" in text and find_spec("matplotlib"):
         from matplotlib.mathtext import MathTextParser
 
@@ -195,7 +195,7 @@ CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]
 
 
 def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
-    """Names that are no text, at any depth: pydantic makes keywords of those inside another model, a `TypeError`."""
+    """Faults of names that are not text, at any depth; in a nested model pydantic would raise a `TypeError`."""
     if isinstance(data, dict):
         for name, value in data.items():
             if not isinstance(name, str):
@@ -207,7 +207,7 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
 
 
 class Strict(BaseModel):
-    """What a file says: immutable, unknown keys refused, numbers with units in SI."""
+    """Base of models for files: immutable, with unknown keys refused, and numbers with units converted to SI."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -218,7 +218,7 @@ class Strict(BaseModel):
 
 
 def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
-    """A mapping with `in_si` of each value whose name has a unit."""
+    """The mapping with `in_si` applied to each value whose name has a unit."""
     if not isinstance(data, dict):
         return data
     said = [name for name, value in data.items() if isinstance(value, str | list | tuple | dict) and name in units]
@@ -227,13 +227,13 @@ def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
 
 @functools.cache
 def _units_of(model: type[BaseModel]) -> dict[str, str]:
-    """SI units of the fields that have one."""
+    """SI units of the fields of a model, by name, for fields with a unit."""
     found = {name: _unit_of(field) for name, field in model.model_fields.items()}
     return {name: unit for name, unit in found.items() if unit}
 
 
 def _unit_of(field: FieldInfo) -> str:
-    """Of a field, by what is said of it or by a mark of its type."""
+    """Unit of a field, from its schema or from a `Unit` in its type; "" if it has none."""
     said = field.json_schema_extra
     if isinstance(said, dict) and "unit" in said:
         return str(said["unit"])
@@ -247,14 +247,14 @@ def _marks(annotation: Any) -> Iterator[Any]:
 
 
 class _OwnNames(ModelMetaclass):
-    """Of classes whose `help` and completion show what they add to pydantic's hundred names."""
+    """Metaclass of classes whose `help` and completion show their own names, without pydantic's hundred."""
 
     def __dir__(cls) -> list[str]:
         return sorted({name for name in super().__dir__() if not name.startswith("_")} - {*dir(BaseModel)})
 
 
 class Checked(Strict, metaclass=_OwnNames):
-    """What a caller says: as `Strict`, but its faults come as one `ParameterError`, whichever way it is made."""
+    """Base of models for callers: like `Strict`, but every way to make one raises a single `ParameterError`."""
 
     _word: ClassVar[str] = ""
 
@@ -292,12 +292,12 @@ class Checked(Strict, metaclass=_OwnNames):
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        """Rules that pydantic does not check, for `data` as it was given."""
+        """Faults by rules that pydantic does not check, for `data` as given."""
         return []
 
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
-        """From a mapping, with the same errors as the constructor."""
+        """Make the model from a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
             if unnamed := list(faults_of_names(obj)):
                 raise ParameterError(*unnamed)
@@ -308,7 +308,7 @@ class Checked(Strict, metaclass=_OwnNames):
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """From JSON text, with the same errors as the constructor."""
+        """Make the model from JSON text, with the same errors as the constructor."""
         try:
             values = json.loads(json_data)
         except (ValueError, TypeError, RecursionError) as error:
@@ -316,7 +316,7 @@ class Checked(Strict, metaclass=_OwnNames):
         return cls.model_validate(values)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """A copy; unlike pydantic's, what `update` changes is validated."""
+        """A copy; unlike in pydantic, the changes by `update` are validated."""
         return self.replace(**(update or {}))
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -359,44 +359,44 @@ def canonical_json(value: Any) -> str:
 # Parameters of a case
 
 AUTO = "auto"
-"""What a file gives as ``n_diameters`` to have the modes chosen, by `disc_model.truncation`."""
+"""Value of ``n_diameters`` in a file for which `disc_model.truncation` chooses the modes."""
 CHOOSING = ("truncation_quantity", "truncation_tolerance")
-"""What files and command lines may say of that choice."""
+"""Keys of files and command lines that control this choice."""
 RESIDUAL = "residual"
-"""As ``contact_compliance``: the static flexibility of the modes left out."""
+"""Value of ``contact_compliance`` that stands for the static flexibility of the modes left out."""
 
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
-"""Parameters that rules relate to each other."""
+"""Parameters in rules that relate several parameters."""
 
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
-"""Parameters of the plate, which mean nothing for a disc that is given by its modes."""
+"""Parameters of the plate, which have no meaning for a disc that is given by its modes."""
 RATIOS = {
     f"{one}_over_{other}": (one, other)
     for one, other in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
 }
-"""What a grid may vary in the place of a parameter: its ratio to another one."""
+"""Ratios of two parameters, which a grid may vary instead of the first one."""
 MOST_MODES = 1000
-"""Modes in the table of a disc."""
+"""Largest number of modes in the table of a disc."""
 FREQUENCIES = (1e-3, 1e7)
-"""rad/s; above, a cycle would take minutes to compute."""
+"""Limits of natural frequencies, rad/s; above them a cycle would take minutes to compute."""
 AMPLITUDES = (1e-6, 1e6)
-"""kg^-1/2, of the mode that moves most: it has between a picogram and a million tons."""
+"""Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
 SPLIT = 0.05
-"""Modes of as many nodal diameters whose frequencies are closer than this share are the halves of one pair."""
+"""Modes with equal nodal diameters whose frequencies differ by less than this share are the halves of one pair."""
 
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc")
-"""Parameters that came later: left out of the canonical form at their defaults, so that old hashes hold."""
+"""Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
 def _diameters(value: Any) -> Any:
-    """Refuse a word that only files and command lines understand, and say who does."""
+    """Refuse "auto", which only files and command lines understand, and name the function to use instead."""
     if value == AUTO:
         raise ValueError("must be a whole number; disc_model.choose_modes finds one")
     return value
 
 
 def _give(value: Any) -> Any:
-    """A compliance in m/N, or the word for the one that the modes left out have."""
+    """A compliance in m/N, or `RESIDUAL`."""
     if value == RESIDUAL:
         return value
     try:
@@ -409,14 +409,14 @@ def _give(value: Any) -> Any:
 
 
 def _disc(value: Any) -> Any:
-    """Refuse the name of a file, which only study files and the command line read."""
+    """Refuse the name of a file, which only study files and the command line accept."""
     if isinstance(value, str):
         raise ValueError("must be a Disc: disc_model.read_disc reads one from a table of modes")
     return value
 
 
 def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
-    """What says something of the plate beside a disc, and two dampings of one plate."""
+    """Faults of parameters of the plate beside a disc, and of two dampings of one plate."""
 
     def default(name: str) -> Any:
         return model.model_fields[name].default
@@ -432,7 +432,7 @@ def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
-    """A field with a unit, "" for a choice; pydantic's rule keywords (`ge`, `gt`, `lt`, `le`) pass through."""
+    """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`, `lt` and `le`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
 
 
@@ -477,7 +477,7 @@ class Disc(Checked):
     @model_validator(mode="before")
     @classmethod
     def _complete(cls, data: Any) -> Any:
-        """Fill in columns that may be left out."""
+        """Fill in the optional columns."""
         if not isinstance(data, Mapping):
             return data
         diameters, omega = data.get("diameters"), data.get("omega")
@@ -519,7 +519,7 @@ class Disc(Checked):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """What can be uncertain, by names such as omega_2_0 and damping_ratio_2_0: two nodal diameters, no circle."""
+        """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal diameters, no circle."""
         modes = list(zip(self.diameters, self.circles, strict=True))
         return {
             f"{column}_{l}_{c}": value
@@ -535,14 +535,14 @@ class Disc(Checked):
         )
 
     def first(self, count: int) -> Disc:
-        """The disc with the first modes of its table alone."""
+        """The disc with only the first `count` modes of its table."""
         return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
 
 
 def _shape_faults(radii: Any, shapes: Any) -> list[str]:
-    """What is wrong with shapes as a whole."""
+    """Faults of the shapes as a whole."""
     if not all(isinstance(column, tuple | list) for column in (radii, shapes, *shapes)):
-        return []  # told by their types
+        return []  # the types of the fields report it
     faults: list[str] = []
     if any(len(shape) != len(radii) for shape in shapes) or bool(radii) != bool(shapes) or len(radii) == 1:
         rule = "must be two or more, with a value of the shape of every mode at each"
@@ -553,7 +553,7 @@ def _shape_faults(radii: Any, shapes: Any) -> list[str]:
 
 
 def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> list[str]:
-    """Modes that are given twice: as often as not the halves of a pair, which an axisymmetric disc has once."""
+    """Faults of modes that are given twice, often as the halves of a pair, which must be given once."""
     faults: list[str] = []
     for j in range(len(diameters)):
         for i in range(j):
@@ -662,7 +662,7 @@ class Parameters(Checked):
         return cross_faults(cls, data) + _disc_faults(cls, data)
 
     def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed; of a disc given by its modes also its `Disc.numbers`."""
+        """A validated copy with some values changed; for a disc given by its modes also its `Disc.numbers`."""
         if self.disc is not None and "disc" not in changes:
             numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}
             changes |= {"disc": self.disc.with_numbers(**numbers)} if numbers else {}
@@ -675,14 +675,14 @@ class Parameters(Checked):
 
     @property
     def canonical(self) -> dict[str, Any]:
-        """The values by which a case is known: all, but those the paper's model has not only where they are set."""
+        """The values that identify a case: all, except defaults of parameters that the paper's model does not have."""
         fields = type(self).model_fields
         values = self.model_dump()
         return {name: x for name, x in values.items() if name not in _LATER or x != fields[name].default}
 
     @property
     def canonical_json(self) -> str:
-        """The values as JSON with sorted keys: equal for equal parameters, however they were written."""
+        """The values as JSON with sorted keys, equal for equal parameters however they were written."""
         return canonical_json(self.canonical)
 
     @property
@@ -692,12 +692,12 @@ class Parameters(Checked):
 
     @classmethod
     def unit(cls, name: str) -> str:
-        """SI unit of a parameter; "1" if it has no dimension, "" if it is a choice, or no parameter."""
+        """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown name."""
         return _units_of(cls).get(name, "")
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of a case, and the parameters that `RATIOS` among them stand for."""
+    """Values of a case, with the parameters that follow from the `RATIOS` among them."""
     found = dict(values)
     for ratio in values.keys() & RATIOS.keys():
         one, other = RATIOS[ratio]
@@ -706,19 +706,19 @@ def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
-    """What values of a point say of its case: without starts and samples, with the table of a disc for its name."""
+    """The values of a point that belong to its case, without starts and samples; a disc's name becomes its table."""
     known = (*Parameters.model_fields, *CHOOSING)
     case = {name: value for name, value in with_ratios(values).items() if name in known}
     return case | ({"disc": discs[case["disc"]]} if isinstance(case.get("disc"), str) else {})
 
 
 def foreign_case(p: object) -> list[str]:
-    """What is no case."""
+    """Faults of an argument that must be `Parameters`."""
     return [] if isinstance(p, Parameters) else [Fault(("p",), shown(p), "must be Parameters")]
 
 
 def leaves_modes(values: Mapping[str, Any]) -> bool:
-    """Whether what a file says of a case leaves its number of modes to `disc_model.truncation`."""
+    """Whether a file's values of a case leave the number of modes to `disc_model.truncation`."""
     return values.get("n_diameters") == AUTO or any(name in values for name in CHOOSING)
 
 
@@ -730,7 +730,7 @@ _ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), (
 
 
 def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
-    """Rules between parameters, checked where both sides are finite numbers: no fault hides another."""
+    """Faults by rules between parameters, checked if both are finite numbers, so that no fault hides another."""
     values: dict[str, float] = {}
     for name in RELATED:
         try:

@@ -1,4 +1,4 @@
-"""Modes of the disc: an annular Kirchhoff plate, clamped at its inner radius and free at its outer one.
+"""Modes of the disc: an annular Kirchhoff plate, clamped at its inner radius and free at its outer radius.
 
 With w = R(r) cos/sin(l theta), R = A J_l + B Y_l + C I_l + G K_l of beta r and beta^4 = rho h omega^2 / D,
 the four edge conditions are a homogeneous system whose determinant vanishes at the modes (the paper's Eqs.
@@ -33,10 +33,10 @@ POINTS_PER_ROOT = 6
 """Grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought."""
 
 HUGE = 1e280
-"""Bessel functions larger than this are computed by a recurrence that keeps the exponent apart."""
+"""Bessel functions larger than this are computed by a recurrence with a separate exponent."""
 
 WIDEST = 1e11
-"""Greatest ratio of squared frequencies of disc and slider. Compared with 60 digits, they are then right to 1e-5."""
+"""Greatest ratio of squared frequencies of disc and slider. Their error is then 1e-5, compared with 60 digits."""
 
 
 def plate_modes(p: Parameters) -> pd.DataFrame:
@@ -49,7 +49,7 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 
         - circles, diameters : int, number of nodal circles and nodal diameters
         - omega : rad/s, natural frequency
-        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (a pair of modes then has it)
+        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (for a pair of modes)
 
     Notes
     -----
@@ -59,9 +59,9 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     Raises
     ------
     ParameterError
-        If `p` is no `Parameters`.
+        If `p` is not a `Parameters`.
     ModeError
-        If the modes cannot be told apart or an amplitude overflows.
+        If the modes cannot be distinguished or an amplitude overflows.
     """
     import pandas as pd
 
@@ -71,7 +71,7 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 
 @dataclass(frozen=True, eq=False)
 class Modes:
-    """The columns of `plate_modes` as read-only arrays of shape (n_modes,); see there."""
+    """The columns of `plate_modes` as read-only arrays of shape (n_modes,)."""
 
     circles: NDArray[np.int64]
     diameters: NDArray[np.int64]
@@ -84,9 +84,9 @@ class Modes:
 
 
 def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """As `plate_modes`, without the cost of a table: the same read-only arrays at every call.
+    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call.
 
-    normalization : if not that of the case
+    normalization : replaces that of the case if it is given
     """
     if p.disc is not None:
         return _given_modes(p.disc)
@@ -97,7 +97,7 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`.
 
-    Those of a table are splines through its shapes and its amplitudes.  Raises ParameterError where it has no shapes.
+    For a table they are splines through its shapes and amplitudes.  Raises ParameterError if it has no shapes.
     """
     if p.disc is not None:
         from scipy.interpolate import make_interp_spline  # few need it
@@ -113,7 +113,7 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
 
 
 def radial_range(p: Parameters) -> tuple[float, float]:
-    """Radii (m) from and to which shapes are known; raises ParameterError where the table of a disc has none."""
+    """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a disc has none."""
     if p.disc is None:
         return p.a, p.b
     radii, _ = _given_shapes(p.disc, p.r_0)
@@ -121,7 +121,7 @@ def radial_range(p: Parameters) -> tuple[float, float]:
 
 
 def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and there the shapes of a table; at the slider they are the amplitudes, whatever else is said."""
+    """Radii, and the shapes of a table at these; at the slider the amplitudes replace the shapes."""
     if not disc.radii:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
@@ -138,8 +138,8 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
-    (number of real modes,). Contact is the paper's, rigid, whatever the case says. Raises ParameterError if `p` is no
-    `Parameters`, and ModeError as `plate_modes`.
+    (number of real modes,). Contact is rigid as in the paper, whatever the contact of the case. Raises ParameterError
+    if `p` is not a `Parameters`, and ModeError as `plate_modes`.
     """
     refuse(foreign_case(p))
     modes = mode_arrays(p)
@@ -148,13 +148,13 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
 
 
 def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> Array:
-    """Frequencies of disc and attached slider at rest that the slider takes part in, rad/s, ascending.
+    """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending.
 
     Parameters
     ----------
     omega, psi : rad/s and kg^-1/2, shape (n,), as in `plate_modes`
-    m, k : kg and N/m, of the slider
-    give : m/N, of the contact
+    m, k : kg and N/m, mass and spring of the slider
+    give : m/N, compliance of the contact
 
     Returns
     -------
@@ -163,22 +163,22 @@ def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: floa
     Raises
     ------
     ModeError
-        If the frequencies lie so far apart that rounding hides the highest.
+        If the frequencies differ so much that rounding makes the highest inaccurate.
     """
     return np.sort(1 / np.sqrt(_inverse_squares(omega, psi, m, k, give, eigvals_only=True)))
 
 
 def coupled_shapes(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> tuple[Array, Array]:
-    """As `coupled_frequencies`, but descending, and the shapes in columns: n rows, each mode times its own frequency.
+    """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode times its frequency.
 
-    On a compliant contact a last row is the slider's.
+    On a compliant contact the last row is the slider's.
     """
     inverse_squares, shapes = _inverse_squares(omega, psi, m, k, give)
     return 1 / np.sqrt(inverse_squares), shapes
 
 
 def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, **how: bool) -> Any:
-    """What `eigh` finds of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
+    """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
     try:
         with np.errstate(all="ignore"):
             matrices = _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
@@ -208,7 +208,7 @@ def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Arra
 
 
 def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, give: float) -> tuple[Array, Array]:
-    """As `_coupling`; the last coordinate is u over the square root of the contact's compliance."""
+    """Both matrices on a compliant contact; the last coordinate is u over the square root of its compliance."""
     stretch = np.append(psi / omega / np.sqrt(give), -1.0)
     mass = np.diag(np.append(omega**-2, m * give))
     stiffness = np.diag(np.append(np.ones(omega.size), k * give)) + np.outer(stretch, stretch)
@@ -242,7 +242,7 @@ def _modes(
     n_circles: int,
     orthonormal: bool,
 ) -> Modes:
-    """Modes by exactly what they depend on: a change of load or speed finds them in the cache."""
+    """Modes, cached by exactly the values on which they depend, so that another load or speed reuses them."""
     if n_diameters < 0:  # a rigid disc
         none = np.zeros(0, dtype=np.int64)
         return Modes(none, none.copy(), np.zeros(0), np.zeros(0))
@@ -274,7 +274,7 @@ class _Shapes:
     norm: Array
 
     def at(self, x: float, orthonormal: bool) -> Array:
-        """R(x) of every mode in the normalisation asked for, (n,)."""
+        """R(x) of every mode in the requested normalisation, (n,)."""
         value = _evaluate(self.l, self.lam, self.coefficients, self.exponents, np.array([x]))[:, 0]
         if orthonormal:
             return value / np.sqrt(self.norm)
@@ -306,7 +306,7 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
     # a null vector has no sign of its own; at the free edge no mode vanishes
     coefficients = coefficients * np.sign(_evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0])
-    # they integrate R^2 r to rounding: several a half wave, more for edge layers of many diameters
+    # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many diameters
     count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
     nodes, weights = _gauss(count, inner)
     values = _evaluate(l, lam, coefficients, exponents, nodes)
@@ -316,15 +316,15 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
 
 
 def _evaluate(l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
-    """R of n modes at the radii `x` (k,), in units of its largest value, roughly: (n, k)."""
+    """R of n modes at the radii `x` (k,), roughly in units of its largest value: (n, k)."""
     values, logs = _bessel(l[:, None], lam[:, None] * x)
     return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
 
 
 def _check_circles(values: Array, l: NDArray[np.int64], circles: NDArray[np.int64], inner: float, nu: float) -> None:
-    """Compare the sign changes of R, `values` (n, k), with the circles that the place of the root says."""
+    """Compare the sign changes of R, `values` (n, k), with the number of circles that belongs to the root."""
     for shape, diameters, expected in zip(values, l, circles, strict=True):
-        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # not what rounding leaves near the clamp
+        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
         found = np.count_nonzero(clear[1:] * clear[:-1] < 0)
         if found != expected:
             raise ModeError(

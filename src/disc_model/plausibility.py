@@ -1,4 +1,4 @@
-"""Values that are allowed and can hardly be meant, such as E = 150 where GPa were thought of."""
+"""Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in GPa."""
 
 from __future__ import annotations
 
@@ -15,44 +15,44 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 
 THICKEST = 0.2
-"""Share of b - a, up to which the theory of thin plates holds."""
+"""Largest thickness, as a share of b - a, for which the theory of thin plates holds."""
 SPEEDS = (1e3, 2e4)
-"""Of sound along a rod, sqrt(E/rho), in solids: lead has 1,150 m/s, beryllium 12,600 and diamond 17,500."""
+"""Speed of sound along a rod, sqrt(E/rho), in solids: lead has 1,150 m/s, beryllium 12,600 and diamond 17,500."""
 DEEPEST = 300.0
-"""Static deflection over thickness. Linear theory holds up to about 1. The paper's cases have up to 8, and 211 at the
-80,000 N that stand for a load under which nothing moves; a slip of units is a factor of 1000."""
+"""Largest static deflection over thickness. Linear theory holds up to about 1. The paper's cases have up to 8, and 211
+at the 80,000 N that prevent any motion; a mistake in units is a factor of 1000."""
 FURTHEST = 100.0
-"""Factor from a value of Table 1."""
+"""Largest factor between a parameter and its value in Table 1."""
 PITCHES = (10.0, 1e5)
-"""Hz, of the lowest mode of a disc given by its modes."""
+"""Hz, limits for the lowest mode of a disc given by its modes."""
 MASSES = (1e-3, 1e3)
-"""kg, modal mass of its mode that moves most under the slider."""
+"""kg, limits for the modal mass of its mode that moves most under the slider."""
 ELSEWHERE = 0.05
-"""Share by which an amplitude under the slider may differ from the shape there, between whose radii it is linear."""
+"""Largest relative difference between an amplitude under the slider and the shape interpolated linearly at r_0."""
 
 
 class ImplausibleValue(UserWarning):
-    """A value that is allowed and can hardly be meant."""
+    """A value is allowed but implausible."""
 
 
 class Rule(NamedTuple):
-    """Parameters that it looks at, and what it says of a case; "" if that is plausible."""
+    """A test of plausibility: the parameters that it reads, and its message about a case, "" if that is plausible."""
 
     names: tuple[str, ...]
     doubt: Callable[[Parameters], str]
 
 
 def doubts(p: Parameters) -> dict[str, str]:
-    """What is implausible about a case, by the rule that says so."""
+    """Messages on implausible values of a case, by the rule that gives them."""
     return {kind: text for kind, rule in RULES.items() if (text := rule.doubt(p))}
 
 
-_warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # where `simulate` was called
+_warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # shows the line that calls `simulate`
 _told: set[str] = set()
 
 
 def warn_of_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
-    """Tell what is implausible about a case, once in a process by each rule; by a warning, if nothing else is said."""
+    """Report implausible values of a case, once in a process by each rule; by default as a warning."""
     for kind, text in doubts(p).items():
         if kind not in _told:
             _told.add(kind)
@@ -86,11 +86,11 @@ def _sound(p: Parameters) -> str:
 
 
 def _deflected(p: Parameters) -> str:
-    if p.disc is not None:  # whose thickness nobody said
+    if p.disc is not None:  # its thickness is unknown
         return ""
     try:
         modes = mode_arrays(p, "orthonormal")  # those of the plate itself
-    except (DiscModelError, ArithmeticError):  # said where the modes are requested
+    except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
     deflection = p.N * math.fsum(x**2 for x in (modes.psi / modes.omega).tolist())
     if not DEEPEST * p.h < deflection < math.inf:

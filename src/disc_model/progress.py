@@ -1,6 +1,6 @@
-"""What is shown while one waits: kernels that are compiled, and how far a simulation has come.
+"""Progress displays for the compilation of kernels and for simulations.
 
-A bar on a terminal, a line that changes in a notebook, and elsewhere a line before and one after, all on stderr.
+A terminal shows a bar, a notebook a line that changes, and other outputs a line before and one after, all on stderr.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from typing import Any
 from numba.core import event
 
 Progress = Callable[[float], object] | bool | None
-"""What a caller says of it: a function to be told the time reached, or False for silence."""
+"""Argument `progress` of callers: a function that receives the time reached, or False for silence."""
 PATIENCE = 2.0
-"""s, from which on a simulation is long."""
+"""s, after which the progress of a simulation is shown."""
 UNNOTICED = 1.0
-"""s of compilation that are not worth a word: kernels from the cache take some as well."""
+"""s of compilation that are not reported: loading kernels from the cache takes some time as well."""
 WIDTH = 30
-"""Characters of a bar in a notebook."""
+"""Width of a bar in a notebook, in characters."""
 COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 
 
 @contextmanager
 def simulating(progress: Progress, t_end: float) -> Iterator[Callable[[float], object]]:
-    """What is to be told the time reached, s, now and then: it shows that of a long run unless the caller objects."""
+    """Yield a function that receives the time reached (s) and by default displays the progress of a long run."""
     if callable(progress) or progress is False:
         yield progress or (lambda _: None)
         return
@@ -55,9 +55,9 @@ _watched = False
 
 @contextmanager
 def compiling(told: bool = True) -> Iterator[None]:
-    """Says that kernels are compiled meanwhile, if that takes time; also as a decorator.
+    """Report the compilation of kernels in the block if it takes long; also usable as a decorator.
 
-    Those inside another are left to that one.
+    A nested use has no effect of its own.
     """
     global _watched
     if _watched:
@@ -73,7 +73,7 @@ def compiling(told: bool = True) -> Iterator[None]:
 
 
 class _Kernels(event.Listener):
-    """Counts their parts, which are compiled one within the other, and the time that it takes."""
+    """Counts the compiled parts of kernels, which are nested, and measures the time."""
 
     def __init__(self) -> None:
         self.line: _Line | None = None
@@ -109,12 +109,12 @@ class _Kernels(event.Listener):
 
 
 class _Line:
-    """Progress in one line, from `start` to `stop`, which may come again, and at last `close`.
+    """Progress in one line, from `start` to `stop`, which may repeat, and finally `close`.
 
     Parameters
     ----------
-    text : how it begins
-    total : what `show` counts to, if that is known
+    text : initial text
+    total : final count of `show`, if it is known
     """
 
     def __init__(self, text: str, total: float | None = None) -> None:
@@ -143,7 +143,7 @@ class _Line:
             self.bar.start()
 
     def show(self, text: str, count: float) -> None:
-        """How far it is."""
+        """Update the text and the count."""
         if self.bar is not None:
             self.bar.update(self.task, description=text, completed=count)
         elif self.handle is not None:
@@ -152,7 +152,7 @@ class _Line:
             self.handle.update({"text/plain": bar + text}, raw=True)
 
     def stop(self, text: str) -> None:
-        """Nothing is running any more, or for a while; what has come of it."""
+        """Pause or end the display, and show the result in `text`."""
         self.end = text
         if self.bar is not None:
             self.bar.stop()

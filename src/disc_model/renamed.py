@@ -1,4 +1,4 @@
-"""Names of version 0.2 that are gone, and their successors: keys, values, variables, commands and functions."""
+"""Names of version 0.2 that were replaced, and their successors: keys, values, variables, commands and functions."""
 
 from __future__ import annotations
 
@@ -104,10 +104,10 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "warm": ("compile",),
     "stale": ("outdated",),
 }
-"""By the old name; a name of several things has several successors."""
+"""Successors by the old name; a name with several meanings has several successors."""
 
 
 def renamed(name: object, known: Collection[str]) -> str:
-    """What messages add on a name that is gone, if its successor is among the known names; else ""."""
+    """Addition to a message on a replaced name, if its successor is among the known names; else ""."""
     new = next((new for new in RENAMED.get(str(name), ()) if new in known), "")
     return f": it is now called {new}" if new else ""

@@ -1,8 +1,8 @@
-"""How many modes a case needs: what may be asked, and the fewest modes whose coupled frequencies meet a tolerance.
+"""Choice of the number of modes: requests for it, and the fewest modes whose coupled frequencies meet a tolerance.
 
-Study files and the command line may say ``n_diameters: auto``; `read_asked` reads that.  By quantities of the motion
-`disc_model.mode_choice` chooses, which simulates.  `disc_model.benchmarks.truncation` measures what the number of
-modes does to everything.
+Study files and the command line may give ``n_diameters: auto``, which `read_asked` reads.  `disc_model.mode_choice`
+chooses by quantities of the motion, with simulations.  `disc_model.benchmarks.truncation` measures the effect of the
+number of modes on all results.
 """
 
 from __future__ import annotations
@@ -21,32 +21,32 @@ from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
 
 FREQUENCIES = "frequencies"
-"""The quantity by which modes are chosen where none is given."""
+"""The quantity by which modes are chosen by default."""
 CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
-"""By what modes may be chosen, and the tolerance, relative, that is taken where none is given."""
+"""Quantities by which modes may be chosen, and their default relative tolerances."""
 RICH = (20, 6)
-"""Diameters and circles of the model that frequencies are compared with."""
+"""Diameters and circles of the reference model for frequencies."""
 TRUSTED = 1e-4
-"""Relative; how much the coupled frequencies of `RICH` change with still more modes (5e-5 as published, 2e-4
-orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only; by any
-quantity, since growth rates and times follow the frequencies."""
+"""Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
+orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only, for any
+quantity, because growth rates and times depend on the frequencies."""
 BAND = 2.0
-"""Frequencies up to so many times the lowest one of the disc are what a study of this motion asks for."""
+"""Upper end of the band of compared frequencies, relative to the lowest frequency of the disc."""
 
 
 @dataclass(frozen=True)
 class ModeChoice:
-    """The smallest model that meets a tolerance, and what it was chosen from.
+    """The smallest model that meets a tolerance, and the basis of the choice.
 
     Attributes
     ----------
-    parameters : with n_diameters and n_circles chosen; of a disc given by its modes, with the first modes of its table
-    quantity : by what they were chosen
-    tolerance, error : asked for and reached, relative; of the coupled frequencies in the band, or of the quantity
+    parameters : the case with the chosen n_diameters and n_circles, or with the first modes of its table
+    quantity : the quantity by which the modes were chosen
+    tolerance, error : requested and reached, relative; of the coupled frequencies in the band, or of the quantity
     modes : number of real modes
-    rich : (diameters, circles) of the largest model compared with; of a table, (modes,)
-    band : see `frequency_error`; None where they were not chosen by frequencies
-    values : the quantity for each model looked at, by size as `rich`; empty where chosen by frequencies
+    rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
+    band : see `frequency_error`; None unless the modes were chosen by frequencies
+    values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
     """
 
     parameters: Parameters
@@ -59,7 +59,7 @@ class ModeChoice:
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
     def to_json(self) -> str:
-        """The choice as text, to be kept beside the results (a dataset's attribute)."""
+        """The choice as JSON text, for an attribute of a dataset."""
         disc = self.parameters.disc
         size = {"n_diameters": self.parameters.n_diameters, "n_circles": self.parameters.n_circles}
         record: dict[str, Any] = {
@@ -78,16 +78,16 @@ class ModeChoice:
 
 
 class Asked(NamedTuple):
-    """What the number of modes is to be chosen by."""
+    """Quantity and tolerance for the choice of the number of modes."""
 
     quantity: str
     tolerance: float
 
 
 def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
-    """Find the model with the fewest real modes whose coupled frequencies in the band are right to ``tolerance``.
+    """Find the model with the fewest real modes whose coupled frequencies in the band are within ``tolerance``.
 
-    `disc_model.choose_modes` checks what it is given, and says what it is.
+    The arguments are those of `disc_model.choose_modes`, which checks them.
     """
     if p.disc is not None:
         return _first_of_table(p, p.disc, tolerance, band)
@@ -106,7 +106,7 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
 
 
 def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) -> ModeChoice:
-    """The first modes of a table that do as all of it; the last resort is the whole table."""
+    """The fewest first modes of a table that agree with the whole table, which is the last candidate."""
     modes, right = mode_arrays(p), _frequencies(p)
     top = band * float(modes.omega.min())
     for count in counts(disc):
@@ -119,25 +119,25 @@ def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) ->
 
 
 def counts(disc: Disc) -> range:
-    """Of how many of its first modes a table can be made: not of those alone that do not move under the slider."""
+    """Possible numbers of first modes of a table: at least one of these modes must move under the slider."""
     return range(1 + next(i for i, each in enumerate(disc.amplitude) if each), len(disc.omega) + 1)
 
 
 def real_modes_of(disc: Disc, count: int) -> int:
-    """Number of real modes among the first of a table."""
+    """Number of real modes among the first `count` modes of a table: pairs count as two."""
     return count + sum(each > 0 for each in disc.diameters[:count])
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
-    """Parameters as files and command lines give them, and by what their modes are to be chosen.
+    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one.
 
-    With ``n_diameters="auto"`` they are to be chosen by ``truncation_quantity`` (`FREQUENCIES` if not given) and
-    ``truncation_tolerance`` (that of `CHOSEN_BY` if not given); the parameters' own number of modes then says nothing.
+    With ``n_diameters="auto"`` the modes are chosen by ``truncation_quantity`` (`FREQUENCIES` by default) and
+    ``truncation_tolerance`` (that of `CHOSEN_BY` by default); the parameters' own number of modes is then meaningless.
 
     Raises
     ------
     ParameterError
-        Listing every fault.
+        If a value breaks a rule; the message lists every fault.
     """
     rest, asked, faults = asked_modes(values)
     if values.get("n_diameters") == AUTO:
@@ -152,9 +152,9 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None, list[str]]:
-    """What files and command lines say: the values without what asks for a choice of modes, that, and its faults.
+    """Split the values of a file or command line: values without the request for a choice of modes, request, faults.
 
-    What is asked is None if the number of modes is given, or if there are faults.
+    The request is None if the number of modes is given, or if there are faults.
     """
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
     if rest.get("n_diameters") != AUTO:
@@ -169,13 +169,13 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
 
 
 def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
-    """A quantity to choose modes by, "" if there is no such, and what is wrong with it."""
+    """The quantity by which modes are chosen, "" if it is unknown, and its faults."""
     known = isinstance(value, str) and value in CHOSEN_BY
     return value if known else "", broken((known, name, value, f"must be one of {', '.join(CHOSEN_BY)}"))
 
 
 def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
-    """A tolerance as a number, and what is wrong with it."""
+    """The tolerance as a number, and its faults."""
     try:
         tolerance = float(number(value))
     except ValueError:
@@ -185,10 +185,10 @@ def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error of the coupled frequencies of ``p`` within the band, ``rich`` taken as right.
+    """Largest relative error of the coupled frequencies of ``p`` within the band, with ``rich`` as the reference.
 
-    The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that ``p`` lacks counts
-    as an error of 1.
+    The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that is missing in ``p``
+    counts as an error of 1.
     """
     return _worst(_frequencies(p), _frequencies(rich), BAND * float(mode_arrays(rich).omega.min()))
 

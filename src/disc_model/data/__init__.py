@@ -1,1 +1,1 @@
-"""Results on disc: names and units, datasets, whole files, where they come from."""
+"""Results on disk: names and units of variables, datasets, atomic writing of files, and their provenance."""

@@ -1,11 +1,11 @@
-"""How results become files: groups of a case, CF attributes, encoding, and saving in one piece.
+"""Files of results: groups of a case, CF attributes, encoding, and atomic writing.
 
-A case is a tree of groups, and so is its file: the root holds what has no dimension, ``events`` an entry for each
-switch along `event`; every recorded window is a group under its name, along `time`, and so is ``poincare``. Nothing
-holds a time stamp or a duration that differs from run to run, so that equal runs give equal bytes.
+A case is a tree of groups, and so is its file. The root holds the scalars, and ``events`` has an entry for each event
+along `event`. Every recorded window is a group under its name, along `time`, and so is ``poincare``. No time stamps or
+run times are stored, so that equal runs give equal bytes.
 
-Files are whole or not there, and end in a checksum, which readers of netCDF and HDF5 pass over: HDF5 notices a changed
-byte in compressed arrays only, and reads a changed scalar or attribute as if nothing had happened.
+Files are written atomically and end in a checksum, which readers of netCDF and HDF5 ignore. The checksum is needed
+because HDF5 detects a changed byte in compressed arrays only, and not in scalars or attributes.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from disc_model.parameters import RESIDUAL, Parameters
 CONVENTIONS = "CF-1.11"
 T = TypeVar("T")
 OVERHEAD = 1 << 18
-"""About what attributes and the file format take, in bytes."""
+"""Approximate size of attributes and file format, in bytes."""
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -39,15 +39,15 @@ OVERHEAD = 1 << 18
 
 
 def events_dataset(events: Any) -> xr.Dataset:
-    """Switches, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
+    """Dataset of events, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
     data = {name: ("event", _column(column, SERIES[name].flags), attributes(name)) for name, column in events.items()}
     return xr.Dataset(data).set_coords("time")
 
 
 def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
-    """Samples of one window along the coordinate `time`; envelopes keep their ``_min`` and ``_max``.
+    """Samples of one window along the coordinate `time`; variables of an envelope end in ``_min`` and ``_max``.
 
-    theta : rad, where ``w_point`` was taken
+    theta : rad, angle at which ``w_point`` was taken
     """
     data = {
         name: ("time", np.asarray(values, dtype=np.int8 if name == "phase" else float), attributes(name))
@@ -57,15 +57,15 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
 
 
 def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
-    """What stands for a case that raised an error: all its scalars, unknown but for its status."""
+    """Groups of a case that raised an error: all its scalars, unknown except the status, t_end and tol."""
     known = {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
     return {"": scalars_dataset(p, dict.fromkeys(COUNTS, 0) | known, "failed", message)}
 
 
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
-    """The root of a case: what has no dimension.
+    """The root of a case: its scalars.
 
-    values : of `SCALARS`, nan where not given; the status by its place in `STATUSES`, and once more in words
+    values : values of `SCALARS`, nan if not given; the status by its index in `STATUSES`
     """
     data: dict[str, Any] = {}
     for name in SCALARS:
@@ -86,10 +86,10 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
 
 
 def _compliance(p: Parameters) -> float:
-    """Of the contact, m/N; nan where the modes leave nothing out to make it of: then the case has failed of that."""
+    """Compliance of the contact, m/N; nan if no modes are left out for it, which has then made the case fail."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
-    # not above: with it comes scipy, for which each job that only reads results would wait
+    # imported here, because it imports scipy, for which jobs that only read results would have to wait
     from disc_model.flexibility import contact_give
 
     try:
@@ -114,14 +114,14 @@ def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
 
 
 def save(tree: xr.DataTree, path: str | Path) -> None:
-    """Write a tree as netCDF 4, compressed, in one piece: `path` is either what it was before or complete.
+    """Write a tree as compressed netCDF 4, atomically: after a failure `path` is unchanged.
 
     Raises
     ------
     ParameterError
-        If it is no tree, or no file can have this name.
+        If the argument is not a tree, or the name is not allowed for a file.
     disc_model.data.dataset.WriteError
-        If the disk is full.
+        If the file cannot be written, for example because the disk is full.
     """
     if not isinstance(tree, xr.DataTree):
         raise ParameterError(Fault(("tree",), shown(tree), "must be an xarray.DataTree"))
@@ -136,9 +136,9 @@ def load(path: str | Path) -> xr.DataTree:
     Raises
     ------
     ParameterError
-        If no file can have this name.
+        If the name is not allowed for a file.
     disc_model.data.dataset.DamagedFile
-        If it is not what was written.
+        If the checksum of the file does not match.
     """
     verify_checksum(_file(path))
     with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
@@ -146,12 +146,12 @@ def load(path: str | Path) -> xr.DataTree:
 
 
 def json_attribute(value: Any) -> str:
-    """A mapping or list as text: netCDF attributes hold neither, nor None or bool."""
+    """A mapping or list as JSON text, because netCDF attributes cannot hold these, None or bool."""
     return json.dumps(value, sort_keys=True)
 
 
 def agreed(values: Iterable[str]) -> str:
-    """A value that all share; of several the list of all, as text."""
+    """The common value if all values are equal; otherwise the list of all, as text."""
     different = sorted(set(values))
     return different[0] if len(different) == 1 else json_attribute(different)
 
@@ -180,7 +180,7 @@ _LENGTH = len(_LABEL) + 65
 
 
 LONGEST_NAME = 233
-"""Bytes; that of a file still being written is longer, and file systems allow 255."""
+"""Longest name of a file in bytes: its temporary name is longer, and file systems allow 255."""
 NAME_RULE = f"must be the name of a file, of at most {LONGEST_NAME} bytes"
 
 
@@ -189,11 +189,11 @@ class WriteError(DiscModelError, OSError):
 
 
 class DamagedFile(DiscModelError):
-    """A file that is not what was once written."""
+    """A file whose checksum does not match its content."""
 
 
 def may_be_file(path: object) -> bool:
-    """Whether a file may have such a path; see `NAME_RULE`."""
+    """Whether a path is allowed for a file; see `NAME_RULE`."""
     try:
         file = Path(path)  # type: ignore[arg-type] # whether it is one is what is found out here
         name = os.fsencode(file.name)
@@ -208,25 +208,25 @@ def may_be_file(path: object) -> bool:
 
 
 def _file(path: str | Path) -> Path:
-    """A path that a file may have; raises `ParameterError` otherwise."""
+    """A path that is allowed for a file; raises `ParameterError` otherwise."""
     if not may_be_file(path):
         raise ParameterError(Fault(("path",), shown(str(path)), NAME_RULE))
     return Path(path)
 
 
 def write_atomically(path: Path, write: Callable[[str], object], size: int) -> None:
-    """Write a file in one piece, with a checksum at its end: `path` is either what it was before or complete.
+    """Write a file atomically, with a checksum at its end: after a failure `path` is unchanged.
 
-    Raises `WriteError` if there is no such folder, the disk is full, or the file may not be that large.
+    Raises `WriteError` if the folder does not exist, the disk is full, or the file may not be that large.
 
     Parameters
     ----------
-    write : called with the name of a new file in the same folder, which it shall write
-    size : bytes that the file will roughly have, to find out about a full disk
+    write : function that writes the file whose name it receives, a new one in the same folder
+    size : approximate size of the file in bytes, by which a full disk is recognised
     """
     if not path.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
-    # made by `write`, so that the umask says who may read it
+    # `write` makes the file, so that the umask determines its permissions
     temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
     try:
         write(str(temporary))
@@ -243,7 +243,7 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
 
 
 def verify_checksum(path: Path) -> None:
-    """Compare a file with the checksum at its end; raises `DamagedFile` if it does not match or is not there."""
+    """Compare a file with the checksum at its end; raises `DamagedFile` if the checksum differs or is missing."""
     content = path.read_bytes()
     body, end = content[:-_LENGTH], content[-_LENGTH:]
     if end != _checksum(hashlib.sha256(body)):
@@ -263,7 +263,7 @@ def _checksum(digest: hashlib._Hash) -> bytes:
 
 
 def _refusal(temporary: Path, size: int) -> OSError | None:
-    """Why so many bytes cannot be written; the netCDF library only says that they were not."""
+    """The error when so many bytes are written; the netCDF library does not report the reason."""
     try:
         with temporary.open("wb") as file:
             file.write(bytes(size))
@@ -273,30 +273,30 @@ def _refusal(temporary: Path, size: int) -> OSError | None:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Reading what other jobs have written
+# Reading files that other jobs have written
 
 SET_ASIDE = ".damaged"
-"""Ending that a damaged file gets."""
+"""Suffix given to the name of a damaged file."""
 
 
 class InputsError(DiscModelError):
-    """Files that are damaged or missing: a line for each, and what to do."""
+    """Files are damaged or missing; the message has a line for each, and says what to do."""
 
 
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
-    """Read files written by `save`; `each_intact` says what becomes of damaged ones."""
+    """Read files written by `save`; damaged ones are treated as in `each_intact`."""
     return each_intact(load, paths)
 
 
 def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
-    """`load_inputs` by the names of the files, which are those of the cases."""
+    """Read files as `load_inputs` does, into a mapping by the names of the files, which are those of the cases."""
     return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
 
 
 def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
     """Apply a function to files; raises `InputsError` if any is damaged or missing.
 
-    Damaged ones are set aside under another name, so that the next run finds them missing and computes them anew.
+    Damaged files are renamed, so that the next run finds them missing and computes them again.
     """
     found, faults = [], []
     for path in paths:
@@ -312,7 +312,7 @@ def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
 
 
 def set_aside(path: Path) -> Path:
-    """Give a file another name, under which nothing looks for it."""
+    """Rename a file, so that no reader finds it."""
     aside = path.with_name(path.name + SET_ASIDE)
     with contextlib.suppress(FileNotFoundError):  # another job may just have done so
         os.replace(path, aside)
@@ -320,11 +320,11 @@ def set_aside(path: Path) -> Path:
 
 
 # ----------------------------------------------------------------------------------------------------
-# What the tree of one case holds, or why not: what claims and figures ask it for
+# Access to the tree of one case, for claims and figures; a missing part is explained
 
 
 class Missing(Exception):
-    """Evidence that is not there. The text says why; it continues after "the case"."""
+    """Data that a case does not hold. The text gives the reason; it continues a sentence that begins "the case"."""
 
 
 def group(case: xr.DataTree, name: str) -> xr.Dataset:
@@ -336,7 +336,7 @@ def group(case: xr.DataTree, name: str) -> xr.Dataset:
 
 
 def events(case: xr.DataTree) -> xr.Dataset:
-    """Switches within the span ``kept_from`` to ``kept_until``."""
+    """Events within the span ``kept_from`` to ``kept_until``."""
     found = group(case, "events")
     if "kept_from" not in found.attrs:
         raise Missing("keeps no events")
@@ -344,7 +344,7 @@ def events(case: xr.DataTree) -> xr.Dataset:
 
 
 def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
-    """A window of single samples, no ranges; at least so many of them."""
+    """A window of single samples, at least `at_least` of them; raises `Missing` if it holds ranges."""
     found = group(case, name)
     if _are_ranges(found):
         raise Missing(f"recorded {name} as ranges, not as samples: its window has an envelope")
@@ -352,7 +352,7 @@ def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
 
 
 def ranges(case: xr.DataTree, name: str, at_least: int = 1) -> xr.Dataset:
-    """A window of ranges, each variable as ``_min`` and ``_max``; at least so many bins."""
+    """A window of ranges, each variable as ``_min`` and ``_max``, with at least `at_least` bins."""
     found = group(case, name)
     if not _are_ranges(found):
         raise Missing(f"recorded {name} as samples, not as ranges: its window needs an envelope")
@@ -374,7 +374,7 @@ def _of_length(window: xr.Dataset, at_least: int, what: str) -> xr.Dataset:
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
-    """Lines of a table: its head, the rule below it, a line a row; a | within a cell is kept apart."""
+    """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell is escaped."""
     names = list(head)
     return [_line(names), _line(["---"] * len(names)), *map(_line, rows)]
 

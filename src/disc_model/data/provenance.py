@@ -1,4 +1,4 @@
-"""Where a result comes from: hashes of its sources, versions of packages, and the commit."""
+"""Provenance of a result: hashes of its sources, versions of packages, and the commit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "net
 def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     """Hash of the sources of a result, 16 hexadecimal digits.
 
-    Of Python sources the code counts, and not comments, docstrings and layout, which change no result.
+    Comments, docstrings and layout of Python sources do not count, because they change no result.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     """
     digest = hashlib.sha256(repr(sorted((name, KINDS[name].version) for name in _kinds(names))).encode())
     own = {path: path.relative_to(PACKAGE).as_posix() for path in source_files(*names)}
-    # a script has one name, whether it lies beside the package or, installed, within it
+    # a script is hashed under its bare name, wherever it is installed
     for path, name in (own | {path: path.name for path in files}).items():
         content = _code(path) if path.suffix == ".py" else path.read_bytes()
         digest.update(f"{name}\0{len(content)}\0".encode() + content)
@@ -38,7 +38,7 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
 
 
 def source_files(*names: str) -> tuple[Path, ...]:
-    """The files behind names of sources, sorted; a package's are all within it."""
+    """The files that names of sources stand for, sorted; a package stands for all files within it."""
     found: set[Path] = set()
     names = tuple(name.removeprefix("disc_model.") for name in names)
     for name in {name for kind in _kinds(names) for name in KINDS[kind].sources.split()}.union(names) - KINDS.keys():
@@ -48,7 +48,7 @@ def source_files(*names: str) -> tuple[Path, ...]:
 
 
 def _kinds(names: Iterable[str]) -> set[str]:
-    """The kinds among names, and those that they stand on."""
+    """The kinds among names, and the kinds on which they depend."""
     here = {name for name in names if name in KINDS}
     return here.union(*(_kinds(KINDS[name].sources.split()) for name in here))
 
@@ -71,7 +71,7 @@ def _code(path: Path) -> bytes:
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python and of the packages that numbers depend on."""
+    """Versions of Python and of the packages on which results depend."""
     found = {"python": platform.python_version()}
     for name in VERSIONS_OF:
         try:
@@ -85,7 +85,7 @@ def versions() -> dict[str, str]:
 def git_commit(package: Path = PACKAGE) -> str:
     """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their repository."""
     try:
-        # an environment may lie in the repository of something else
+        # an environment may lie within the repository of another project
         _git(package, "ls-files", "--error-unmatch", "__init__.py")
         return _git(package, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
     except (OSError, subprocess.SubprocessError):

@@ -1,7 +1,7 @@
-"""Which sources each kind of result depends on.
+"""Sources on which each kind of result depends.
 
-A kind bears the name of the rule that makes it, or of the quantity; others gather what several share.  Where imports
-and a list differ, `tests/data/test_sources.py` fails: a new import is named here, or under `BESIDES`.
+A kind is named after the rule that makes it, or after the quantity; further kinds hold common sources.  If a list
+differs from the imports, `tests/data/test_sources.py` fails: a new import must be added here, or under `BESIDES`.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 
 class Kind(NamedTuple):
-    """What a kind of result is made by.
+    """Dependencies of a kind of result.
 
     sources : names of other kinds, of modules and packages of `disc_model`, and, with a slash, of further files
-    version : a greater one has all results of the kind made anew
+    version : number whose increase makes all results of the kind outdated
     """
 
     sources: str
@@ -40,7 +40,7 @@ BESIDES = {
     "studies.document": "a batch's text holds the values of all options",
     "studies.grids.quantities": "a name only",
 }
-"""Modules that are imported and decide no result, with the reason."""
+"""Modules that are imported but do not affect results, with the reason."""
 
 _BENCHMARK = "case benchmarks.methods benchmarks.grid benchmarks.hardware benchmarks.scenes"
 _REFERENCES = (
@@ -110,4 +110,4 @@ KINDS = {
     "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report"),
     "report_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
 }
-"""By name."""
+"""The kinds by name."""

@@ -1,4 +1,4 @@
-"""Sentences with placeholders, kept as data, and the numbers that they are filled with."""
+"""Sentences with placeholders, stored as data, and their completion with numbers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 
 class Part(BaseModel):
-    """What is said of a value that is a list of rows: ``each`` of every row, ``around`` all if there are any."""
+    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     each: str
@@ -26,17 +26,17 @@ def _part(raw: Any) -> Any:
 
 
 Parts = dict[str, Annotated[Part, BeforeValidator(_part)]]
-"""By the name of the value; a text stands for its ``each``."""
+"""Parts by the name of the value; a plain text is taken as ``each``."""
 
 
 class Sentences(string.Formatter):
-    """`str.format` for lists as well: of numbers, ``{values:.2f}``, and of rows, each said by the part of its name."""
+    """`str.format` that also takes lists: of numbers, ``{values:.2f}``, and of rows, by the part of their name."""
 
     def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
         self.parts, self.values = parts, values
 
     def fill(self, template: str) -> str:
-        """The template with the values; raises KeyError for a value that is not there."""
+        """The template filled with the values; raises KeyError for a missing value."""
         return self.vformat(template, (), self.values)
 
     def get_value(self, key: int | str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
@@ -54,7 +54,7 @@ class Sentences(string.Formatter):
 
 
 class Passage(BaseModel):
-    """A text with its parts."""
+    """A template with the parts for its lists."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     text: str

@@ -1,4 +1,4 @@
-"""The table of variables: what each is, in which unit, and what the values of flags mean."""
+"""The table of variables: meaning and unit of each, and the meanings of flags."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STATUSES = (*(status.value for status in Status), "failed")
 
 
 class Outcome(enum.StrEnum):
-    """What a motion comes to, in the words of all datasets; `disc_model.stability.attractor` says how each is told."""
+    """Outcome of a motion, in the words of all datasets; `disc_model.stability.attractor` gives the criteria."""
 
     QUIET = "quiet"
     """the stable stick-slip cycle of the static start"""
@@ -30,9 +30,9 @@ class Outcome(enum.StrEnum):
     SEPARATING = "separating"
     """a stable cycle that loses contact"""
     QUASI_PERIODIC = "quasi_periodic"
-    """a motion that has settled, is regular and does not repeat"""
+    """a motion on an attractor that is regular and aperiodic"""
     IRREGULAR = "irregular"
-    """a motion that has settled and is chaotic"""
+    """a motion on a chaotic attractor"""
     STEADY_SLIDING = "steady_sliding"
     """steady sliding"""
     AT_REST = "at_rest"
@@ -40,20 +40,20 @@ class Outcome(enum.StrEnum):
     UNDECIDED = "undecided"
     """none of these could be shown"""
     GROWING = "growing"
-    """undecided at the horizon, in contact so far and on the way away from an unstable cycle"""
+    """undecided at the horizon, in contact so far and departing from an unstable cycle"""
     SEPARATION = "separation"
-    """contact is lost before the horizon, and what comes after is not asked"""
+    """contact is lost before the horizon, and the later motion is not examined"""
 
 
 LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
-"""The flags of what motions come to that are followed as long as it takes; `failed`: not computed."""
+"""Flags of the outcomes of motions that are followed until they settle; `failed`: not computed."""
 _SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
 OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
-"""Of those followed to a horizon, or until they separate."""
+"""Flags of the outcomes of motions that are followed to a horizon, or until they separate."""
 
 
 class Variable(NamedTuple):
-    """What a variable is: unit, name in words, and the words that its values stand for, if it is a flag."""
+    """Unit, name in words and, for a flag, the words that its values stand for."""
 
     units: str
     long_name: str
@@ -61,7 +61,7 @@ class Variable(NamedTuple):
 
     @property
     def attributes(self) -> dict[str, Any]:
-        """As CF attributes; without units if they are "", as words have none."""
+        """The variable's CF attributes; without ``units`` if they are "", as for words."""
         found: dict[str, Any] = {"units": self.units} if self.units else {}
         found["long_name"] = self.long_name
         if self.flags:
@@ -71,7 +71,7 @@ class Variable(NamedTuple):
 
 
 class Column(NamedTuple):
-    """A `Variable` of what is worked out at the points of a grid, and its dimensions beyond the grid's."""
+    """A `Variable` that is computed at the points of a grid, with its dimensions beyond the grid's."""
 
     units: str
     long_name: str
@@ -91,18 +91,18 @@ class Column(NamedTuple):
 
     @property
     def missing(self) -> float:
-        """What stands where nothing is known: of a status `failed`, of other flags their first."""
+        """Value of unknown points: `failed` for a status, the first value for other flags, 0 for counts, else nan."""
         if "failed" in self.flags:
             return self.flags.index("failed")
         return 0 if self.flags or self.whole else math.nan
 
     def empty(self, shape: Sequence[int]) -> NDArray[Any]:
-        """An array of nothing but `missing`."""
+        """An array filled with `missing`."""
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
 STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
-"""Found near the static start: a stable cycle, stable steady sliding, rest on the disc."""
+"""Stable motions found near the static start: a cycle, steady sliding, rest on the disc."""
 SERIES = {
     "time": Variable("s", "time"),
     "kind": Variable("1", "kind of event", EVENT_KINDS),
@@ -141,9 +141,9 @@ COUNTS = {
     "n_separations": "separations",
     "audited_steps": "audited_steps",
 }
-"""Whole numbers among the scalars, and what `Result.statistics` calls them."""
+"""Whole numbers among the scalars, and their names in `Result.statistics`."""
 BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fields})
-"""Groups and variables that stand beside the windows in a file: no window can be called so."""
+"""Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
 }
@@ -152,7 +152,7 @@ PERTURBATIONS = {
     "perturbation_u_velocity": Variable("m s-1", "perturbation of their velocity, upward"),
     "perturbation_f": Variable("rad s-1", "perturbation of the slider's angular velocity"),
 }
-"""What grids may add to a coordinate where motions start; coordinates of their datasets."""
+"""Perturbations that grids may add to an initial state; they are coordinates of the grids' datasets."""
 _OF_RATIOS = {name: Variable("1", f"{one} relative to {other}") for name, (one, other) in RATIOS.items()}
 WITHOUT_CYCLE = {
     "no_cycle": "no cycle found",
@@ -160,11 +160,11 @@ WITHOUT_CYCLE = {
     "no_stick_slip": "steady sliding",
     "at_rest": "permanent stick",
 }
-"""What a point without a stick-slip cycle is called in tables and figures, by its status."""
+"""Names in tables and figures of points without a stick-slip cycle, by their status."""
 EXCLUDED = "excluded"
-"""What flags say at points that a grid's rule leaves out; other variables have no value there."""
+"""Flag of points that a grid's rule leaves out; other variables have no value there."""
 SAMPLE = "sample"
-"""The dimension of a grid along which distributed parameters are drawn, by number."""
+"""The dimension of a grid that numbers the samples of distributed parameters."""
 _CF_UNITS = {
     "N m s": "N m s",
     "N s/m": "N s m-1",
@@ -176,7 +176,7 @@ _CF_UNITS = {
 
 
 def attributes(name: str) -> dict[str, Any]:
-    """CF attributes of a variable: units, long_name, and what its values mean if it is a flag."""
+    """CF attributes of a variable: units, long_name and, for a flag, the meanings of its values."""
     stem, _, bound = name.rpartition("_")
     if bound in ("min", "max") and stem in SERIES:
         which = "least" if bound == "min" else "greatest"
@@ -199,12 +199,12 @@ def _parameter_variable(name: str) -> Variable:
 
 
 def typeset(text: str) -> str:
-    """Symbols with an index, such as c_p, as matplotlib sets them."""
+    """The text with its indexed symbols, such as c_p, in the notation of matplotlib."""
     return re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
 class Shown(NamedTuple):
-    """How a variable is shown to readers: name, symbol, unit, and the factor to it from SI."""
+    """Presentation of a variable to readers: name, symbol, unit, and the factor from SI to that unit."""
 
     name: str
     symbol: str
@@ -246,13 +246,13 @@ SHOWN = {
     "psi": Shown("Angle", "ψ", "rad"),
     "psi_velocity": Shown("dψ/dt", "", "rad/s"),
 }
-"""Parameters that are numbers, their ratios, kicks, and what is sampled of a motion."""
+"""Presentation of numeric parameters, their ratios, perturbations, and sampled variables."""
 SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[one].symbol for one in pair), "") for name, pair in RATIOS.items()}
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
 
 def shown_number(name: str) -> Shown:
-    """How a distributed parameter is shown: one of `SHOWN`, or of a single mode of a table, such as omega_2_0."""
+    """Presentation of a distributed parameter: one of `SHOWN`, or of a single mode of a table, such as omega_2_0."""
     if name in SHOWN:
         return SHOWN[name]
     column, diameters, circles = name.rsplit("_", 2)
@@ -268,7 +268,7 @@ def symbol_of(name: str) -> str:
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
     """Label of the axis of a variable in `SHOWN`, and the factor from SI to its unit.
 
-    where : stands behind the name, such as an angle
+    where : text after the name, such as an angle
     """
     shown = SHOWN[name]
     unit = f" ({shown.unit})" if shown.unit else ""
@@ -276,7 +276,7 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 
 def said_values(values: Mapping[str, Any]) -> str:
-    """N, Omega and whatever differs from Table 1 among values of parameters, with units."""
+    """Text with N, Omega and all parameter values that differ from Table 1, with units."""
     said = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
