@@ -92,7 +92,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
     except ParameterError as error:
         raise ParameterError(*(_of_table(fault, places, names, rows) for fault in error.faults)) from None
     static, modal = disc.static_compliance, math.fsum(np.square(np.divide(disc.amplitude, disc.omega)).tolist())
-    if static is not None and static < modal * (1 - 1e-9):  # both may be one sum, rounded
+    if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
         raise ParameterError(Fault((STATIC_COMPLIANCE,), shown(static), rule))
     return disc

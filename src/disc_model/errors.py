@@ -180,7 +180,7 @@ _BOUNDS = {
 _RULES = _BOUNDS | {
     "literal_error": "must be {expected}",
     "value_error": "{error}",
-    "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # of names, the only pattern
+    "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # only names have a pattern
     "too_short": "must have {min_length} or more",
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
     **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),
@@ -195,7 +195,7 @@ def _shown_faulty(kind: str, value: Any) -> str:
     """The text of a value that breaks a rule; "" for a mapping, whose path says enough."""
     if isinstance(value, Mapping | BaseModel):
         return ""
-    if kind not in _BOUNDS or isinstance(value, bool):  # pydantic counts False, which is no number here
+    if kind not in _BOUNDS or isinstance(value, bool):  # False is a number for pydantic, but not here
         return shown(value)
     try:
         return shown(float(value) + 0.0)  # adding zero turns -0.0 into 0.0

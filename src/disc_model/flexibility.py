@@ -171,7 +171,7 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
             free * _shear(l, nu, at_outer) / n**3,
         ]
     )
-    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside r and s change places
+    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged
     near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
     outside = [far / (n - 1), -far * x**2 / (n + 1)]

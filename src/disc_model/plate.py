@@ -100,7 +100,7 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     For a table they are splines through its shapes and amplitudes.  Raises ParameterError if it has no shapes.
     """
     if p.disc is not None:
-        from scipy.interpolate import make_interp_spline  # few need it
+        from scipy.interpolate import make_interp_spline  # few callers need it
 
         radii, known = _given_shapes(p.disc, p.r_0)
         spline: Array = make_interp_spline(radii, known, k=min(3, len(radii) - 1), axis=1)(r)

@@ -89,7 +89,7 @@ def _deflected(p: Parameters) -> str:
     if p.disc is not None:  # its thickness is unknown
         return ""
     try:
-        modes = mode_arrays(p, "orthonormal")  # those of the plate itself
+        modes = mode_arrays(p, "orthonormal")  # the modes of the physical plate
     except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
     deflection = p.N * math.fsum(x**2 for x in (modes.psi / modes.omega).tolist())

@@ -124,7 +124,7 @@ class _Line:
         self.bar: Any = None
         self.handle: Any = None
         console = Console(stderr=True)
-        if console.is_jupyter:  # where rich's own bars need ipywidgets
+        if console.is_jupyter:  # here rich's own bars would need ipywidgets
             from IPython.display import display
 
             self.handle = display({"text/plain": text}, raw=True, display_id=True)

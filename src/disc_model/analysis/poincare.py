@@ -64,7 +64,7 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
     if points.size == 0:
         return 0
     extent = np.ptp(points, axis=0) if extent is None else extent
-    rounding = 1e-9 * np.max(np.abs(points))  # an axis along which nothing but rounding changes
+    rounding = 1e-9 * np.max(np.abs(points))  # bound for axes along which only rounding changes the points
     scaled = np.where(extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0)
     centres: list[Array] = []
     for point in scaled:

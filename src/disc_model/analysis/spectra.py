@@ -63,7 +63,7 @@ def rate_of(time: Array, values: Array) -> float:
     if not np.all(np.isfinite(values)):
         raise ParameterError("values: must be finite")
     step = (time[-1] - time[0]) / (len(time) - 1)
-    # a missing sample shifts times by half a step or more, rounded times are off by less
+    # a missing sample shifts times by half a step or more, and rounding by less
     if not step > 0 or not np.all(np.abs(time - np.linspace(time[0], time[-1], len(time))) < 0.45 * step):
         raise ParameterError("time: must rise in even steps; resample an uneven signal first")
     return float(1 / step)

@@ -71,7 +71,7 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
     for name in SCALARS:
         value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
         data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
-    disc = p.disc.model_dump_json() if p.disc else ""  # a file holds no mapping
+    disc = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
     for name, value in (p.model_dump() | {"contact_compliance": _compliance(p), "disc": disc}).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
@@ -195,7 +195,7 @@ class DamagedFile(DiscModelError):
 def may_be_file(path: object) -> bool:
     """Whether a path is allowed for a file; see `NAME_RULE`."""
     try:
-        file = Path(path)  # type: ignore[arg-type] # whether it is one is what is found out here
+        file = Path(path)  # type: ignore[arg-type] # this function finds out whether it is one
         name = os.fsencode(file.name)
         return (
             name not in (b"", b"..")
@@ -255,7 +255,7 @@ def _append_checksum(path: Path) -> None:
         end = _checksum(hashlib.file_digest(file, "sha256"))
         file.write(end)
         file.flush()
-        os.fsync(file.fileno())  # else a crash of the machine may leave the new name with nothing in it
+        os.fsync(file.fileno())  # otherwise a crash of the machine may leave an empty file under the new name
 
 
 def _checksum(digest: hashlib._Hash) -> bytes:

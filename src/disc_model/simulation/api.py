@@ -399,7 +399,7 @@ def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[st
 
 
 # ----------------------------------------------------------------------------------------------------
-# Where a motion starts
+# Initial states
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:

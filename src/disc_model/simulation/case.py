@@ -35,7 +35,7 @@ from disc_model.parameters import (
 from disc_model.simulation.ramps import Ramp
 
 # ----------------------------------------------------------------------------------------------------
-# What is kept
+# Recorded quantities
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -194,7 +194,7 @@ class Record(Checked):
 
 
 # ----------------------------------------------------------------------------------------------------
-# Where a motion starts
+# Initial states
 
 START = "start"
 """Name of the axis of a grid along which the initial conditions vary."""

@@ -162,7 +162,7 @@ class Checkpoint:
         arrays["belongs_to"] = np.array(json.dumps(self.belongs_to))
 
         def write(name: str) -> None:
-            with open(name, "wb") as file:  # numpy adds an ending to names
+            with open(name, "wb") as file:  # given a name, numpy would add a suffix to it
                 np.savez(file, **arrays)
 
         began = clock.monotonic()
@@ -215,7 +215,7 @@ class Collector:
         # recorded arrays in order of time; these lists only grow
         self._events: list[Array] = []
         self._parts: list[list[Array]] = [[] for _ in grids]
-        self._rest: list[list[Array]] = [[] for _ in grids]  # of bins that are not full
+        self._rest: list[list[Array]] = [[] for _ in grids]  # rows of bins that are not full
         self._poincare = record.poincare is not None
         self.first_separation = math.nan
         """Time of the first loss of contact, s; nan if there was none."""
@@ -243,7 +243,7 @@ class Collector:
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if n_events:
             self._take_events(self.event_rows[:n_events], separated=counters[event_loop.SEPARATIONS] > 0)
-        if n_events > len(self.event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # it was full
+        if n_events > len(self.event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
             self.event_rows = np.empty((BUFFER, len(event_loop.EVENT_ROW)))
         rows = self.rows[:n_rows]
         for i in range(len(self.sampled)):

@@ -345,7 +345,7 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Between `Parameters` and `State` (modes in the order of `plate_modes`) and the engine's lanes
+# Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
 
 CASES = 32
 """Number of cases whose constants and workspaces are cached: tens of kilobytes each, megabytes with 1000 modes."""
@@ -499,7 +499,7 @@ def write_state(case: EngineCase, given: State, state: layout.EngineState, key: 
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
-    if given.phase != "separation" and len(case.model.compliance) != 1:  # else u is a state of its own
+    if given.phase != "separation" and len(case.model.compliance) != 1:  # otherwise u is an independent coordinate
         _check_height(case, given.u, state)
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
@@ -620,7 +620,7 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
 
 
 # ----------------------------------------------------------------------------------------------------
-# From the one tolerance a user gives to the order and the local tolerance of the series
+# Order and local tolerance of the series, from the tolerance that a user gives
 
 # Local truncation error for a tolerance of 1.  With it the errors of event times over a second of motion equal the
 # tolerance, as measured against the long-double references (docs/accuracy.md).

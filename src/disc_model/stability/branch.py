@@ -114,7 +114,7 @@ class CycleProblem:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
             raise CorrectorFailed(f"{REORDERED}: {', '.join(changes)}")
-        # into the reference's coordinates: they differ where E is free
+        # convert to the reference's coordinates, which differ if E is free
         turn = self.scale / map_.scale
         jacobian = jacobian * turn[:, None] / turn[None, :]
         residual = (end - x) * turn / self.size

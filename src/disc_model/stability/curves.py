@@ -173,7 +173,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
         return None
     there = case.replace(**{name: float(values[j])})
     point = branch.points[j]
-    if name == "E":  # which scales the coordinates; the branch is in those of the case it starts from
+    if name == "E":  # E scales the coordinates, and the branch uses those of its first case
         point = point / ReturnMap(case, tol).scale * ReturnMap(there, tol).scale
     return _Seed(kind, there, point, float(branch.period[j]))
 

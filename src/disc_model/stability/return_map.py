@@ -151,7 +151,7 @@ class ReturnMap:
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
         refuse(case_faults(p, "the return map"))
-        tol = float(tol)  # kernels are compiled for the types that they are given
+        tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
@@ -160,7 +160,7 @@ class ReturnMap:
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
         width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
-        self._slider = 2 * width + 2 * n0  # where columns hold psi, f, u, u'
+        self._slider = 2 * width + 2 * n0  # first row of psi, f, u, u' in columns
         used = np.flatnonzero(model.shift)
         omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
         single = np.arange(n0)
@@ -170,7 +170,7 @@ class ReturnMap:
         self.diameters = np.concatenate([l, l, l0, l0])
         if len(model.compliance) == 1:
             rows = np.append(rows, self._slider + np.array([columns.U_ROW, columns.V_ROW]))
-            # the energy of the slider between its spring and the contact
+            # the norm is that of the energy of the slider between its spring and the contact
             self.scale = np.append(self.scale, np.sqrt([1 / model.compliance[0] + model.k, model.m]))
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)

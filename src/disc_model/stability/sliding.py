@@ -90,7 +90,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.NO_SPRING)
     modes = mode_arrays(p)
     damping = modal_damping(p)
-    a, b, force = _equilibrium(p, modes, damping)  # the vertical one
+    a, b, force = _equilibrium(p, modes, damping)  # the vertical force
     if not (math.isfinite(force) and force > 0) and p.contact != "bonded":
         return _absent(SlidingStatus.NO_CONTACT)
     l = modes.diameters
