@@ -48,8 +48,8 @@ rule bench:
         ),
 
 
-# What looks at the clock takes the whole machine (Snakemake lowers the threads to the cores there are).
-# heyoka cannot be told for which processor to compile: as for AVX2 it stays as it is.
+# Timed jobs take the whole machine (Snakemake lowers the threads to the available cores).
+# heyoka has no option for the target processor: in the run for AVX2 it stays native.
 rule measure_work_precision:
     output:
         nc=f"{BENCH}/work_precision{{target}}.nc",

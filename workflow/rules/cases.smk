@@ -2,8 +2,8 @@
 
 
 rule simulate_case:
-    # The job is told everything in one text, which Snakemake remembers: a case whose content is the same is not run
-    # again, wherever and however its file now says it.
+    # The job receives everything in one text, which Snakemake records: a case with equal content is not run again,
+    # wherever and however its file describes it.
     input:
         lambda wildcards: compiled(kinds_of_case(STUDY.specs[wildcards.case])),
     output:
@@ -29,7 +29,7 @@ rule merge_cases:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function: braces in a title are no wildcards
+        # a function, so that braces in a title are no wildcards
         labels=lambda wildcards: LABELS,
         made_of=cases_made_of(),
     shell:

@@ -1,4 +1,4 @@
-# What the paper says against what came out.
+# The paper's claims against the computed results.
 
 
 from disc_model.claims import SCANS
@@ -7,7 +7,7 @@ SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 
 
 rule check_claims:
-    # Some claims ask for multipliers of the case's cycle.
+    # Some claims need multipliers of the case's cycle.
     input:
         compiled(["floquet-rigid_vertical"]),
         cases=rules.merge_cases.output,
@@ -33,7 +33,7 @@ rule check_claims:
         "job check_claims {output} {input.cases} {input.scans} > {log} 2>&1"
 
 
-# The case and the window that Tables 1 and 2 are made of may be missing from a study.
+# A study may lack the case and the window of Tables 1 and 2.
 TABLES = [
     f"table{n}"
     for n in (1, 2)

@@ -1,4 +1,4 @@
-# The study, checked before anything runs, and what all the rules share.
+# The study, checked before anything runs, and common parts of all rules.
 import hashlib
 import json
 import shlex
@@ -16,7 +16,7 @@ from snakemake.shell import shell
 
 CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
 
-# The package lies beside the workflow in a clone, and round it where it is installed.
+# The package lies beside the workflow in a clone, and contains it where it is installed.
 WORKFLOW = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).parent
 SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
@@ -33,7 +33,7 @@ except ModuleNotFoundError as error:
         " (`make env` in a clone of its repository), and use that environment's snakemake."
     ) from None
 
-# What jobs import, so that a dry run does not succeed where they cannot.
+# Imports of the jobs, so that a dry run does not succeed where they would fail.
 if missing := [
     name
     for name in ("numba", "netCDF4", "matplotlib", "cmcrameri")
@@ -49,7 +49,7 @@ if not PAPER.exists():
     PAPER = WORKFLOW.parent / PAPER
 if not workflow.configfiles and "study" not in config:
     try:
-        read_file(PAPER)  # says where it is no YAML, which Snakemake does not
+        read_file(PAPER)  # reports the place of faulty YAML, which Snakemake does not
     except StudyError as error:
         raise WorkflowError(str(error)) from None
 
@@ -58,7 +58,7 @@ if not workflow.configfiles and "study" not in config:
 
 try:
     STUDY = study_from_config(config, workflow.configfiles)
-    # ASKED are those whose figures are wanted; others are there because a figure shows them as well.
+    # ASKED are the grids whose figures are requested; a figure may show further ones.
     GRIDS, ASKED = STUDY.grids(
         [
             Path(),
@@ -77,14 +77,14 @@ if getattr(workflow, "is_main_process", True):
 RESULTS = f"results/{STUDY.name}"
 SCRIPTS = str(WORKFLOW / "scripts")
 
-# Jobs run with the interpreter that runs Snakemake, whether or not its environment is active; or with that of conda.
+# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
 OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
 FOUND = f"export PYTHONPATH={shlex.quote(str(SOURCES))}${{PYTHONPATH:+:$PYTHONPATH}}; "
 if CONDA and not SOURCES.is_dir():
     raise WorkflowError(
         "With conda the workflow is run from a clone of its repository, where the package's sources are."
     )
-# Commands do not say where the scripts are: Snakemake runs again what has another command.
+# Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
 JOB = f'job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 PREFIX = (
     "set -euo pipefail; "
@@ -104,7 +104,7 @@ wildcard_constraints:
 
 
 def made_of(rule, *sources, of=()):
-    """Hash of all that decides a result: the sources of its rule and others, what jobs are told, what inputs are made of.
+    """Hash of everything that decides a result: sources of its rule and others, arguments, and origin of its inputs.
 
     It is a parameter of each rule, by which Snakemake runs again what has changed. By itself Snakemake would overlook
     sources, and inputs that were made anew after the clock had been set back.
@@ -148,7 +148,7 @@ def refuse_unknown_targets():
 
 @cache
 def unrecorded():
-    """Results of which Snakemake has no record: it would take them for up to date, whatever they are."""
+    """Results without a record of Snakemake, which would take them for up to date."""
     store = workflow.persistence
     if any(Path(store.path, "incomplete").rglob("*")):
         return []  # an interrupted run comes first: Snakemake knows of it
@@ -157,7 +157,7 @@ def unrecorded():
 
 
 def refuse_unrecorded(wildcards):
-    """Stop if there are `unrecorded` results; as the input of what is requested, since records are read by then."""
+    """Stop if there are `unrecorded` results; an input function, since Snakemake has read its records by then."""
     main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
     if main and (unknown := unrecorded()):
         raise WorkflowError(
@@ -170,7 +170,7 @@ def refuse_unrecorded(wildcards):
 
 
 def closing_lines():
-    """What a run of the whole study came to: figures, points without a result, and where to look at each point."""
+    """Summary of a run of the whole study: figures, points without a result, and how to examine each point."""
     figures = [Path(file) for file in PRODUCTS if file.endswith(".png")]
     folders = {str(figure.parent) for figure in figures}
     place = folders.pop() if len(folders) == 1 else "results/*/figures"
@@ -199,7 +199,7 @@ def grid_file(study):
 
 
 def compiled(kinds):
-    """What says that kernels of these kinds are compiled."""
+    """Files that mark compiled kernels of these kinds."""
     return [f"results/compiled/{COMPILED}/{kind}.txt" for kind in kinds]
 
 
@@ -207,7 +207,7 @@ COMPILED = source_hash("engine")
 
 
 def merge_plan(study):
-    """What a merge needs to know beyond its files, as JSON."""
+    """Data of a merge beyond its files, as JSON."""
     plan = {
         "batches": sorted(GRIDS[study].batches),
         "grid": GRIDS[study].grid,
@@ -245,7 +245,7 @@ def plot_made_of(study, name):
 
 
 def overlay_inputs(wildcards):
-    """Merged files of the further studies that a figure shows, by role; none for a figure of a case beside the grid."""
+    """Merged files of the further studies in a figure, by role; none for a figure of a case beside the grid."""
     plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
     others = {} if plot is None else plot.overlays
     return {role: grid_file(name) for role, name in sorted(others.items())}

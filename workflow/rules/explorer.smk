@@ -1,10 +1,10 @@
-# A page to look at every grid study, at motions and at the report's figures: `snakemake explorer`, not part of `all`.
+# A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
 import json
 from itertools import chain
 
 from disc_model.studies.document import QUANTITIES
 
-# What is asked of a whole plane comes first.
+# Studies of a whole plane come first.
 EXPLORED = sorted(
     GRIDS, key=lambda study: list(QUANTITIES).index(GRIDS[study].quantity)
 )
@@ -49,7 +49,7 @@ rule build_explorer:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function: braces in a title are no wildcards
+        # a function, so that braces in a title are no wildcards
         plan=lambda wildcards: json.dumps(
             {
                 "title": STUDY.title or STUDY.name,

@@ -1,4 +1,4 @@
-# One job per figure, from the files of the cases it shows: another case's change does not draw it again.
+# One job per figure, from the files of its cases: a change of another case does not draw it again.
 import json
 
 
@@ -53,7 +53,7 @@ if HAS_FIGURE_15:
         show_figure_15,
 
     rule show_figure_15:
-        # Drawn from a grid study; here it stands among the paper's figures.
+        # Drawn from a grid study, and shown among the paper's figures.
         input:
             pdf="results/critical_speed/figures/fig15.pdf",
             png="results/critical_speed/figures/fig15.png",

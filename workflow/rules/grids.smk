@@ -1,6 +1,6 @@
-# Grid studies: batches of points, one dataset for each study, and its figures. What a batch is, is said in
-# disc_model.studies.study.
-# The name of a batch's file is the hash of what it is told, so that a value that is taken out and put in again is there.
+# Grid studies: batches of points, one dataset for each study, and its figures. Batches are defined in
+# disc_model.studies.study. The name of a batch's file is the hash of its text, so that a value that is removed and
+# restored needs no new job.
 import json
 
 

@@ -1,9 +1,9 @@
-# What becomes of results that are out of date, damaged, or of unknown origin: run by name, not part of `all`.
+# Treatment of results that are out of date, damaged, or of unknown origin: run by name, not part of `all`.
 import json
 
 
 rule gc:
-    # What no study refers to any more: batches and merged files of former values, options or sources.
+    # Removes files that no study refers to any more: batches and merged files of former values, options or sources.
     log:
         "results/gc.log",
     localrule: True
@@ -21,7 +21,7 @@ rule gc:
 
 
 rule check:
-    # What was damaged on the disk, or is there without a record of how it was made: out of the way, to be made anew.
+    # Moves files that are damaged or have no record out of the way, so that they are computed again.
     log:
         "results/check.log",
     localrule: True

@@ -2,11 +2,10 @@
 
 
 rule compile:
-    # Named by the sources: with one fixed name what uses kernels would need `ancient`, and Snakemake (9.27) does not
-    # look further than a job to be run that is only an ancient input of the next, so changed sources would compile
-    # again and compute nothing.
+    # Named by the sources: with a fixed name, users of kernels would need `ancient`. Snakemake (9.27) does not look
+    # beyond a job that is only an ancient input, so changed sources would compile again and compute nothing.
     input:
-        # a cycle's kernels beside those of the motion, which it needs as well
+        # a cycle needs the kernels of the motion as well
         lambda wildcards: compiled(
             [wildcards.kind.replace("floquet", "simulate")]
             if wildcards.kind.startswith("floquet")

@@ -1,5 +1,5 @@
-# What `snakemake --report` shows besides figures and claims: an overview, where everything comes from, what the
-# normalisation of the modes changes, and which conclusions hold under other models.
+# Contents of `snakemake --report` besides figures and claims: an overview, the provenance, the effect of the
+# normalisation of the modes, and the conclusions that hold under other models.
 
 
 from disc_model.claims import SURVIVAL_GRIDS
@@ -23,7 +23,7 @@ rule describe_study:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function: braces in a title are no wildcards
+        # a function, so that braces in a title are no wildcards
         title=lambda wildcards: STUDY.title or STUDY.name,
         made_of=made_of("describe_study", of=cases_made_of()),
     shell:
@@ -31,7 +31,7 @@ rule describe_study:
 
 
 rule compare_normalisations:
-    # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and asks for this.
+    # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
     input:
         compiled(["floquet-rigid_vertical"]),
         published="results/paper/cases.nc",
@@ -55,7 +55,7 @@ rule compare_normalisations:
 
 
 rule judge_survival:
-    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and asks for this.
+    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and runs this.
     input:
         cases="results/survival/cases.nc",
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],

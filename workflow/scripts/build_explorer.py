@@ -1,7 +1,7 @@
-"""Write the page on which grid studies, motions and figures are looked at.
+"""Write the explorer page with grid studies, motions and figures.
 
-What it holds is read from standard input as JSON: ``title``; ``studies``, each with ``name``, ``data`` and ``motions``
-(netCDF files; the latter may be "") and what these show as ``said``; ``pictures``, each with ``heading``, ``title``,
+Its contents are read from standard input as JSON: ``title``; ``studies``, each with ``name``, ``data``, ``motions``
+(netCDF files; the latter may be "") and their description ``said``; ``pictures``, each with ``heading``, ``title``,
 ``caption`` and ``file`` (PNG).
 """
 

@@ -1,8 +1,8 @@
-"""Put results in order after a fault.
+"""Clean up results after a fault.
 
-Every netCDF file is compared with its checksum, and set aside if damaged. What killed jobs left behind is removed, and
-so are the files, read from standard input as a JSON list, of which Snakemake has no record how they were made. Files
-with times in the future get the present one, since Snakemake refuses results older than what they are made of.
+Every netCDF file is compared with its checksum, and set aside if damaged. Remains of killed jobs are removed, and so
+are the files without a record of Snakemake, read from standard input as a JSON list. Files with times in the future get
+the present one, since Snakemake refuses results older than their inputs.
 
 Not to be run while jobs are running.
 """

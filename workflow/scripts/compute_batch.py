@@ -1,7 +1,7 @@
 """Compute one batch of a grid study and save it.
 
-What to compute, a text of `disc_model.studies.study.GridStudy.batches`, is read from standard input: it may be too
-long otherwise.
+The batch, a text from `disc_model.studies.study.GridStudy.batches`, is read from standard input: it may be too long for
+a command.
 """
 
 import sys

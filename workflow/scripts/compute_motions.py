@@ -1,6 +1,6 @@
-"""Compute the motions that can be looked at in the explorer, at a few points of a grid study, and save them.
+"""Compute the motions for the explorer, at a few points of a grid study, and save them.
 
-What to compute, a text of `disc_model.studies.study.GridStudy.motions`, is read from standard input: it may be long.
+The text from `disc_model.studies.study.GridStudy.motions` is read from standard input: it may be long.
 """
 
 import sys

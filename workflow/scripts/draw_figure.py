@@ -1,4 +1,4 @@
-"""Draw one figure from the files of what it shows.
+"""Draw one figure from the files of its data.
 
 plot : JSON, the figure as its kind describes it
 title : written into the files

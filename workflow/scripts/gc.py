@@ -1,6 +1,6 @@
-"""Remove files of grid studies to which no study refers any more, and say how much that was.
+"""Remove files of grid studies to which no study refers any more, and report their size.
 
-What to keep is read from standard input as JSON: by study, names of batches and motions.
+The names of batches and motions to keep, by study, are read from standard input as JSON.
 """
 
 import json

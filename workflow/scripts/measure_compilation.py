@@ -1,4 +1,4 @@
-"""What compiling each kind of kernel costs: processor time and size of its files, from an empty cache."""
+"""Measure the cost of compiling each kind of kernel: processor time and size of its files, from an empty cache."""
 
 import os
 import subprocess

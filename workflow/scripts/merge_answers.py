@@ -1,4 +1,4 @@
-"""Put what each answer costs into one dataset, and into tables as Markdown."""
+"""Merge the costs of the answers into one dataset, and write tables as Markdown."""
 
 from pathlib import Path
 

@@ -1,6 +1,6 @@
 """Merge the batches of a grid study into one dataset, and list the points that failed.
 
-What to merge is read from standard input as JSON: names of the batches, grid, attributes.
+The arguments are read from standard input as JSON: names of the batches, grid, attributes.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""Write what the number of modes changes as a page of tables, and what of it has settled."""
+"""Write a page of tables on the effect of the number of modes and on convergence."""
 
 from pathlib import Path
 

@@ -1,7 +1,7 @@
 """Simulate one case, given as the text of `disc_model.simulation.case.CaseSpec.canonical`, and save it.
 
-A job that was killed continues when it is run again: from a hidden file beside its output, which Snakemake, not knowing
-of it, leaves alone when it removes what a failed job has written.
+A killed job continues when it is run again, from a hidden file beside its output. Snakemake does not know this file and
+leaves it when it removes the output of a failed job.
 """
 
 from pathlib import Path

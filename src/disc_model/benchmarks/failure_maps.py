@@ -34,7 +34,7 @@ SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
 REFERENCE_TOL = 1e-14
 RESOLUTION = 2e-3
-"""Relative, of the largest step that is observed not to blow up."""
+"""Relative precision of the largest stable step."""
 
 VARIABLES = {
     "verdict": VERDICT,
@@ -151,9 +151,9 @@ HORIZON = 25.0
 """s"""
 ANSWER_TRUNCATIONS = (1, 2, 4, 8)
 BUDGET = 3.0
-"""s for a point; finer settings with the same modes are then not tried."""
+"""Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
 VALUES = 6
-"""Settings at most."""
+"""Greatest number of settings."""
 ANSWER_VARIABLES = {
     "verdict": Variable("1", "whether the first separation is right", VERDICT_WORDS),
     "status": Variable("1", "what became of the question", STATUS_WORDS),

@@ -27,9 +27,9 @@ from disc_model.data.dataset import markdown_table
 from disc_model.errors import DiscModelError
 
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
-"""Of the scenes in the overview."""
+"""Panel letters of the scenes in the overview."""
 FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "contact_truncation")
-"""Those that stand in docs/gallery."""
+"""Figures that are shown in docs/gallery."""
 Summary = Mapping[str, Any]
 
 

@@ -44,12 +44,13 @@ TITLES = {
     "rigid": "rigid disc",
 }
 JUDGED = ("stick_slip", "separating")
-"""Those by which methods are compared in a few words: a second each."""
+"""Scenes for short comparisons of methods: a second each."""
 CONVERGED = 1e-6
-"""s; an answer with every event and no event time further off counts as converged."""
+"""Greatest event-time error of a converged answer with all events, s."""
 LOST = 2.0
-"""Energy norm of the error over that of the motion from which on the answer counts as unstable: two unrelated motions
-of the same energy are sqrt(2) apart."""
+"""Relative energy norm of the error from which an answer counts as unstable: two unrelated motions of equal energy are
+sqrt(2) apart.
+"""
 
 
 class Verdict(enum.IntEnum):
@@ -122,7 +123,8 @@ MOTIONS: Mapping[str, tuple[dict[str, Any], Callable[[Parameters], State], float
     "rigid": ({"E": 1e20, "n_diameters": 1}, static_start, 0.02, math.inf),
 }
 """By scene: parameters beside N = 385 N and Omega = 15.1 rad/s, the start, the end (s), and the longest step (s) of
-RK45 and DOP853: with longer ones they miss losses of contact at any tolerance."""
+RK45 and DOP853. With longer steps these miss losses of contact at any tolerance.
+"""
 
 
 @lru_cache(maxsize=8)

@@ -15,9 +15,9 @@ from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
 DEFAULT = 1e-10
-"""The series engine's default tolerance, and the event-time error (s) that the others have to reach as well."""
+"""The series engine's default tolerance, and the event-time error (s) required of the other methods."""
 FLOOR = 1e-15
-"""s; errors below are alike, zero among them."""
+"""Errors below this count as equal, zero among them, s."""
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:

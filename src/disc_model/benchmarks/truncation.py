@@ -39,11 +39,11 @@ CASES = {
 }
 """Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""
 HORIZON = 120.0
-"""s in which separation is waited for."""
+"""Horizon of the first separation, s."""
 AFTER = 1.0
-"""s after the first separation over which impacts are counted."""
+"""Time after the first separation over which impacts are counted, s."""
 WINDOW = (5.0, 7.0)
-"""s over which the range of the contact force in contact is taken."""
+"""Stretch over which the range of the contact force is taken, s."""
 SHARED = {
     "modes": Variable("1", "number of real modes"),
     "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
@@ -87,7 +87,7 @@ def _compared() -> dict[str, Any]:
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
-"""Diameters and circles: 1 to 75 modes; 165, with (16, 4), cost five times what 75 do."""
+"""Diameters and circles: 1 to 75 modes; (16, 4), with 165 modes, costs five times as much as 75."""
 SEPARATING: dict[str, dict[str, Any]] = {
     "as published, N=385, Omega=15.1": {"N": 385.0, "Omega": 15.1},
     "orthonormal, N=600, Omega=30": {"N": 600.0, "Omega": 30.0, "normalization": "orthonormal"},
@@ -96,11 +96,11 @@ SEPARATING: dict[str, dict[str, Any]] = {
 }
 CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
 LATE = (20.0, 10.0)
-"""s from the first separation to the late stretch that is looked at, and the stretch itself."""
+"""Time from the first separation to the late stretch, and its length, s."""
 TOLERANCES = (1e-10, 1e-12, 1e-13)
-"""Of the motion after the first separation: the next one where it cannot be followed to its end with the one before."""
+"""Tolerances of the motion after the first separation; the next one is used if the last fails to reach the end."""
 MOST_GROWTH = 80
-"""Growth rates take a column for each of four coordinates of every pair: with more real modes they are left out."""
+"""Greatest number of real modes for growth rates, which need a column for each of four coordinates of every pair."""
 CONTACT_VARIABLES = SHARED | {
     "contact_compliance": Variable("m N-1", "compliance of the contact"),
     "separations": Variable("s-1", "separations per second, late"),

@@ -18,7 +18,7 @@ from disc_model.data.dataset import markdown_table
 
 Summary = Mapping[str, Any]
 Line = tuple[list[int], list[float | None]]
-"""Numbers of modes, and a quantity for each."""
+"""Numbers of modes, and values of a quantity."""
 
 
 class Asked(NamedTuple):
@@ -45,14 +45,14 @@ TABLED = {
     "u_range": Asked("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
     "force_max_separating": Asked("largest force", "largest force, N", 1e-1, 1.0, 3),
 }
-"""Tolerances: of the motion in contact 1 % or better, of what ten seconds of an irregular motion give 10 %."""
+"""Tolerances: 1 % or better for the motion in contact, 10 % for values from ten seconds of an irregular motion."""
 COSTS = {"cost": "cost in contact, ms/s", "cost_separating": "cost after it, ms/s"}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
-"""What comes after the first separation."""
+"""Quantities after the first separation."""
 OPEN = ("case", "contact", "quantity", "values", "with so many modes")
-"""Head of the table of what has not converged."""
+"""Head of the table of quantities that have not converged."""
 FEWEST = 3
-"""Models that must agree: one, and two larger ones."""
+"""Number of models that must agree: one, and two larger ones."""
 
 
 def summary(study: xr.Dataset) -> dict[str, Any]:

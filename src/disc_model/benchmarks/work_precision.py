@@ -29,20 +29,20 @@ from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
 BUDGET = 12.0
-"""s that a method may take for a point before it is stopped."""
+"""Budget of a method for a point, s."""
 BUDGETS = {"rigid": 4.0}
-"""s, where it is known that a method in Python cannot finish."""
+"""Budgets in s of scenes that methods in Python cannot finish."""
 ROUNDS = 11
 LONG = 0.5
-"""s; a point that takes longer is measured only in the first round, one that takes a tenth of it in all of them."""
+"""Longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds."""
 FURTHER = 4.0
-"""How far beyond a scene's end the quick points go on, in spans of the scene, for the cost of a second more."""
+"""Extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second."""
 FLOOR = 1e-13
-"""Errors below this (s, or relative) are rounding and take no part in the fit of the order."""
+"""Errors below this (s, or relative) are rounding and are left out of the fit of the order."""
 
 
 Settings = Mapping[str, Mapping[str, Sequence[float]]]
-"""By scene and method, the settings from coarse to fine."""
+"""Settings from coarse to fine, by scene and method."""
 
 
 def all_settings() -> Settings:

@@ -6,6 +6,6 @@ the table.
 """
 
 SCANS = ("bonded", "critical_speed", "map_E", "map_c_p")
-"""Grid studies that claims look at; here, where the workflow learns of them without importing what computes."""
+"""Grid studies that claims use; listed here so that the workflow reads them without importing the computations."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
-"""Those of config/survival.yaml, by which `survival` judges the conclusions under other models."""
+"""Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""

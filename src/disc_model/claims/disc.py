@@ -17,7 +17,7 @@ DISC_HZ = (237.45, 241.40, 290.28, 441.53, 697.58)
 DISC = (1491.92, 1516.76, 1823.88, 2774.19, 4383.04)
 ATTACHED = (850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04)
 ATTACHED_HZ = (135.42, 237.55, 241.40, 288.85, 290.28, 441.53, 438.95, 693.99, 697.58)
-"""As printed: of the disc alone, Hz and rad/s; with the slider attached, rad/s and Hz."""
+"""Printed frequencies: of the disc alone, Hz and rad/s; with the slider attached, rad/s and Hz."""
 
 
 @CHECKS("P01")

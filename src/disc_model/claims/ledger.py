@@ -33,7 +33,7 @@ COLUMNS = (
 )
 SECTIONS = (disc, section41, section42, section43, section44)
 CLAIMS: tuple[Claim, ...] = CHECKS.claims(*(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
-"""In the order in which they stand in the files."""
+"""All claims, in the order of the files."""
 
 
 def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> pd.DataFrame:

@@ -30,8 +30,9 @@ STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "s
 
 
 STRETCHES, STRETCH = 3, 20.0
-"""A motion is steady if the ranges of contact force and disc over its last three stretches of 20 s differ by no more
-than 1 % of the widest. What grows or decays by 3e-4/s or more does not pass."""
+"""A motion is steady if its ranges of contact force and disc hardly change: over the last three stretches of 20 s they
+differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails.
+"""
 
 
 class Absent(Missing):

@@ -127,9 +127,9 @@ class Text(BaseModel):
 
 
 RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
-"""Bounds without unit, which are compared with 1."""
+"""Dimensionless bounds, which are compared with 1."""
 CHANGED = 1.001
-"""By how much a parameter is changed to see whether that turns a verdict."""
+"""Factor by which a parameter is changed to test whether the verdict changes."""
 
 
 @dataclass(frozen=True)
@@ -291,7 +291,7 @@ class Checks(dict[str, Callable[..., Answer]]):
 
 
 CHECKS = Checks()
-"""Of the paper's claims."""
+"""Checks of the paper's claims."""
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from disc_model.data.dataset import markdown_table
 CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note"}
 CLASSES |= dict.fromkeys((NOT_TESTABLE, NOT_COMPUTED), "none")
 CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
-"""Of the columns of the ledger, in hundredths."""
+"""Widths of the ledger's columns, in per cent."""
 
 
 @cache

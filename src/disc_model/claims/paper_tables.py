@@ -17,16 +17,16 @@ from disc_model.parameters import Parameters
 
 TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]
-"""Base values as the paper has them, SI units."""
+"""Base values of the paper, SI units."""
 TABLE_2: dict[str, tuple[float, str]] = {
     symbol: (value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()
 }
-"""By symbol: frequency in Hz and attribution, as the paper has them."""
+"""Frequency in Hz and attribution in the paper, by symbol."""
 LISTED = tuple(value for value, _ in TABLE_2.values())
 SEARCHED = 2.0
-"""How far from a frequency of Table 2 a line is looked for, Hz; a quarter of it from the drive's."""
+"""Search width about a frequency of Table 2, Hz; a quarter of it about the drive's."""
 COMBINED = 0.3
-"""Hz; a line no further than this from n f_s + m f_Omega is one of these."""
+"""Greatest distance of a line from n f_s + m f_Omega to count as one of these, Hz."""
 UNNAMED = "no n f_s + m f_Ω"
 
 

@@ -18,7 +18,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
 
 FULL = 1.1
-"""A section is full if its last points hold no more different ones than the last half of them, but for so much."""
+"""A section is full if its last points hold at most this factor more distinct points than their last half."""
 
 
 @CHECKS("F02a", "F13g")

@@ -37,11 +37,11 @@ STIFFENED = {
     "k": (1e3, "kN/m", (20, 30, 50, 60, 70, 80, 90, 100, 110, 130, 148, 200)),
     "k_p": (1e3, "kN/m", (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)),
 }
-"""Disc and springs with their units and values: those that the paper tries, and others between them."""
+"""Parameters of disc and springs with units and values: those of the paper, and others between them."""
 SPEEDS = (7.5, 8.75, 10, 12.6, 15, 20, 30, 50)
-"""rad/s, at which twice the disc's damping is tried."""
+"""Speeds at which twice the disc's damping is tested, rad/s."""
 GREW = 1.02
-"""A range that is wider by less has not grown: sampling feigns far less."""
+"""Least factor by which a grown range is wider: sampling causes far less."""
 
 
 @cache

@@ -16,11 +16,11 @@ from disc_model.data.variables import Outcome
 from disc_model.plate import coupled_natural_frequencies, plate_modes
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
-"""Windows of N = 385 N, 15.1 rad/s, and the stretches of them that are compared, s."""
+"""Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
 STILL = 3e-4
-"""1/s, the rate at which a motion that passes for steady may grow, see `disc_model.claims.measures.STRETCH`."""
+"""Greatest growth rate of a motion that counts as steady, 1/s, see `disc_model.claims.measures.STRETCH`."""
 
 
 @CHECKS("T2a")

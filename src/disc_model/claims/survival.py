@@ -100,7 +100,7 @@ def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
 
 CHECKS = Checks()
 SLOW = 1e-3
-"""1/s, a growth rate below which a cycle counts as neither stable nor unstable."""
+"""Growth rate below which a cycle counts as neither stable nor unstable, 1/s."""
 
 
 @CHECKS("Onset")

@@ -23,7 +23,7 @@ from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 
 ANY = "VALUE"
-"""How help texts call what an option can be, where that is no list of words."""
+"""Placeholder in help texts for an option whose values are not a list of words."""
 
 
 def option_name(field: str) -> str:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from disc_model.truncation import ModeChoice
 
 PLOT_POINTS = 4000
-"""Points across a plot: more samples than this are reduced to the least and greatest of each bin."""
+"""Points across a plot: more samples are reduced to the least and greatest of each bin."""
 PLOT_RATE = 2000.0
 """Samples per second in a plot of the whole run, Hz."""
 ZOOM = 0.25

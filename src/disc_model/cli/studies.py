@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 PACKAGE = Path(__file__).resolve().parents[1]
 PAPER = Path("config/paper.yaml")
 INTERRUPTED = 130
-"""Exit code after Ctrl-C, also what typer makes of it: 128 and the number of the signal, as shells do."""
+"""Exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells."""
 KINDS = ("studies", "figures", "cases", "outdated")
 FILES = typer.Argument(help="study files, later ones laid over earlier ones; this folder's if it holds one only")
 

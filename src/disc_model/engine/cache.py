@@ -29,15 +29,17 @@ import llvmlite.binding as llvm
 import numba
 
 SHIPPED = Path(__file__).parent / "kernels"
-"""Kernels that come with the package, a folder for each level; `VERSIONS` in it says what they were compiled with."""
+"""Kernels shipped with the package, a folder for each level; its file `VERSIONS` states the versions that compiled
+them.
+"""
 VERSIONS = "versions.txt"
 LEVELS = {
     "x86-64-v4": ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"),
     "x86-64-v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe"),
 }
-"""What a processor must have for a level, the highest first."""
+"""Processor features that a level needs, the highest level first."""
 TARGETS = {"x86-64-v4": ("x86-64-v4", "-prefer-256-bit"), "x86-64-v3": ("x86-64-v3", "")}
-"""What numba is told to compile kernels of a level: ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES``."""
+"""Settings of numba for kernels of a level: ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES``."""
 
 # Errors raised by a part of numba that is missing or has changed.
 MISSING = (ImportError, AttributeError, TypeError)

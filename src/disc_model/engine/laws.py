@@ -13,7 +13,7 @@ from .compile import inlined
 from .layout import is_compliant, is_normal
 
 TINY = 1e-100
-"""The complex step: its square is far below rounding, and a number still."""
+"""The complex step: its square is far below rounding, but not zero."""
 
 
 class Instant(NamedTuple):

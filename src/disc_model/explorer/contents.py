@@ -20,11 +20,11 @@ FURTHER = {
     "truncation_quantity": Variable("", "quantity by which modes are chosen"),
     "truncation_tolerance": Variable("1", "largest relative error of the quantity by which modes are chosen"),
 }
-"""What base values hold besides parameters, where the number of modes is chosen for each point."""
+"""Base values besides parameters, where the number of modes is chosen for each point."""
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
 BITS = 17
-"""Of the 23 of a 32-bit mantissa that are kept: five digits, as many as are shown."""
+"""Number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown."""
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, said: str = "") -> dict[str, Any]:

@@ -20,14 +20,14 @@ from PIL import Image
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
 
 PICTURE_WIDTH = 1100
-"""Pixels of a figure as wide as a page; narrower ones are as much smaller."""
+"""Width of a page-wide figure, pixels; narrower ones are scaled alike."""
 PAGE_WIDTH = 2161
-"""Pixels of such a figure as it was drawn."""
+"""Width of such a figure as drawn, pixels."""
 QUALITY = 80
 SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
-"""In the order in which they use each other."""
+"""Scripts, in the order of their dependence."""
 PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)
-"""Of flags whose words have no colour of their own, told apart by colour-blind readers too."""
+"""Colours of flags whose words have none of their own, distinct to colour-blind readers too."""
 WORDS = {
     **PHASE_COLOURS,
     "ok": SKY,

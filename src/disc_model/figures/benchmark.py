@@ -31,12 +31,12 @@ from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PUR
 _TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TITLES: dict[str, str] = _TEXTS["titles"]
 WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
-"""What verdicts are called, by number, and their shades."""
+"""Names of the verdicts, by number, and their shades."""
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 ERRORS: dict[str, str] = _TEXTS["errors"]
 LINES = {name: (getattr(parts, colour), *look) for name, (colour, *look) in _TEXTS["lines"].items()}
-"""Colour, marker and line style of each method, and of lines that are no method's."""
+"""Colour, marker and line style of each method, and of lines that belong to no method."""
 _HALO = halo()
 
 
@@ -217,7 +217,7 @@ def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -
 
 
 APART = 0.045
-"""Least distance of two numbers in a panel, as a share of its sides."""
+"""Least distance of two numbers in a panel, as a fraction of its sides."""
 
 
 def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
@@ -398,9 +398,9 @@ def _log_edges(values: np.ndarray) -> np.ndarray:
 _LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
 """Colour and marker of each line."""
 Panels = Sequence[tuple[str, str, bool]]
-"""Of eight panels: the variable, its name, and whether its scale is logarithmic."""
+"""Contents of eight panels: the variable, its name, and whether its scale is logarithmic."""
 FAR = 25.0
-"""Per cent by which first separations differ, at most, to be shown to scale."""
+"""Greatest difference of first separations that is shown to scale, per cent."""
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:

@@ -17,7 +17,7 @@ Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""
 NORM = "normalization"
-"""The dimension that a study may have beside those that a figure needs."""
+"""The dimension that a study may have beside those that a figure requires."""
 
 
 class Kind(Strict):
@@ -54,7 +54,7 @@ class Role(NamedTuple):
 
 
 Roles = Mapping[str, Role]
-"""What further studies a figure can show, by the role that they play in it."""
+"""Further studies that a figure can show, by their role."""
 
 
 class Grid(Protocol):
@@ -315,7 +315,7 @@ class RampedSpeeds(Plot):
 
 
 MOST_PANELS, MOST_LINES = 4, 12
-"""Values of a dimension that a general figure has room for."""
+"""Greatest number of values of a dimension in a general figure."""
 
 
 class Sensitivity(Plot):
@@ -363,7 +363,7 @@ class General(Plot):
     """
 
     room: ClassVar[int] = MOST_PANELS
-    """How many values `by` may have."""
+    """Greatest number of values of `by`."""
 
     variable: str
     x: str
@@ -449,13 +449,13 @@ class CurvePlot(General):
 # Of named cases
 
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
-"""What samples hold beside their times and phases."""
+"""Variables of samples beside times and phases."""
 RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
-"""Of these, what a window with an envelope keeps."""
+"""Those of them that a window with an envelope stores."""
 Recorded = Mapping[str, Window | Poincare | None]
-"""What a case records: windows by name, and the Poincaré section as ``poincare``."""
+"""Records of a case: windows by name, and the Poincaré section as ``poincare``."""
 SHORTEST_SPECTRUM = 1.1
-"""Length in s that a window needs for a spectrum in time: one window of the transform and two steps."""
+"""Least length of a window for a spectrum in time, s: one window of the transform and two steps."""
 HIGHEST = 1000.0
 """Highest frequency of a spectrum in time, Hz."""
 

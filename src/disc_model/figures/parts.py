@@ -44,7 +44,7 @@ BEFORE, AFTER = SKY, BLACK
 ONSET, END = SEPARATED, BLUE
 """Speeds at which separation begins, and at which it ends."""
 PAPER = "#F0E442"
-"""Colour of what the paper says, always with a black edge: no other mark and no map has it."""
+"""Colour of the paper's results, always with a black edge: no other mark and no map has it."""
 PAPER_SAYS: dict[str, Any] = {
     "marker": "*",
     "color": PAPER,
@@ -52,7 +52,7 @@ PAPER_SAYS: dict[str, Any] = {
     "markeredgewidth": 0.6,
     "markersize": 9,
 }
-"""A number of the paper among curves."""
+"""Look of a number of the paper among curves."""
 
 BORDERS: dict[str, tuple[str, Any]] = {
     "neutral": ("cycle loses stability", "-"),
@@ -134,15 +134,15 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
 
 
 GIVEN = "given"
-"""In the place of a normalization, where modes are those of a table."""
+"""Word instead of a normalization for modes from a table."""
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", GIVEN: "modes of a table"}
-"""What a panel is titled by normalization."""
+"""Title of a panel by normalization."""
 FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"}
-"""And by the contact force's direction."""
+"""Title of a panel by the direction of the contact force."""
 MODELS = {"normal": FORCES["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
-"""What a study says of its model, where that is not the paper's."""
+"""Words for models other than the paper's."""
 SAID = {**MODES, **FORCES}
-"""Words of parameters as panels are titled, those of the paper first."""
+"""Words of parameters in panel titles, those of the paper first."""
 
 
 def halo(width: float = 1.5) -> list[AbstractPathEffect]:
@@ -295,7 +295,7 @@ def envelope(ax: Axes, history: xr.Dataset, name: str, *, scale: float = 1.0, co
 
 
 COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
-"""Of what is sampled; what is not here belongs to the slider."""
+"""Colours of sampled variables; all others belong to the slider."""
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:

@@ -75,7 +75,7 @@ from disc_model.truncation import (
 # Names
 
 STATIC = "static"
-"""The start that needs not be said."""
+"""Name of the default start."""
 TAKEN_CASES = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
@@ -110,10 +110,10 @@ StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", STATIC))
 
 Value = float | int | str
 Said = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
-"""A value as the file says it: what it means is known where its parameter is."""
+"""A value as given in the file; its parameter determines its meaning."""
 Blocks = tuple[tuple[Value, ...], ...]
 MOST = 100_000
-"""Values along one axis, at most; a slip of the pen can ask for more than fit into memory."""
+"""Greatest number of values along one axis; a slip of the pen can ask for more than fit into memory."""
 
 
 class Range(Strict):
@@ -225,7 +225,7 @@ def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Bl
 
 
 VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)
-"""What a grid may vary, in the order of its dimensions: parameters, ratios in their place, and the start."""
+"""Names that a grid may vary, in the order of its dimensions: parameters, ratios in their place, and the start."""
 
 
 class _Columns(Strict):
@@ -268,7 +268,7 @@ Zip = Annotated[Annotated[Columns, Tag("one zip")] | Annotated[list[Columns], Ta
 NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
 """Parameters that can be distributed."""
 FARTHEST = 6.47
-"""Standard deviations that a normal distribution reaches: 1e-10 of it lies beyond, and is left out."""
+"""Standard deviations at which a normal distribution is cut off: a fraction of 1e-10 lies beyond."""
 
 
 class _Distribution(Strict):
@@ -694,19 +694,19 @@ class Entry(NamedTuple):
         return max(1, round(WORK / self.seconds(options)))
 
     def parted(self, said: Strict) -> tuple[Strict, Start]:
-        """What a file says under ``options`` as the options themselves, and where motions start."""
+        """The options and the start of motions from the key ``options`` of a file."""
         own = {name: getattr(said, name) for name in self.options.model_fields}
         start = Start(prerun=said.prerun, perturbation=said.perturbation) if isinstance(said, Start) else Start()
         return self.options.model_construct(**own), start
 
 
 WORK = 20.0
-"""Of a batch, s of processor time: its job costs about 1 s in itself. Three times as much does no harm."""
-# As measured, s. A new value cuts all studies of a quantity anew that do not say `batch.size`.
+"""Processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm."""
+# Measured costs, s. A new value changes the batches of all studies of a quantity without `batch.size`.
 SIMULATED = 7e-4
-"""A simulated second: 3e-4 in contact, twice or three times that where contact is lost again and again."""
+"""Cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation."""
 CYCLE = 2.5e-3
-"""To find a cycle and its multipliers."""
+"""Cost of finding a cycle and its multipliers, s."""
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
@@ -743,7 +743,7 @@ QUANTITIES = {
     "branches": Entry(BranchesOptions, lambda o: WORK, scans=("parameter",)),
     "sensitivity": Entry(
         SensitivityOptions,
-        # the same for more samples, whose batches are to stay
+        # independent of the number of samples, so that more samples keep the batches
         lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.simulated_samples > 0),
         over=SAMPLE,
     ),
@@ -799,7 +799,7 @@ SomeRecord = create_model(
 
 
 def _rule(checked: Callable[[str, Any], tuple[Any, list[Any]]]) -> Callable[[Any], Any]:
-    """A check of an argument as a validator."""
+    """A validator from a check of an argument."""
 
     def validate(value: Any) -> Any:
         found, faults = checked("", value)
@@ -835,7 +835,7 @@ GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_gi
 
 
 class Chosen(NamedTuple):
-    """Parameters of a case, and by what its modes are to be chosen if they are."""
+    """Parameters of a case, and how its modes are to be chosen, if they are."""
 
     parameters: Parameters
     asked: Asked | None
@@ -865,7 +865,7 @@ class NamedCase(Strict):
     record: Annotated[RecordSpec, BeforeValidator(lambda said: said, json_schema_input_type=SomeRecord)] = RecordSpec()
 
     def spec(self) -> CaseSpec:
-        """What is simulated; raises `ParameterError` with places inside the case."""
+        """The specification to simulate; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
         p, truncation, modes = self._modes(faults)
         kept = self.record
@@ -891,7 +891,7 @@ class NamedCase(Strict):
         )
 
     def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
-        """Parameters, and how their modes were chosen, or by what they are to be chosen when the case is run."""
+        """Parameters, and how their modes were chosen or will be chosen when the case runs."""
         p, asked = self.parameters
         if asked is None or asked.quantity != FREQUENCIES:
             return p, "", "" if asked is None else to_text(asked)
@@ -939,7 +939,7 @@ else:
     ]
 
 # ----------------------------------------------------------------------------------------------------
-# The whole
+# The whole document
 
 
 def _resolution(value: Any) -> int:
@@ -1018,7 +1018,7 @@ def _of_quantity(name: str, quantity: Entry) -> type[Document]:
 
 
 DOCUMENTS = {name: _of_quantity(name, quantity) for name, quantity in QUANTITIES.items()}
-"""What a file may say that gives a quantity."""
+"""Models of files that give a quantity."""
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ _MADE_OF = (
 )
 _DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items()}
 LONGEST = 500
-"""Of a rule, in characters."""
+"""Greatest length of a rule, in characters."""
 
 
 def names_in(rule: str) -> frozenset[str]:

@@ -74,9 +74,9 @@ from disc_model.studies.rules import holds, names_in
 from disc_model.truncation import FREQUENCIES, asked_modes
 
 TAKEN = ("compiled", "bench")
-"""Folders of results that no study may have."""
+"""Folders of results whose names no study may have."""
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
-"""What a study file says of a grid alone."""
+"""Keys of a study file that concern the grid alone."""
 REQUIRED = ("N", "Omega")
 """Parameters without a base value."""
 
@@ -127,7 +127,7 @@ class _UniqueKeyLoader(yaml.SafeLoader):
 
 
 LARGEST = 100_000
-"""Values in a file, repeated ones counted each time."""
+"""Greatest number of values in a file, repeated ones counted each time."""
 
 
 def _count(node: yaml.Node, known: dict[int, int]) -> int:
@@ -603,11 +603,12 @@ def first_of_each(found: Iterable[str]) -> list[Fault]:
 # Grids
 
 LOOKED_AT = 300
-"""Points, about, at which each rule is asked whether they can be meant."""
+"""Approximate number of points at which each rule is checked for implausible values."""
 FIRST_SAMPLES = 64
-"""In the first block of samples."""
+"""Number of samples in the first block."""
 MOST_POINTS = 1_000_000
-"""Of a grid. Snakemake takes hours over so many jobs, and much more does not fit into memory."""
+"""Greatest number of points of a grid. Snakemake takes hours over so many jobs, and many more do not fit into memory.
+"""
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
@@ -756,7 +757,7 @@ class _Grid:
         zips = raw.get("zip")
         groups = (raw.get("axes"), *([zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else ()))
         self.wanted = {str(name) for group in groups for name in mapping(group)}
-        """What is to vary, whether or not the file says rightly how."""
+        """Names that are to vary, even if the file describes them incorrectly."""
         self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
 
     @property

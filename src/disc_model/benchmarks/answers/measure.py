@@ -28,15 +28,15 @@ from disc_model.data.provenance import versions
 from disc_model.data.variables import Variable
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
-"""Those that the search for a cycle takes."""
+"""Tolerances of the search for a cycle."""
 OWN = ("cycle", "models")
-"""Parts that are no method's."""
+"""Parts that belong to no method."""
 LINES: Mapping[str, tuple[str, str]] = {
     "cycle": ("series, from the cycle itself", "tol"),
     "rigid": ("series, modes, rigid contact", "diameters"),
     "residual": ("series, modes, residual flexibility", "diameters"),
 }
-"""Lines that are no method's: name in words, and what its setting is."""
+"""Lines that belong to no method: name in words, and meaning of the setting."""
 
 
 class Row(NamedTuple):

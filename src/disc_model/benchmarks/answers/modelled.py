@@ -31,11 +31,11 @@ DEFAULT = 1e-10
 DIAMETERS = (0, 1, 2, 3, 4, 6, 8)
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64
-"""Cells of the region that models are compared on."""
+"""Number of cells of the region on which models are compared."""
 SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0
-"""s in which contact is lost, and s after that until the motion is looked at."""
+"""Time within which contact is lost, and time from then until the motion is examined, s."""
 NEVER = 1e6
-"""s; a budget that is not used up: models take their time."""
+"""A budget in s that is never used up: models take their time."""
 
 Model = Mapping[str, Any]
 solve = simulated.by(METHODS["series"], DEFAULT)

@@ -42,15 +42,15 @@ SETTLED = Parameters(N=300.0, Omega=20.0)
 GROWING = Parameters(N=200.0, Omega=20.0)
 
 SEPARATION_HORIZON = 55.0
-"""s that are simulated for the first separation."""
+"""Simulated time for the first separation, s."""
 SETTLED_AT, SETTLED_SPAN = 250.0, 5.0
-"""s; the motion after separation is looked at from the one for the other, two periods and a little."""
+"""Begin and length of the examined motion after separation, s: slightly more than two periods."""
 ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02
-"""rad/s: where the speed of onset is looked for, and how closely."""
+"""Interval in which the onset speed is searched, and precision of the search, rad/s."""
 ONSET_HORIZON = 65.0
-"""s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s."""
+"""Horizon of the onset, s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s."""
 GROWING_AT, GROWING_SPAN = 100.0, 10.0
-"""s; by then a deviation is left that grows, and all others have died out."""
+"""Begin and length of the examined motion, s; by then only a growing deviation is left."""
 SIDE = 32
 REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)
 REGION_HORIZON = 25.0
@@ -73,8 +73,9 @@ QUESTIONS: Mapping[str, Question] = {
     "growth_rate": Question("growth rate", "s-1", 1e-3),
     "region": Question("share of a region judged wrong", "1", 0.01),
 }
-"""The paper gives the first separation to 0.1 s and its critical speed to 0.1 rad/s; the rest is about one per cent (of
-the growth rate five)."""
+"""The paper gives the first separation to 0.1 s and its critical speed to 0.1 rad/s. The other tolerances are about one
+per cent (five for the growth rate).
+"""
 
 
 class AnswerStatus(enum.IntEnum):

@@ -34,17 +34,17 @@ def by(method: Method, value: float) -> Solve:
 
 
 REPEATS = 3
-"""Runs of what is quick; the fastest counts, since disturbances only add."""
+"""Number of repeated quick runs; the fastest counts, since disturbances only add time."""
 QUICK = 0.3
-"""s"""
+"""Longest time of a run that is repeated, s."""
 ALIKE = 1e-3
-"""Two stretches between releases are the same if they differ by less, over the range of all of them."""
+"""Two release intervals are equal if they differ by less, as a fraction of the range of all of them."""
 SEED = 20
-"""Of the order in which cells are drawn where not all can be looked at."""
+"""Seed of the order of cells if only some are examined."""
 TRIED = 4
-"""Cells that say how many a budget will do for."""
+"""Number of cells from which the affordable number is estimated."""
 FEWEST = 16
-"""Cells below which nothing is said."""
+"""Least number of cells for an answer."""
 
 
 class Broken(Exception):
@@ -235,7 +235,7 @@ ASKED: Mapping[str, tuple[Callable[[Solve, float], Answers], float]] = {
     "growth_rate": (growth_rate, 6.0),
     "region": (region, 8.0),
 }
-"""By name: the question, and the seconds that a method may take for it at one setting."""
+"""By name: the function that answers, and the budget in s of a method at one setting."""
 
 
 def ask(solve: Solve, name: str) -> Answers:

@@ -25,12 +25,12 @@ from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 from disc_model.benchmarks.registry import SCENES
 
 STEPS_PER_LOOK = 5_000
-"""Steps between two looks at the clock."""
+"""Number of steps between two checks of the clock."""
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL, ONE_STEP = 1, 2
 REACHED, ROOT_FOUND, TOO_MUCH_WORK = 1, 2, -1
 HEAD = 3
-"""Numbers before the scalars in what callbacks are given: phase, direction, modes."""
+"""Number of entries before the scalars in the callbacks' data: phase, direction, modes."""
 
 
 class Cvode(Method):

@@ -19,7 +19,8 @@ CONSTANTS = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0", "
 _N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(len(CONSTANTS))
 
 ROWS = ("l", "psi", "omega^2", "2 xi omega", "l psi", "P by a", "P by alpha", "P by f beta", "P by -f^2 a")
-"""Of the table of modes; the last four are coefficients of the contact force over its denominator, one a state."""
+"""Rows of the table of modes; the last four are coefficients of the contact force over its denominator, one per state.
+"""
 _L, _PSI, _W2, _D, _SLOPE, _BY_A, _BY_ALPHA, _BY_BETA, _BENT = range(len(ROWS))
 
 STICK, SLIP, SEPARATION = 0, 1, 2
@@ -28,8 +29,9 @@ FINISHED, NON_FINITE, STALLED, STEP_LIMIT = range(4)
 HUGE = 10.0
 """m sqrt(kg); a modal displacement beyond this, thousands of static deflections, is counted as overflow."""
 SHIFT = 1e-16
-"""m, added to the gap.  A separation begins at a triple root of the gap, where general event detection reports a false
-return or none; this is below all gaps and above their rounding, and moves a reattachment by less than 1e-12 s."""
+"""Offset of the gap, m. A separation begins at a triple root of the gap, where general event detection reports a false
+return or none. The offset is below all gaps and above their rounding, and shifts a reattachment by less than 1e-12 s.
+"""
 ROOT_TRIES = 60
 
 # division by zero gives inf, as in numpy; sums may be taken several at a time

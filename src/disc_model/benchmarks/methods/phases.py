@@ -16,14 +16,15 @@ from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 CROWD = 50
-"""More events than this at one instant: the method is stuck."""
+"""Greatest number of events at one instant; with more the method is stuck."""
 NOT_FINITE = "the state is no longer finite"
 INSTANT = 1e-12
 """s; two events closer than this count as at one instant."""
 ENDS = {"stick": 3, "slip": 2, "separation": 1}
-"""How many functions of the state end a phase where they fall through zero.  The first is the contact force (1 where it
-is bonded) or the gap; the others are f in slip, and what is left of friction forwards and backwards in stick.  Ties are
-decided in that order."""
+"""Number of functions of the state that end a phase where they fall through zero. The first is the contact force (1 if
+bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards in stick. Ties are
+decided in that order.
+"""
 
 
 class Phase(NamedTuple):
@@ -41,8 +42,9 @@ PHASE = {
 
 
 Ended = tuple[int | None, float, Array]
-"""Where ``advance`` stopped: place of the function that did it (None at t_end), local time (s), and the state, which
-the caller may change."""
+"""End of ``advance``: index of the function that stopped it (None at t_end), local time (s), and the state, which the
+caller may change.
+"""
 
 
 class Advance(Protocol):

@@ -17,11 +17,13 @@ from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result
 
 STEPS_PER_SECOND = 300_000
-"""What the budget of seconds is turned into: the engine stops by steps, not by the clock."""
+"""Steps per second of budget: the engine stops by steps, not by the clock."""
 
 
 WATCH_RATE = 2e4
-"""1/s; what the disc does after a separation turns by 0.04 rad between two samples: its range is right to 2e-4."""
+"""Sampling rate, 1/s; the disc's motion after a separation advances by 0.04 rad between samples, and its range is
+accurate to 2e-4.
+"""
 
 
 class Series(Method):

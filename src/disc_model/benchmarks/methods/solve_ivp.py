@@ -16,7 +16,7 @@ from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.registry import SCENES
 
 FLOOR = 2.3e-14
-"""Least relative tolerance that scipy takes."""
+"""Least relative tolerance that scipy accepts."""
 IMPLICIT = ("LSODA", "Radau")
 Function = Callable[[float, Array], Any]
 Parts = tuple[Function, Function, list[Function]]
@@ -31,7 +31,7 @@ CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
         MAP_TOLERANCES[:8:2],
     ),
 }
-"""Settings at which each of scipy's algorithms is measured: by scene, and for maps."""
+"""Settings at which each algorithm of scipy is measured: by scene, and for maps."""
 
 
 class SolveIvp(Method):

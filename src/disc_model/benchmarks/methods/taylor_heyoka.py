@@ -26,7 +26,7 @@ from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 
 STEPS_PER_LOOK = 100_000
-"""Steps between two looks at the clock."""
+"""Number of steps between two checks of the clock."""
 
 
 class Heyoka(Method):

@@ -18,13 +18,13 @@ from disc_model.figures.kinds import Bifurcation
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure
 
 SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
-"""What samples at switches are called, by the phase that ends or begins there."""
+"""Names of samples at events, by the phase that ends or begins there."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
-"""Colours of the exponents, the largest first: none that of a phase."""
+"""Colours of the exponents, the largest first; none is that of a phase."""
 HEIGHTS = {"samples": 2.4, "period": 0.9, "lyapunov": 1.4}
-"""Of the panels, inch."""
+"""Heights of the panels, inch."""
 ERRORS = 4
-"""Of an exponent, in half of the band about it."""
+"""Half-width of the band about an exponent, in standard errors."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:

@@ -15,9 +15,9 @@ from disc_model.figures.kinds import Branches
 from disc_model.figures.parts import BLACK, GREY, PAGE, SEPARATED, new_figure
 
 JUMP = 10.0
-"""By so much the range changes from one value of a sweep to the next where it jumps."""
+"""Factor by which the range changes between two values of a sweep at a jump."""
 LOWEST = 1e-3
-"""mm: what vibrates less is not told from rest."""
+"""Least range that is distinguished from rest, mm."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:

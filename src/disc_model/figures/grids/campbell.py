@@ -19,15 +19,17 @@ from disc_model.figures.kinds import Campbell
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, SKY, SLIDER, new_figure
 
 COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
-"""Of the disc's modes by their nodal diameters; those of six or more as those of six fewer. None is that of a phase."""
+"""Colours of the disc's modes by nodal diameters; from six on they repeat. None is that of a phase."""
 RISES = ("rises", "destabilises")
 """Effects of a crossing that are numbered."""
 LEAST = 0.01
-"""1/s: growth rates from which a peak is numbered."""
+"""Least growth rate of a numbered peak, 1/s."""
 GAP = 3
-"""Speeds in a row without a cycle, from which on a gap is numbered: at fewer, Newton's method may have failed."""
+"""Least number of successive speeds without a cycle that form a numbered gap: at fewer, Newton's method may have
+failed.
+"""
 LINEAR = 1.0
-"""1/s: growth rates up to which their scale is linear."""
+"""Growth rate up to which the scale is linear, 1/s."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:

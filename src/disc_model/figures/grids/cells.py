@@ -35,7 +35,7 @@ class Look(NamedTuple):
 
 
 HATCH = 8 * "/"
-"""So dense that a cell of a fiftieth of a panel has two lines."""
+"""Hatch so dense that a cell of a fiftieth of a panel has two lines."""
 OUTCOME_LOOKS = {
     "quiet": Look("quiet", "#e9eef2"),
     "steady_sliding": Look("steady sliding", "#e4dcec"),
@@ -55,7 +55,7 @@ CYCLE_LOOKS = {
     "alone": Look("growth differs from all neighbours", "none", HATCH),
     "failed": Look("failed", "#333333"),
 }
-"""What is shown where no cycle is followed, and over a growth rate that may be another cycle's."""
+"""Looks of points where no cycle is followed, and of growth rates that may be another cycle's."""
 WITHOUT = {
     "ok": "no_cycle",
     "no_cycle": "no_cycle",
@@ -63,7 +63,7 @@ WITHOUT = {
     "no_stick_slip": "steady_sliding",
     "at_rest": "at_rest",
 }
-"""The same, by the status of a point of the quantity `floquet`."""
+"""Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`."""
 
 
 def paler(look: Look, share: float) -> Look:
@@ -128,9 +128,9 @@ def patch(look: Look) -> Patch:
 GREATEST = 0.3
 """Growth rate at which the colours end, 1/s, unless most rates are larger."""
 LINEAR = 1 / 30
-"""Share of it up to which the colours are about linear."""
+"""Fraction of the scale's end up to which the colours are nearly linear."""
 UNLIKE = 0.1
-"""Share of the scale of colours that lies between a cell which stands alone and each around it, at least."""
+"""Least distance of an isolated cell from each neighbour, as a fraction of the colour scale."""
 
 
 def growth_norm(rates: Array) -> AsinhNorm:

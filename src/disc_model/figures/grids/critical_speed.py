@@ -27,12 +27,12 @@ Array = NDArray[np.float64]
 
 PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
 BEHIND = OUTCOME_LOOKS | {name: paler(OUTCOME_LOOKS[name], share) for name, share in PALER.items()}
-"""What becomes of the static start, behind curves and marks."""
+"""Looks of the outcomes of the static start, behind curves and marks."""
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
 LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
 """Colour and marker of each horizon, the longest first."""
 WIDTH = 20.0
-"""Of what is measured at one load, N: well within the step of the sweeps."""
+"""Width of a bar measured at one load, N: well within the step of the sweeps."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:

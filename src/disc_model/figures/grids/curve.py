@@ -19,9 +19,9 @@ from disc_model.figures.kinds import CurvePlot
 from disc_model.figures.parts import BLACK, COLUMN, GREY, new_figure
 
 WIDEST = 25
-"""Letters of a name that has room beside the panel."""
+"""Greatest length of a name that fits beside the panel, letters."""
 LINEAR = 0.1
-"""1/s, growth rate up to which its scale is linear."""
+"""Growth rate up to which its scale is linear, 1/s."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:

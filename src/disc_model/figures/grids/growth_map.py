@@ -24,7 +24,7 @@ from disc_model.stability.resonances import Resonance
 Array = NDArray[np.float64]
 
 NEAR = 3.0
-"""Hz; a resonance further off than this is not named."""
+"""Greatest distance of a named resonance, Hz."""
 OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "the same, another cycle"}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 

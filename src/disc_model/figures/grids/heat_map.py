@@ -23,7 +23,7 @@ from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PU
 WORDS = (BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, GREY)
 """Colours of the values of a flag."""
 HATCH = "//////"
-"""Where there is no value."""
+"""Hatch of missing values."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -> Figure:

@@ -23,7 +23,7 @@ from disc_model.figures.kinds import RegionMap
 from disc_model.figures.parts import PAGE, new_figure
 
 UNRESOLVED = cells.Look("unresolved", "none", cells.HATCH)
-"""Points whose outcome none of those beside them has."""
+"""Look of points whose outcome no neighbour shares."""
 Mask = NDArray[np.bool_]
 
 

@@ -18,7 +18,7 @@ from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLUE, GREY, PAGE, new_figure
 
 BINS = 3
-"""Parts, of as many draws each, of what a parameter is drawn from."""
+"""Number of parts, with equal numbers of draws, of a parameter's distribution."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:

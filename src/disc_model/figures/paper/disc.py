@@ -33,13 +33,13 @@ from disc_model.plate import mode_arrays, mode_shapes
 Array = NDArray[np.float64]
 SEPARATION = PHASES.index("separation")
 COLOURS = cmc.vik
-"""Of the deflection: blue below the plane of the disc at rest, red above it."""
+"""Colours of the deflection: blue below the plane of the disc at rest, red above it."""
 RADII, ANGLES = 25, 181
 """Points across and around the disc at which it is drawn."""
 INSTANTS = 4
-"""Of the figure: equally far apart from one loss of contact to the next."""
+"""Number of instants, equally spaced from one loss of contact to the next."""
 STYLES = ("-", "--", "-.", ":")
-"""Of the lines at these instants."""
+"""Styles of the lines at these instants."""
 
 
 @dataclass(frozen=True)

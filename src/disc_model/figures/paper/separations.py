@@ -83,7 +83,7 @@ def _zoom(ax: Axes, case: xr.DataTree) -> None:
 
 
 MARGIN = 0.5
-"""Time shown before and after, as a share of the separation."""
+"""Time shown before and after, as a fraction of the separation."""
 
 
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:

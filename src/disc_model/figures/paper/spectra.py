@@ -118,7 +118,7 @@ TABLE_2 = {
     "$f_3$, $f_4$:\n$3f_s ∓ f_\\Omega$": (200.0, 206.0),
     "$f_5$, $f_6$:\n$4f_s ∓ f_\\Omega$": (269.0, 273.0),
 }
-"""Lines that the paper lists, Hz, and what they are made of; pairs are too near to be named apart."""
+"""Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
 def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:

@@ -22,13 +22,13 @@ from disc_model.studies.grids.points import STATUS, Point
 from disc_model.studies.grids.run import quantity_of, run_as
 
 SAMPLES = 256
-"""In a history: nearly four in an oscillation of the disc's fastest mode of the paper over the longest."""
+"""Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
 CYCLES_SHOWN = 2
-"""How many stick-slip cycles a history shows."""
+"""Number of stick-slip cycles in a history."""
 LONGEST = 0.05
-"""Of a cycle, s, where stick lasts very long or nothing pulls the slider back."""
+"""Greatest length of a cycle, s, where stick is very long or nothing pulls the slider back."""
 LOOK = 0.5
-"""Over how long stick releases are counted, s."""
+"""Time over which releases are counted, s."""
 SHOWN = ("P", "u", "psi")
 TOLERANCE = 1e-10
 _ALONG = ("sample",)

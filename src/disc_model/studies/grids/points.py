@@ -14,17 +14,17 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-"""What became of a point. `failed`: it raised an error, or was not reached."""
+"""Status of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError
-"""Parameters, or why there are none."""
+"""Parameters, or the error in their place."""
 
 
 STATIC_START = Start()
 DIRECTION = (np.array(("up", "down")), Variable("", "direction of the sweep"))
-"""Coordinate of what is swept up and down."""
+"""Coordinate of sweeps up and down."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Point:
 
 
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
-"""What a point may fail of: this package's errors, division by zero and overflow, matrices that cannot be solved."""
+"""Errors that make a point fail: this package's errors, division by zero and overflow, unsolvable matrices."""
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:

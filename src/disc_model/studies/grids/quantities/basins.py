@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from disc_model.studies.document import BasinsOptions
 
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
-"""What a start can come to."""
+"""Outcomes of a start."""
 ROOM = 12
-"""For attractors, those reached by most starts; there are seven at 10 rad/s and 385 N."""
+"""Greatest number of stored attractors, those of most starts; there are seven at 10 rad/s and 385 N."""
 SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
-"""What is said of a stretch of an attractor."""
+"""Statistics of a stretch on an attractor."""
 SMALLEST = 2.0**-40
-"""Of the least energy that separates in the sample: where the search for one that does not is given up."""
+"""Fraction of the least separating energy of the sample, below which the bisection gives up."""
 _EACH, _SHARES, _POOLED, _KNOWN = (
     ("energy", "start"),
     ("energy", "attractor_class"),

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from disc_model.studies.document import BifurcationOptions
 
 REPEATS = 1e-11
-"""Intervals that repeat this exactly, s, are periodic: roundings leave 1e-13 s of a cycle."""
+"""Greatest difference of intervals of a periodic motion, s: rounding leaves 1e-13 s on a cycle."""
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
     "status": Column(*STATUS),

@@ -44,8 +44,9 @@ COLUMNS = {
     "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
 }
 SAME = np.array([2e-4, 0.4])
-"""Two cycles at one value are of one branch if the logarithms of their periods and ranges differ by no more. Ranges
-between points of a branch are known roughly where it is steep; periods tell branches apart."""
+"""Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Ranges between
+points of a steep branch are known roughly; periods distinguish branches.
+"""
 
 
 def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:

@@ -23,10 +23,11 @@ if TYPE_CHECKING:
     from disc_model.studies.document import CriticalSpeedOptions
 
 FURTHEST = 0.02
-"""Distance from a cycle, over the static deflection, up to which multipliers tell of a departure."""
+"""Distance from a cycle, over the static deflection, up to which multipliers predict the departure."""
 DOUBT = 0.05
-"""How well the first separation is known then, over the time in which the departure grows by e: 0.014 at most at 60
-points over speed and preload."""
+"""Error of a predicted first separation, over the time in which the departure grows by e. At 60 points over speed and
+preload it is 0.014 at most.
+"""
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 COLUMNS = {

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from disc_model.studies.document import OutcomeOptions
 
 FEWEST = 4
-"""Looks at a motion from which a rate is told."""
+"""Least number of checks of a motion that give a rate."""
 COLUMNS = {
     "status": Column(*STATUS),
     "outcome": Column("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),

@@ -30,7 +30,9 @@ COLUMNS = {
     ),
 }
 STRETCH = 100.0
-"""s of the way down that are looked at at once: the events of all of it would fill hundreds of megabytes."""
+"""Length of a stretch of the way down that is simulated at once, s: the events of all of it would fill hundreds of
+megabytes.
+"""
 _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
 
 

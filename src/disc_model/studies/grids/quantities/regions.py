@@ -69,17 +69,17 @@ COLUMNS = {
 }
 
 FINE = 2
-"""Intervals along the side of a cell, at most, in which the middle of an edge is presumed to be like its ends."""
+"""Greatest side of a cell, in intervals, in which the middle of an edge is presumed to equal its ends."""
 SMOOTH = 0.002
-"""Cycles of neighbours nearer than this, over the static deflection, are one that continues."""
+"""Distance of neighbouring cycles, over the static deflection, below which they are one continued cycle."""
 ANOTHER = 0.02
-"""Cycles of neighbours further apart than this, over the static deflection, may be different ones."""
+"""Distance of neighbouring cycles, over the static deflection, above which they may be different."""
 SCATTERED = 1
-"""Points without a cycle that have so many such neighbours at most lie on strips thinner than the grid."""
+"""A point without a cycle lies on a strip thinner than the grid if at most so many neighbours have none."""
 SEPARATING = 5.0
-"""How long a motion is followed for its history, beyond where its outcome was known, s."""
+"""Time for which a motion is followed for its history, after its outcome was known, s."""
 MOST_CYCLES = 4
-"""Cycles carried from point to point, at most."""
+"""Greatest number of cycles continued from point to point."""
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
 CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 

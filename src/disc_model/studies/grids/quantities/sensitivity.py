@@ -81,9 +81,9 @@ def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, 
 # Samples
 
 BLOCK = 64
-"""Samples that are drawn at once."""
+"""Number of samples that are drawn at once."""
 EDGE = 1e-10
-"""Of a normal distribution that is left out, in both tails together."""
+"""Fraction of a normal distribution that is cut off, in both tails together."""
 
 
 def unit_draws(seed: int, count: int, number: int) -> Array:

@@ -32,8 +32,9 @@ EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle",
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
 FEWEST = 3
 LIKE = 0.75
-"""Modal assurance criterion from which a multiplier counts as that of its mode. A real one, in a resonance, resembles
-the conjugate as much, and has 0.5 at most."""
+"""Modal assurance criterion from which a multiplier belongs to a mode. A real multiplier, in a resonance, resembles the
+conjugate as much, and has 0.5 at most.
+"""
 _EACH = ("crossing",)
 COLUMNS: Mapping[str, Column] = {
     "n_crossings": Column("1", "number of crossings found", whole=True),

@@ -28,7 +28,7 @@ FAILED = "failed"
 FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_simulated", FAILED))
 KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
 OUTPUTS = ("instability", "growth_rate")
-"""Of which indices are given: whether there is no stable motion (1, else 0), and the cycle's growth rate, capped."""
+"""Outputs with Sobol indices: absence of a stable motion (1, else 0), and the cycle's growth rate, capped."""
 _INDEX = ("output", "parameter")
 
 
