@@ -157,7 +157,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             more = suggestion(path[-1], known, all_of_them=not (word or rule))
             yield Fault(path, "" if rule else shown(value), (rule or f"unknown {word or 'key'}") + more)
         elif kind in ("union_tag_invalid", "union_tag_not_found") and context["discriminator"] == "'kind'":
-            tags = [one.model_fields["kind"].default for one in _models_at(model, item["loc"])]
+            fields = [one.model_fields for one in _models_at(model, item["loc"])]
+            tags = [each["kind"].default for each in fields if "kind" in each]
             said = value.get("kind") if isinstance(value, Mapping) else None
             yield Fault.of((*path, "kind"), said, f"unknown kind of figure{suggestion(said, tags)}")
         elif item["loc"][-1:] == ("[key]",) and kind == "value_error":
