@@ -86,7 +86,7 @@ def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
 
 
 def _whole_call(points: pd.DataFrame) -> dict[str, float]:
-    """Seconds of a whole call of `simulate` for the first scene's second, and its ratio to heyoka's integration.
+    """Seconds of a whole call of `simulate` for the first scene's second, and the ratio of heyoka's time to it.
 
     heyoka's time is that of its integration alone, at the error of `headline`.
     """

@@ -249,7 +249,7 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     if np.count_nonzero(below) >= 3:
         usable = below
     x, y = np.log(n[usable]), np.log(error[usable])
-    if np.ptp(x) < math.log(1.5):  # the steps are not what decides the error, but stability or events
+    if np.ptp(x) < math.log(1.5):  # stability or events, not the steps, decide the error
         return math.nan
     return float(-np.polyfit(x, y, 1)[0])
 

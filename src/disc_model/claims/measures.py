@@ -133,7 +133,7 @@ class CaseView:
         """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
         history = self.ranges("history")
         time = history["time"].values
-        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # a single bin does not say how long it is
+        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # the width of a single bin is unknown
         inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
         if not inside.any():
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")

@@ -271,7 +271,7 @@ class Checks(dict[str, Callable[..., Answer]]):
         common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
         for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
             raw["remark"] = common.get(raw.get("remark"), raw.get("remark", ""))
-            for key in ("remarks", "undecided"):  # one without a text has the common one
+            for key in ("remarks", "undecided"):  # keys without a text use the common one
                 raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
             try:
                 text = Text.model_validate(raw)
@@ -326,7 +326,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
     found = case.parameters
-    wanted = Parameters(**paper["parameters"], normalization=found.normalization)  # that is the study's choice
+    wanted = Parameters(**paper["parameters"], normalization=found.normalization)  # the study chooses it
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")

@@ -367,7 +367,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     at = Omega == slow
     apart = outcome == "separation"
     some = apart.any(axis=1)
-    quiet = int(np.argmin(some))  # the softest that does not separate, if one does and one does not
+    quiet = int(np.argmin(some))  # the softest disc without separation, if some separate
     mixed = some.any() and not some.all()
     softer = [{"GPa": E[i], "Omega": Omega[apart[i]].min()} for i in range(quiet)] if mixed else []
     return Answer(

@@ -372,7 +372,7 @@ def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float) -> fl
 def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float) -> list[spectra.Line]:
     """Further frequencies: lines, the strongest first, not made of f_s, f_Omega and the lines before them.
 
-    A line is made of them if it is p f + n f_s + m f_Omega to ``apart`` Hz, with one f of those before and abs(p) <= 2.
+    A line is made of them if it is p f + n f_s + m f_Omega to ``apart`` Hz, for one earlier f and abs(p) <= 2.
     """
     sums = np.add.outer(rate * np.arange(-12, 13), drive * np.arange(-3, 4)).ravel()
     further: list[spectra.Line] = []
@@ -395,6 +395,6 @@ def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str
 
 def _power_share(case: CaseView, window: str, start: float, stop: float, above: float = HIGH) -> float:
     """Ratio of the power above a frequency in Hz to that above `LOW`."""
-    measures.lines(case, window, start, stop, above=LOW)  # without any there is no power to share
+    measures.lines(case, window, start, stop, above=LOW)  # raises Missing without any line
     part = measures.stretch(case, window, start, stop)
     return spectra.power_share(part["time"].values, part["w_point"].values, above, LOW)

@@ -47,7 +47,7 @@ OF_STUDIES = ("matplotlib", "cmcrameri", "yaml", "snakemake")
 
 def _fail(message: str) -> NoReturn:
     """Print a fault on stderr and exit with code 2."""
-    if message:  # empty where the help text was shown instead
+    if message:  # empty after a help text
         typer.echo(f"error: {message}", err=True)
     sys.exit(2)
 

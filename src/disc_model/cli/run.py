@@ -66,14 +66,14 @@ def run(
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)
     faults += _file_faults(plot, save, checkpoint)
-    refuse(faults)  # all that is bad at once, before kernels load
+    refuse(faults)  # all faults at once, before kernels load
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Record
 
     record = Record(windows=tuple(windows.values())) if windows else None
     if plot is not None and record is None:
         record = plot_record(end)
-    if checkpoint is not None:  # where a run continues, or why it does not
+    if checkpoint is not None:  # reports where a run continues, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
     try:
@@ -89,7 +89,7 @@ def run(
         print_rows([("saved", str(save))])
     if plot is not None:
         reached = float(result.final_state.time)
-        if 0 < reached < end and not windows:  # the end to be shown is elsewhere than was thought
+        if 0 < reached < end and not windows:  # the end to plot differs from the expected one
             result = simulate(p, reached, tol=how["tol"], record=plot_record(reached), ramps=ramps)
         _save_plot(result, plot)
     if not complete:
@@ -124,7 +124,7 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
             found.append(Ramp(parameter=name, **{key.strip(): value for key, _, value in pairs}))  # type: ignore[arg-type]
         except ParameterError as error:
             faults += (fault.inside(("ramp", str(i))) for fault in error.faults)
-    if not faults:  # else it may not be these parameters that are meant
+    if not faults:  # with faults, other parameters may be meant
         faults += faults_of(p, tuple(found), poincare=False)
     return tuple(found)
 

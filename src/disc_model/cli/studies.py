@@ -205,7 +205,7 @@ def _run(command: list[str]) -> int:
     """
     interrupts: list[int] = []
     with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
-        if interrupts:  # before there was a second process
+        if interrupts:  # Ctrl-C came before the second process
             process.send_signal(signal.SIGINT)
         code = process.wait()
     if not (code and interrupts):

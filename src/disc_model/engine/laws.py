@@ -1,8 +1,8 @@
 """The laws of friction and contact at an instant (docs/model.md, Contact), each written once.
 
 A law takes an `Instant`, whose entries are real or complex numbers.  After a complex step of one entry, the imaginary
-part holds the derivative with respect to it, exact to rounding (Squire and Trapp, SIAM Review 40, 1998).  No law is
-differentiated by hand.
+part holds the derivative with respect to it. The result is exact to rounding (Squire and Trapp, SIAM Review 40, 1998).
+No law is differentiated by hand.
 """
 
 from __future__ import annotations

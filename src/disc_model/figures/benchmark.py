@@ -385,7 +385,7 @@ def _crossing(dataset: xr.Dataset) -> np.ndarray:
 
 
 def _log_edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around ascending values, centred in the logarithm."""
+    """Edges of cells around ascending values, halfway between them in the logarithm."""
     x = np.log(values)
     middle = 0.5 * (x[1:] + x[:-1])
     edges: np.ndarray = np.exp(np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]]))
@@ -516,7 +516,7 @@ def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow
 
 
 def _cut(ax: Axes, values: np.ndarray) -> None:
-    """Limit the axis to values near the median, and state the number above it."""
+    """Limit the axis to values near the median, and list the values above it."""
     values = values[np.isfinite(values)]
     top = 1.12 * float(np.median(values))
     if values.max() > top:

@@ -274,7 +274,7 @@ FARTHEST = 6.47
 class _Distribution(Strict):
     """Of one parameter.
 
-    relative : whether the numbers are multiples of the point's own value of the parameter
+    relative : whether the numbers are multiples of the parameter's own value at the point
     """
 
     relative: bool = False
@@ -338,7 +338,7 @@ Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 class Options(Strict):
     """Of a quantity.
 
-    _rules : what holds between its fields, each with what is said if it does not
+    _rules : conditions between its fields, each with its message
     """
 
     _rules: ClassVar[tuple[tuple[Callable[[Any], bool], str], ...]] = ()
@@ -353,7 +353,7 @@ class Options(Strict):
 class EarlyEndOptions(Options):
     """Simulations that may end before the horizon.
 
-    early_end : whether a simulation ends as soon as its outcome is known; see `disc_model.stability.attractor`
+    early_end : whether a simulation ends as soon as its outcome is known, see `disc_model.stability.attractor`
     """
 
     tol: Tolerance = 1e-10
@@ -364,8 +364,8 @@ class OutcomeOptions(EarlyEndOptions):
     """One simulation.
 
     horizon : s
-    evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
-    after_separation : s that are simulated beyond the first separation, so that the late stretch shows its regime
+    evaluation_time : s, length of the last stretch, over which ranges and fractions of the phases are taken
+    after_separation : s, simulated after the first separation, so that the late stretch shows the motion it leads to
     """
 
     horizon: Seconds
@@ -384,7 +384,7 @@ class RegionsOptions(Options):
     """Outcomes over a plane, refined where they change.
 
     horizon : s
-    initial_cell_size : intervals of the grid along the side of a cell, before it is divided
+    initial_cell_size : initial side of a cell, in intervals of the grid
     """
 
     tol: Tolerance = 1e-8
@@ -395,7 +395,7 @@ class RegionsOptions(Options):
 class CriticalSpeedOptions(EarlyEndOptions):
     """Scan of the speed, then bisection of each interval in which separation begins or ends.
 
-    horizons : s, each has its own critical speed; all come from the same simulations
+    horizons : s; each has a critical speed of its own, all from the same simulations
     scan : rad/s
     precision : rad/s, width of the last interval; the scan's step must be a multiple
     max_crossings : room for that many crossings at each horizon
@@ -441,9 +441,9 @@ class HysteresisOptions(Options):
 class RampsOptions(Options):
     """The speed goes steadily up from the static start, stays, goes down and stays, once for each rate.
 
-    low, high : rad/s, between which it goes
+    low, high : rad/s, ends of the ramps
     rates : rad/s^2
-    dwell : s, at the highest speed, and at the lowest one after the way down
+    dwell : s, at the highest speed, and at the lowest one at the end
     """
 
     tol: Tolerance = 1e-10
@@ -461,11 +461,11 @@ class RampsOptions(Options):
 class BifurcationOptions(Options):
     """Samples of what the motion has settled to.
 
-    section : once a turn of the drive; or at switches, each separation if there are any, else each release of stick: a
-        periodic motion then shows as many points as its period has switches
-    transient : s, left out; at switches it is doubled until the motion is known to repeat
-    max_transient : s, of the transient then, at most
-    samples : number of turns, or of switches, sampled after it
+    section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
+        motion then shows as many points as its period has events
+    transient : s, left out; at events it is doubled until the motion is known to repeat
+    max_transient : s, greatest length of the transient then
+    samples : number of turns or events sampled after it
     theta : rad, the disc's point whose displacement is sampled once a turn
     """
 
@@ -481,8 +481,8 @@ class LyapunovOptions(Options):
     """The largest Lyapunov exponents of the motion but for the one along it, which is zero.
 
     transient : s, left out
-    duration : s, over which the rates are averaged
-    exponents : how many, 1 to 7
+    duration : s, averaging time of the rates
+    exponents : number of exponents, 1 to 7
     interval : s, between orthonormalisations
     """
 
@@ -497,15 +497,15 @@ class BasinsOptions(Options):
     """Outcomes of many starts; see `disc_model.stability.attractor`.
 
     energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
-    n_starts : of each energy
-    seed : whole number; directions follow from it and from the place of the energy and the number of the start
+    n_starts : number of starts at each energy
+    seed : whole number; a direction depends on it, on the place of the energy, and on the number of the start
     horizon : s
     attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
         approaches it. 0: every motion is simulated to the horizon
-    confidence : of the intervals of shares
-    n_bisection_directions : along so many directions the critical energy is sought, those of the separating starts
-        with the least energies
-    precision : relative, of the critical energy
+    confidence : confidence level of the intervals of fractions
+    n_bisection_directions : number of directions for the critical energy, those of the separating starts with the least
+        energies
+    precision : relative precision of the critical energy
     """
 
     tol: Tolerance = 1e-10
@@ -536,11 +536,11 @@ class StabilityCurvesOptions(Options):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
 
     x, y : the parameters
-    x_range : from, to; the cycle is looked for at `points` places of it
-    y_lines : values of y along which that is done; curves are followed from the first to the last, widened by `margin`
-    margin : of the range of y, beyond the lines at both ends
+    x_range : from, to; cycles are searched for at `points` values in it
+    y_lines : values of y for this search; curves are followed from the first to the last, widened by `margin`
+    margin : fraction of the range of y, beyond the lines at both ends
     max_step : arclength of the longest step along a curve
-    max_points : of a curve, each way from where it was met
+    max_points : greatest number of points of a curve in each direction
     max_curves : room for that many
     """
 
@@ -572,12 +572,12 @@ class BranchesOptions(Options):
     """Branches of cycles against one parameter, beside a sweep up and down that carries the motion on.
 
     parameter : the one that varies
-    scan : its values in the sweep; each cycle that is met there is followed between the first and the last
+    scan : its values in the sweep; each cycle found is followed between the first and the last
     dwell : s at each value
     evaluation_time : s, the last stretch of it, over which the range is taken
-    releases : of a cycle that is followed, at most
+    releases : greatest number of releases of a cycle that is followed
     max_step : arclength of the longest step along a branch
-    max_points : of a branch, each way from where it was met
+    max_points : greatest number of points of a branch in each direction
     max_branches : room for that many
     """
 
@@ -603,18 +603,18 @@ class BranchesOptions(Options):
 class SensitivityOptions(Options):
     """The stick-slip cycle at samples of distributed parameters, and what becomes of the static start.
 
-    distributions : by parameter; of a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
-        damping_ratio_2_0 with two nodal diameters and no circle
-    samples : number of them, a power of two; more of them leave those that there are
-    seed : whole number; a sample hangs on it and on the sample's own number alone
-    simulated_samples : number of samples, the first ones, whose motion is simulated as well
-    horizon : s, to which it is simulated
-    growth_rate_cap : 1/s; larger growth rates count as this in their indices, since a few would be all the variance
-    tol : of the cycles; motion_tol : of the motions
+    distributions : by parameter; for a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
+        damping_ratio_2_0 for two nodal diameters and no circle
+    samples : number of samples, a power of two; more samples keep the existing ones
+    seed : whole number; a sample depends only on it and on the sample's own number
+    simulated_samples : number of samples, from the first on, whose motion is simulated as well
+    horizon : s, of this simulation
+    growth_rate_cap : 1/s; larger growth rates count as this in their indices, since a few would dominate the variance
+    tol : tolerance of the cycles; motion_tol : tolerance of the motions
     """
 
     distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
-    # the grid says it already: what is computed of a sample does not hang on how many there are
+    # the grid contains it: the result of a sample does not depend on their number
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
     simulated_samples: Annotated[Count, Field(ge=0)] = 0
@@ -641,8 +641,8 @@ class CampbellOptions(Options):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
 
     modes : room for that many, the lowest in frequency
-    half_bandwidth : Hz, on either side of a crossing, within which growth rates are looked at
-    min_rise : 1/s, of a growth rate within the window over that at its ends, from which it counts as one
+    half_bandwidth : Hz, on either side of a crossing, within which growth rates are compared
+    min_rise : 1/s, least rise of a growth rate within the window above those at its ends
     max_crossings : room for that many
     """
 
@@ -754,12 +754,12 @@ QUANTITIES = {
 class BatchSpec(Strict):
     """How points are gathered into jobs.
 
-    over : dimensions that are cut; of the others every value has batches of its own. If not given, the first dimensions
-        are cut as far as it takes to come down to `size`
-    size : points in a batch, at most; if not given, about 20 s of work by what a point of the quantity costs
-    tile : intervals along the side of a tile, about, for a quantity that needs a plane at once; `over` names its two
-        dimensions first, and then those of which all values share a batch. If not given, the plane's are the only two
-        that are numbers, and all other values share a batch
+    over : dimensions that are cut; each value of the others has batches of its own. If not given, the first dimensions
+        are cut as far as `size` requires
+    size : greatest number of points in a batch; if not given, about 20 s of work by the cost of a point
+    tile : approximate intervals along the side of a tile, for a quantity that needs a plane at once. `over` names its
+        two dimensions first, then those whose values share a batch. If not given, the plane's are the only two that are
+        numbers, and all other values share a batch
     """
 
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
@@ -963,19 +963,19 @@ class Document(Strict):
     """A grid, named cases, or both, and figures of either: docs/studies.md.
 
     study : name of the study, and of its folder of results
-    title : what it is about
+    title : subject of the study
     base : parameters of all cases and of all points; the rest is Table 1 of the paper
-    figures : by name, what each shows; or a list of the paper's
-    cases : named simulations, with what they inherit; `tol` and `record` are what they share
-    claims : whether the paper's statements and tables are to be checked against the cases
-    quantity, options : of a grid, what is computed at each point
-    axes, zip, starts : what varies, and how motions may start
+    figures : contents of each figure by its name; or a list of the paper's
+    cases : named simulations, with inherited values; `tol` and `record` are common to them
+    claims : whether the paper's claims and tables are checked against the cases
+    quantity, options : the quantity that a grid computes at each point
+    axes, zip, starts : varying parameters, and starts of the motions
     discs : tables of modes by the names that an axis of discs has for them
-    where : rules between values, such as mu_k <= mu_s; points that break one are left out
-    batch : how points are gathered into jobs
+    where : rules between values, such as mu_k <= mu_s; points that break one are excluded
+    batch : division of the points into jobs
     studies : further files of grid studies, * stands for any part of a name
-    overrides : by name, what is laid over one of those files
-    resolution : whole number by which the intervals of all ranges are divided
+    overrides : values that replace those of these files, by name
+    resolution : whole number that divides the intervals of all ranges
     """
 
     study: Name

@@ -791,7 +791,7 @@ class _Grid:
         unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
         try:
             base = Parameters(**{**unused, **first}).canonical | self.automatic
-        except ParameterError as error:  # of what varies and what does not, together
+        except ParameterError as error:  # faults of varying and fixed values together
             self.faults += [fault.inside(("base",)) for fault in error.faults]
             return None
         dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS), *["n_circles"] * bool(self.automatic)}
@@ -1098,7 +1098,7 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
 def _tiles(
     dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
 ) -> Iterator[dict[str, Any]]:
-    """Points of each tile, and the values along its sides, including those of the next tiles beyond its last cells."""
+    """Points of each tile, and the values along its sides, with those of the next tiles that bound its last cells."""
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
     names = [dim.name for dim in plane]

@@ -247,7 +247,7 @@ def switch(modes, c, phase, cause, y, kinds):
     P, _ = contact(modes, c, direction, y)
     if P < 0.0 and c[_BONDED] == 0.0:
         _leave(modes, c, y)
-        # a slider that neither sticks nor slips back has not turned round
+        # a slider that neither sticks nor slips back keeps its direction
         count = 0 if kinds[0] == SLIP_REVERSAL else 1
         kinds[count] = LOSS_OF_CONTACT
         return SEPARATION, 0, count + 1

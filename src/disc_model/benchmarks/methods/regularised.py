@@ -130,7 +130,7 @@ def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[f
     f = law.physics.f
     for t, y in zip(times[0], states[0], strict=True):
         if law.force(y) <= 0:
-            continue  # in flight f may pass zero: no switch
+            continue  # in separation a zero of f is no event
         leaving = float(np.sign(y[f]) * law.rate(y)[f]) > 0
         found.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
     for t, y in zip(times[1], states[1], strict=True):

@@ -67,7 +67,7 @@ class Heyoka(Method):
         prepared = {}
         for name, integrator in _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact).items():
             integrator.pars[:2] = given
-            # of fewer events the last ones
+            # with fewer events, the last ones of ENDS
             state = integrator.state
             prepared[name] = (
                 integrator,

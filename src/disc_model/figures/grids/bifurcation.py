@@ -76,12 +76,12 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     for one, letter in zip(axes, "abc", strict=False):
         for i, (case, value) in enumerate(plot.paper_cases.items()):
             one.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
-            if one is ax:  # the first to the left of its line, the next to the right
+            if one is ax:  # labels alternate: left of the first line, right of the next
                 side = 2 * (-1) ** (i + 1)
                 parts.say(ax, case, (value * factor, 0), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
         if below:
             parts.letter(one, letter)
-    for handle in parts.legend_above(ax).legend_handles:  # dots of the diagram are too small for it
+    for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
     parts.head(figure, study, plot.title)

@@ -86,7 +86,7 @@ def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
 
 
 def scale_of(name: str, values: Array) -> str:
-    """Scale of an axis: logarithmic for values that span decades and crowd at the lower end, linear at first from 0."""
+    """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear start from 0."""
     positive = values[values > 0]
     if name in ("N", "Omega") or positive.size < 2 or positive[-1] / positive[0] <= 15:
         return "linear"

@@ -206,7 +206,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
-    """Hatch cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
+    """Shade cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
 
     The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
     sweep is left out if the sweep found no separation at one of them.

@@ -44,7 +44,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
         ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=name or None)
     if plot.log:
         ax.set_yscale("log")
-    elif plot.variable == "growth_rate":  # peaks of tens beside hundredths
+    elif plot.variable == "growth_rate":  # peaks of tens occur beside hundredths
         ax.set_yscale("symlog", linthresh=LINEAR)
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
     if parts.spaced_by_factor(along):

@@ -108,7 +108,7 @@ def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Extend each part by one point at its ends, so that the parts of a curve meet."""
+    """Extend each part by one point at its end, so that the parts of a curve meet."""
     return there | np.concatenate([[False], there[:-1]])
 
 

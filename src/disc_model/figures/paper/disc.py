@@ -211,7 +211,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
     step = max(1, motion.time.size // frames)
     with styled():
         figure = Figure(figsize=FILM)
-        figure.set_layout_engine("none")  # panels that do not move
+        figure.set_layout_engine("none")  # panels keep their places in all frames
         disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
         scale = _scale(motion)
 

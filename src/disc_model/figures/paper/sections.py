@@ -59,7 +59,7 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
 
 
 def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
-    for order, name in enumerate(("early", "later", "separated")):  # the old stage never over the new
+    for order, name in enumerate(("early", "later", "separated")):  # later stages are drawn over earlier ones
         shown = getattr(found, name)
         ax.scatter(x[shown], y[shown], **MARKS[name], zorder=2 + 0.1 * order, rasterized=bool(shown.sum() > 2000))
 

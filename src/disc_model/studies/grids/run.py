@@ -71,7 +71,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     }
     if data["base"].get("n_diameters") == AUTO:
         modes = [None if isinstance(p, DiscModelError) else mode_arrays(p) for p in parameters]
-        for name in ("diameters", "circles"):  # -1 where nothing could be chosen
+        for name in ("diameters", "circles"):  # -1 without a choice
             highest = [-1 if one is None else getattr(one, name).max() for one in modes]
             variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
     variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})

@@ -95,7 +95,7 @@ def unit_draws(seed: int, count: int, number: int) -> Array:
 @lru_cache(maxsize=8)
 def _block(seed: int, count: int, block: int) -> Array:
     sequence = qmc.Sobol(2 * count, scramble=True, rng=np.random.default_rng(seed))
-    if block:  # scipy cannot go forward by nothing
+    if block:  # scipy rejects 0
         sequence.fast_forward(block * BLOCK)
     return np.asarray(sequence.random(BLOCK), dtype=float)
 
@@ -108,7 +108,7 @@ def quantile(given: Distribution, own: float, share: float) -> float:
     first, last = EDGE / 2, 1 - EDGE / 2
     if given.distribution == "truncated_normal":
         first, last = (ndtr((end - given.mean) / given.deviation) for end in (given.low, given.high))
-        # not beyond the ends by rounding
+        # rounding must not exceed the ends
         value = given.mean + given.deviation * float(ndtri(first + share * (last - first)))
         return float(scale * min(max(value, given.low), given.high))
     return float(scale * (given.mean + given.deviation * float(ndtri(first + share * (last - first)))))
