@@ -604,7 +604,7 @@ class Parameters(Checked):
     normalization : scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17) (as_published or orthonormal,
         default as_published)
     contact : whether the slider may leave the disc (separable or bonded, default separable)
-    contact_compliance : compliance of the contact, 0 if it is rigid; residual: the give of the modes left out (m/N,
+    contact_compliance : compliance of the contact, 0 if it is rigid; residual: that of the modes left out (m/N,
         default 0)
     contact_force : direction of the contact force: vertical as in the paper, or normal to the bent disc (vertical or
         normal, default vertical)
@@ -645,7 +645,7 @@ class Parameters(Checked):
     )
     contact: Literal["separable", "bonded"] = _field("separable", "", "whether the slider may leave the disc")
     contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_give)] = _field(
-        0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: the give of the modes left out"
+        0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
     )
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"

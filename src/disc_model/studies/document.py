@@ -823,7 +823,7 @@ _given: dict[str, Any] = {
     ),
     "truncation_quantity": (
         Annotated[Any, PlainValidator(_rule(checked_quantity), json_schema_input_type=Literal[*CHOSEN_BY])],
-        Field(None, description="what n_diameters: auto is to get right"),
+        Field(None, description="quantity that n_diameters: auto keeps accurate"),
     ),
     "truncation_tolerance": (
         Annotated[Any, PlainValidator(_rule(checked_tolerance), json_schema_input_type=Positive)],
