@@ -28,19 +28,21 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
     figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
+    options = json.loads(study.attrs["options"])
+    separates = f"separates within {options['horizon']:g} s"
     for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
         axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
         for ax, name in zip(axes, names, strict=True):
             _panel(ax, cell, name)
         said = "; ".join(
             f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
-            for what, key in (("unstable", "probability_unstable"), ("separates", "probability_separation"))
+            for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
             if np.isfinite(cell[key])
         )
         part.suptitle(", ".join((title.replace("\n", ", "), said)), x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
     title = plot.title or study.attrs.get("title", "")
-    said = spreads(json.loads(study.attrs["options"])["distributions"])
+    said = spreads(options["distributions"])
     parts.head(figure, study, ": ".join(filter(None, [title, said])))
     return figure
 
