@@ -207,7 +207,8 @@ class Compared:
         scale[[2, 5, 7]] = np.maximum(scale[[2, 5, 7]], 1e-4 * fastest(self.p) * scale[[1, 4, 6]])
         error = np.maximum.accumulate(np.where(clear[:, None], np.abs(fine - rough) / scale, 0), axis=0)
         good = clear & (self.times < horizon) & (error.max(axis=1) < 1e-4)
-        allowed = (1e-10 + 10 * error) * scale
+        # 1e-12 s: of event times; and errors are relative to static deflection, which a ramp alone moves much less
+        allowed = (1e-10 + 1e-12 * fastest(self.p) + 10 * error) * scale
         give = contact_give(self.p)
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
