@@ -1,6 +1,7 @@
 """The command line: options, summary, plot. Texts of what is refused are in tests/studies/test_messages.py."""
 
 import json
+import re
 import resource
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 
 import disc_model
 from disc_model import Parameters, cli, mode_choice, plausibility, simulate
+from disc_model.cli import studies as cli_studies
 from disc_model.cli.case import option_name
 from disc_model.cli.run import plot_record
 from disc_model.simulation import api
@@ -276,6 +278,24 @@ def test_what_a_study_has_is_listed(command: Command, monkeypatch, mine: Path, w
     monkeypatch.setenv("COLUMNS", "200")
     out = command.out("list", what, str(mine), "--directory", str(mine.parent))
     assert all(part in out for part in parts)
+
+
+def test_a_result_that_is_out_of_date_is_not_listed_as_there(command: Command, monkeypatch, mine: Path) -> None:
+    """Whatever lay there was said to be there."""
+    summary = "output_file\tstatus\tplan\nresults/mine/mine.nc\tparams changed\tupdate pending\n"
+    monkeypatch.setattr(cli_studies.subprocess, "run", lambda *_, **__: subprocess.CompletedProcess([], 0, summary, ""))
+    monkeypatch.setenv("COLUMNS", "200")
+    for file in ("mine.nc", "figures/growth.png"):
+        (mine.parent / "results" / "mine" / file).parent.mkdir(parents=True, exist_ok=True)
+        (mine.parent / "results" / "mine" / file).touch()
+    assert "outdated" in command.out("list", "studies", str(mine), "--directory", str(mine.parent))
+    figures = command.out("list", "figures", str(mine), "--directory", str(mine.parent))
+    assert re.search("growth.* there ", figures)
+    assert re.search("seen.* not computed ", figures)
+
+
+def test_the_help_says_that_a_disc_is_a_file(command: Command) -> None:
+    assert re.search(r"--disc +FILE", command.out("modes", "--help"))
 
 
 def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path: Path) -> None:

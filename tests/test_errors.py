@@ -8,7 +8,7 @@ import pytest
 from pydantic import Field
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window
-from disc_model.errors import Fault, StatusBase
+from disc_model.errors import DiscModelError, Fault, StatusBase, script, shown
 from disc_model.parameters import Checked, CycleTolerance, Real, Strict, Tolerance
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.lyapunov import LyapunovStatus
@@ -131,3 +131,20 @@ def test_each_word_has_a_sentence(status: StatusBase) -> None:
 def test_a_status_without_a_sentence_is_refused() -> None:
     with pytest.raises(TypeError, match="advice"):
         StatusBase("Mute", {"OK": "ok"})  # type: ignore[call-overload]
+
+
+def test_rounding_is_not_shown() -> None:
+    assert shown(0.41 * 0.75) == "0.3075"
+    assert shown(1e22) == "1e+22"
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), DiscModelError("no result")])
+def test_a_script_ends_without_a_traceback(monkeypatch: pytest.MonkeyPatch, error: BaseException) -> None:
+    def main() -> None:
+        raise error
+
+    main.__module__ = "__main__"
+    monkeypatch.setattr("sys.argv", ["script.py"])
+    with pytest.raises(SystemExit) as ended:
+        script(main)
+    assert ended.value.code == (str(error) or "interrupted")

@@ -27,7 +27,7 @@ class DiscModelError(Exception):
 def script(main: Callable[..., None]) -> Callable[..., None]:
     """Call the main function of a script with the command's arguments, unless the script is only imported.
 
-    An error of this package ends the script with its message and without a traceback.
+    An error of this package, or Ctrl-C, ends the script with a message and without a traceback.
     """
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
@@ -35,6 +35,8 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
             main(*sys.argv[1:])
         except DiscModelError as error:
             raise SystemExit(str(error)) from None
+        except KeyboardInterrupt:
+            raise SystemExit("interrupted") from None
     return main
 
 
@@ -205,10 +207,10 @@ def _shown_faulty(kind: str, value: Any) -> str:
 
 
 def shown(value: Any) -> str:
-    """The text of a value in messages: shortened, and a float without a final ".0", so that -1.0 reads as -1."""
-    text = repr(value)
+    """The text of a value in messages: shortened; a float without a final ".0" and without noise of rounding."""
     if isinstance(value, float):
-        return text.removesuffix(".0")
+        return repr(float(f"{value:.15g}")).removesuffix(".0")
+    text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

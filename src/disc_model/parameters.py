@@ -52,6 +52,8 @@ class Unfit(str):
 
 
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/)?[A-Za-zµΩ°%].*)")
+_WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
+DECIMAL_COMMA = "; a decimal point is needed, not a comma"
 _POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
 """A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
@@ -115,7 +117,8 @@ def number(value: Any) -> Any:
     except OverflowError:  # a whole number beyond the range of floats
         return math.inf if str(value)[0] != "-" else -math.inf
     except ValueError:
-        raise ValueError("must be a number") from None
+        comma = DECIMAL_COMMA * bool(isinstance(value, str) and _WITH_COMMA.match(value))
+        raise ValueError(f"must be a number{comma}") from None
 
 
 def whole(value: Any) -> Any:
@@ -199,7 +202,8 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
     if isinstance(data, dict):
         for name, value in data.items():
             if not isinstance(name, str):
-                yield Fault((*path, repr(name)), shown(value), "a name must be text")
+                comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
+                yield Fault((*path, repr(name)), shown(value), f"a name must be text{comma}")
             yield from faults_of_names(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for i, value in enumerate(data):

@@ -1,10 +1,11 @@
 """Bad study files end Snakemake before any job, with every fault in the message."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import SMALL, Project
+from tests.workflow.conftest import SMALL, STUDIES, Project, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -32,3 +33,16 @@ def test_every_fault_is_shown_and_nothing_runs(
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown
+
+
+def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path: Path) -> None:
+    """They were, without a word."""
+    project = copy_repository(tmp_path / "project", {"first.yaml": STUDIES["config/small_growth.yaml"]})
+    project.complete("check", "-j1")  # a run in which nothing is computed
+    (project.folder / "second.yaml").write_text((project.folder / "first.yaml").read_text().replace("25", "30"))
+    second = replace(project, config="second.yaml")
+    shown = second.refused("-j1", "-n")
+    assert "study = 'small_growth': is also the name of the study in first.yaml, whose results are in" in shown
+    assert "Job stats" not in shown
+    (project.folder / "first.yaml").rename(project.folder / "third.yaml")
+    assert "Job stats" in second.complete("-n")

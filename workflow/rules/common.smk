@@ -1,6 +1,7 @@
 # The study, checked before anything runs, and common parts of all rules.
 import hashlib
 import json
+import os
 import shlex
 import sys
 from functools import cache
@@ -111,6 +112,22 @@ def made_of(rule, *sources, of=()):
     """
     hashed = source_hash(rule, *sources, files=(Path(SCRIPTS, f"{rule}.py"),))
     return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
+
+
+FILE = workflow.configfiles and os.path.relpath(Path(workflow.configfiles[0]).resolve())
+OWNER = Path(RESULTS, "logs", "study_file.txt")
+
+
+def refuse_results_of_another_study():
+    """Stop if another study file of this name has made the results, which this one would overwrite."""
+    other = OWNER.read_text() if OWNER.exists() else FILE
+    if FILE and other != FILE and Path(other).is_file():
+        content = read_file(Path(other))[0]
+        if isinstance(content, dict) and content.get("study") == STUDY.name:
+            raise WorkflowError(
+                f"study = {STUDY.name!r}: is also the name of the study in {other}, whose results are in {RESULTS}"
+                " and would be overwritten; give one of them another name, or another folder with --directory"
+            )
 
 
 def refuse_unknown_targets():

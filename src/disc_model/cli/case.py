@@ -40,6 +40,8 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
         given, unit = placeholders.get(name), Parameters.unit(name)
         default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
         words, more = _words(field.annotation), ""
+        if name == "disc":
+            words = ("FILE",)
         if name == "n_diameters":
             words, more = (*words, AUTO), f", {AUTO} for as many as the tolerance below asks for"
         told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
@@ -56,7 +58,7 @@ def _case_option(name: str, default: str | None, words: tuple[str, ...], told: s
     option = typer.Option(
         *dict.fromkeys([option_name(name), f"--{name}"]),
         metavar="|".join(words),
-        autocompletion=lambda: [word for word in words if word != ANY],
+        autocompletion=lambda: [word for word in words if not word.isupper()],
         help=told.replace("[", r"\["),
         show_default=False,
         rich_help_panel="Parameters of the case",

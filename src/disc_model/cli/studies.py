@@ -8,7 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -106,8 +106,14 @@ def list_(
         _list_outdated(files, directory)
         return
     rows, heads = LISTS[what]
-    listed = table(f"{what} of {chosen.name}", heads, rows(chosen, grids, directory / "results"), overflow="fold")
-    Console().print(listed)
+    computed = (directory / "results").is_dir() and find_spec("snakemake") is not None
+    outdated = {row["output_file"] for row in _summary(files, directory)[0]} if computed else set()
+
+    def state(file: str) -> str:
+        """Whether a result is there, and up to date."""
+        return "not computed" if not (directory / file).exists() else "outdated" if file in outdated else "there"
+
+    Console().print(table(f"{what} of {chosen.name}", heads, rows(chosen, grids, state), overflow="fold"))
 
 
 def init(
@@ -228,19 +234,16 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
 
 
 Rows = Iterator[tuple[str, ...]]
+State = Callable[[str], str]
 
 
-def _made(path: Path) -> str:
-    return "there" if path.exists() else "not computed"
-
-
-def _studies(chosen: Study, grids: Grids, results: Path) -> Rows:
+def _studies(chosen: Study, grids: Grids, state: State) -> Rows:
     for name, grid in grids.items():
-        made = _made(results / name / f"{name}.nc")
+        made = state(f"results/{name}/{name}.nc")
         yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title, made
 
 
-def _figures(chosen: Study, grids: Grids, results: Path) -> Rows:
+def _figures(chosen: Study, grids: Grids, state: State) -> Rows:
     from disc_model.figures.paper.catalogue import CATALOGUE
 
     found = [(chosen.name, name, "paper", CATALOGUE[name].title) for name in chosen.figures]
@@ -248,14 +251,14 @@ def _figures(chosen: Study, grids: Grids, results: Path) -> Rows:
     for study_name, grid in grids.items():
         found += [(study_name, name, shown.kind, shown.title or grid.title) for name, shown in grid.plots.items()]
     for study_name, name, kind, title in found:
-        yield name, kind, title, _made(results / study_name / "figures" / f"{name}.png")
+        yield name, kind, title, state(f"results/{study_name}/figures/{name}.png")
 
 
-def _cases(chosen: Study, grids: Grids, results: Path) -> Rows:
+def _cases(chosen: Study, grids: Grids, state: State) -> Rows:
     from disc_model.figures.paper.catalogue import said_parameters
 
     for name, case in chosen.cases.items():
-        made = _made(results / chosen.name / "cases" / f"{name}.nc")
+        made = state(f"results/{chosen.name}/cases/{name}.nc")
         yield name, case.title, said_parameters(chosen.specs[name].parameters), f"{case.t_end:g}", made
 
 
@@ -267,14 +270,18 @@ LISTS = {
 
 
 def _list_outdated(files: Sequence[Path], directory: Path) -> None:
-    """List what a run would compute, according to Snakemake."""
-    done = subprocess.run(
-        _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
-    )
+    """List what a run would compute."""
+    outdated, count = _summary(files, directory)
+    for row in outdated:
+        typer.echo(f"{row['output_file']}: {row['status']}")
+    typer.echo(f"{len(outdated)} of {count} files are missing or out of date")
+
+
+def _summary(files: Sequence[Path], directory: Path) -> tuple[list[dict[str, str]], int]:
+    """The files that a run would compute, according to Snakemake, and the number of all files."""
+    command = _command(files, ["--summary", "--directory", str(directory)])
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
-    outdated = [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"]
-    for row in outdated:
-        typer.echo(f"{row['output_file']}: {row['status']}")
-    typer.echo(f"{len(outdated)} of {len(lines)} files are missing or out of date")
+    return [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"], len(lines)

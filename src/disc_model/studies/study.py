@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import importlib
 import math
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -747,7 +748,6 @@ class _Grid:
         self, document: Document, raw: Mapping[str, Any], plots: Mapping[str, Plot], faults: list[Fault]
     ) -> None:
         self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
-        self.before = len(faults)
         self.quantity: Entry | None = QUANTITIES.get(str(document.quantity))
         self.options: Strict | None = None
         if self.quantity is not None and document.options is not None:
@@ -965,13 +965,16 @@ class _Grid:
         related = self._needed(RELATED)
         varied = [name for dim in related for name in dim.names]
         every = points(related, self.document.where, self.base)
-        found = (fault for point in every for fault in cross_faults(Parameters, with_ratios({**self.base, **point})))
+        found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in every]
         ratios = {RATIOS[name][0]: name for name in varied if name in RATIOS}
-        for fault in first_of_each(found):
-            if (name := fault.path[0]) in ratios:
-                self.add(("axes", ratios[name]), str(fault))
+        for fault in first_of_each(chain(*found)):
+            name, hint = fault.path[0], ""
+            if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and not all(found):
+                hint = f"; where: {name} {rule[1]} {rule[2]} leaves out the points that break this"
+            if name in ratios:
+                self.add(("axes", ratios[name]), f"{fault}{hint}")
             else:
-                self.faults.append(fault.inside(("axes" if name in varied else "base",)))
+                self.faults.append(Fault(("axes" if name in varied else "base", name), fault.value, fault.rule + hint))
 
     def _check_distributions(self, options: SensitivityOptions) -> None:
         """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.

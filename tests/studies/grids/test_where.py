@@ -33,7 +33,9 @@ def test_points_that_break_the_rule_are_not_computed() -> None:
     assert points(raw()) == [[s, k] for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s]
     assert (grid.n_points, grid.attrs["where"]) == (6, "(mu_k <= mu_s)")
     assert not list(grid.doubts)
-    assert "must be <= mu_s" in faults_of(parse_study, raw(where=[]))[0]
+    hint = "must be <= mu_s=0.1; where: mu_k <= mu_s leaves out the points that break this"
+    assert hint in faults_of(parse_study, raw(where=[]))[0]
+    assert "where" not in faults_of(parse_study, raw(where=[], axes={"mu_k": [0.5, 0.6]}))[0]  # no point would be left
 
 
 def test_a_rule_that_all_points_keep_changes_no_batch() -> None:

@@ -20,7 +20,7 @@ import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, shown
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.run import POINT, describe
 from disc_model.studies.grids.summaries import summarised
@@ -78,7 +78,8 @@ def failures(study: xr.Dataset) -> Iterator[str]:
     for index in (*np.argwhere(failed), *np.argwhere(others)):
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
-        where = ", ".join(f"{name} = {point[name].item()}" for name in varied)
+        values = {name: point[name].item() for name in varied}
+        where = ", ".join(f"{name} = {x if isinstance(x, str) else shown(x)}" for name, x in values.items())
         word, message = str(status[tuple(index)]), str(point["message"].item())
         what = WITHOUT_CYCLE.get(word, word)
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"

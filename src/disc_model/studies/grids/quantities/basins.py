@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +20,8 @@ from disc_model.simulation.api import make_initial_state, static_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
+from disc_model.studies.document import BasinsOptions
 from disc_model.studies.grids.points import STATUS, Point, listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import BasinsOptions
 
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
 """Outcomes of a start."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -19,10 +19,8 @@ from disc_model.stability.attractor.classification import SAME, SMALLEST, Regula
 from disc_model.stability.attractor.outcome import FIRST_LEG, at_rest
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
+from disc_model.studies.document import BifurcationOptions
 from disc_model.studies.grids.points import STATUS, Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import BifurcationOptions
 
 REPEATS = 1e-11
 """Greatest difference of intervals of a periodic motion, s: rounding leaves 1e-13 s on a cycle."""

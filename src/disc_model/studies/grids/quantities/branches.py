@@ -7,7 +7,7 @@ cycle near the static start, is continued in both directions, unless a known bra
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -23,10 +23,8 @@ from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import steady_sliding
+from disc_model.studies.document import BranchesOptions
 from disc_model.studies.grids.points import DIRECTION, NUMERICAL, STATUS, Point, listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import BranchesOptions
 
 _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
 COLUMNS = {

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
 from disc_model.stability.campbell import frequencies
 from disc_model.stability.cycle import CycleStatus
+from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities.floquet import STATUSES
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import CampbellOptions
 
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)

@@ -10,17 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
+from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUS, Point, listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import CriticalSpeedOptions
 
 FURTHEST = 0.02
 """Distance from a cycle, over the static deflection, up to which multipliers predict the departure."""

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from disc_model.data.variables import Column
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
+from disc_model.studies.document import FloquetOptions
 from disc_model.studies.grids.points import Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import FloquetOptions
 
 STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
 from disc_model.stability.attractor.outcome import sweep
+from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import HysteresisOptions
 
 _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {

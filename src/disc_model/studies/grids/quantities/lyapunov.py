@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -10,10 +10,8 @@ from disc_model.data.variables import Column, Variable
 from disc_model.simulation.api import make_initial_state, state_after
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
+from disc_model.studies.document import LyapunovOptions
 from disc_model.studies.grids.points import STATUS, Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import LyapunovOptions
 
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)

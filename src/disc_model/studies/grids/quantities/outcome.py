@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +12,8 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Column, Outc
 from disc_model.simulation.api import make_initial_state
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome
+from disc_model.studies.document import OutcomeOptions
 from disc_model.studies.grids.points import STATUS, Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import OutcomeOptions
 
 FEWEST = 4
 """Least number of checks of a motion that give a rate."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +14,8 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import Result, State
+from disc_model.studies.document import RampsOptions
 from disc_model.studies.grids.points import STATUS, Point, listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import RampsOptions
 
 _DIMS = ("rate",)
 COLUMNS = {

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise, product
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,10 +36,8 @@ from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
+from disc_model.studies.document import RegionsOptions
 from disc_model.studies.grids.points import NUMERICAL, STATUS, Made, Point, Row
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import RegionsOptions
 
 Array = NDArray[np.float64]
 T = TypeVar("T")

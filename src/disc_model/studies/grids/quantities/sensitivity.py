@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +21,8 @@ from disc_model.data.variables import SCALARS, Column, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
+from disc_model.studies.document import Distribution, SensitivityOptions
 from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Point
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import Distribution, SensitivityOptions
 
 Array = NDArray[np.float64]
 

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from disc_model.data.variables import Column, Variable
 from disc_model.stability.curves import StabilityCurve, stability_curves
+from disc_model.studies.document import StabilityCurvesOptions
 from disc_model.studies.grids.points import STATUS, Point, listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import StabilityCurvesOptions
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")

@@ -11,17 +11,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import Column, Variable
+from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.points import listed
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import CampbellOptions
 
 Array = NDArray[np.float64]
 

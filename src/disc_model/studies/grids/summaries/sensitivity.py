@@ -8,7 +8,7 @@ failed sample is neither stable nor unstable: the lower and upper ends of an int
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,10 +16,8 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
 from disc_model.data.variables import SAMPLE, Column, Variable, flag_names
+from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE
-
-if TYPE_CHECKING:
-    from disc_model.studies.document import SensitivityOptions
 
 Array = NDArray[np.float64]
 
