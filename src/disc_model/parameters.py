@@ -445,7 +445,7 @@ def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
 
 
 class Disc(Checked):
-    """An axisymmetric disc given by its modes, from finite elements or a modal test: a plain value.
+    """An axisymmetric disc given by its modes, from finite elements or a modal test.
 
     Modes with nodal diameters are pairs (cosine and sine), each given once. `disc_model.read_disc` reads a table.
 
@@ -579,7 +579,7 @@ def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> l
 
 
 class Parameters(Checked):
-    """One case of the disc and slider, a plain value. Defaults are the paper's Table 1.
+    """One case of disc and slider, in SI units. Defaults are the paper's Table 1.
 
     The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds
     how many modes a tolerance asks for.

@@ -49,7 +49,7 @@ def test_editors_show_meanings_and_units() -> None:
     for place in ("GivenParameters", "Columns"):
         E = SCHEMA["$defs"][place]["properties"]["E"]
         assert (E["description"], E["unit"]) == ("Young's modulus of the disc", "Pa")
-    assert SCHEMA["$defs"]["SomeWindow"]["description"].startswith("Uniform samples")
+    assert SCHEMA["$defs"]["SomeWindow"]["description"].startswith("Samples at a fixed rate")
 
 
 def grid(**changes: Any) -> dict[str, Any]:

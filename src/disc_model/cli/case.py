@@ -47,9 +47,9 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
         told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
         yield _case_option(name, given, words, told)
     quantity, tolerance = CHOOSING
-    yield _case_option(quantity, None, tuple(CHOSEN_BY), f"what {AUTO} keeps accurate [default: {FREQUENCIES}]")
+    yield _case_option(quantity, None, tuple(CHOSEN_BY), f"quantity by which {AUTO} chooses [default: {FREQUENCIES}]")
     usual = ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items())
-    told = f"and how right, relative, at least {TRUSTED:g} [default: {usual}]"
+    told = f"relative tolerance of this quantity, at least {TRUSTED:g} [default: {usual}]"
     yield _case_option(tolerance, None, (ANY,), told)
 
 

@@ -42,7 +42,7 @@ Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 
 
 class Span(Checked):
-    """A stretch of time: from start to stop, over the last seconds of the run, or over all of it.
+    """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of it.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class Span(Checked):
 
 
 class Window(Span):
-    """Uniform samples at ``rate`` in [start, stop], over the last seconds of the run, or over all of it.
+    """Samples at a fixed rate: from `start` to `stop`, over the `last` seconds of the run, or over all of it.
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
     before.  So it is 6e-14 of the time later, because the time of an event is rounded.  A sample at the start of a run
@@ -128,7 +128,7 @@ class Window(Span):
 
 
 class Poincare(Checked):
-    """Samples at the drive's period, t = i 2 pi/Omega (i whole), within [start, stop]; ``theta`` as in `Window`."""
+    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`; `theta` as in a window."""
 
     start: Time = 0.0
     stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
@@ -208,7 +208,7 @@ SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL
 
 
 class Prerun(Strict):
-    """Another case, and how long it is simulated from the static start: its last state is where the motion starts.
+    """Another case that is simulated first, from the static start: the motion starts from its last state.
 
     parameters : those that differ from the motion's own
     time : s
@@ -228,7 +228,7 @@ class Prerun(Strict):
 
 
 class Start(Strict):
-    """Where a motion starts; the static start if nothing is given.
+    """The state from which a motion starts: the static start, unless one of these keys is given.
 
     prerun : after another motion, such as one that has separated
     perturbation : added to a coordinate: ``u`` (m) and ``u_velocity`` (m/s) of the slider and of the disc under it,

@@ -19,7 +19,7 @@ RAMPED: tuple[Ramped, ...] = ("Omega", "N")
 
 
 class Ramp(Checked):
-    """The drive speed or the preload goes steadily from its value at ``start`` to another at ``end``, and stays there.
+    """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant afterwards.
 
     The slider's spring k is held where it was: N is the load beside it.
 

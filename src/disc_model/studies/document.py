@@ -183,7 +183,7 @@ class Range(Strict):
 
 
 class AxisRange(Range):
-    """A range along an axis; `extra` values are a block of their own, so that the other blocks stay."""
+    """Evenly spaced values along an axis, and `extra` ones, whose batches leave those of the range unchanged."""
 
     extra: list[Said] = Field([])
 
@@ -206,7 +206,7 @@ Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], Discriminator
 
 
 class BlocksOf(Strict):
-    """Values in blocks; one that stands in several belongs to the first."""
+    """Values in blocks, each with batches of its own; a value in several blocks belongs to the first."""
 
     blocks: Annotated[list[Block], Field(min_length=1)]
 
@@ -296,13 +296,13 @@ class _Bounded(_Distribution):
 
 
 class Uniform(_Bounded):
-    """All values from low to high are equally likely."""
+    """A uniform distribution: all values from `low` to `high` are equally likely."""
 
     distribution: Literal["uniform"]
 
 
 class Normal(_Distribution):
-    """By mean and standard deviation, to 6.47 deviations."""
+    """A normal distribution, cut off at 6.47 standard deviations."""
 
     distribution: Literal["normal"]
     mean: Finite
@@ -314,7 +314,7 @@ class Normal(_Distribution):
 
 
 class TruncatedNormal(_Bounded):
-    """What lies between low and high of a normal distribution that has this mean and this deviation as a whole."""
+    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
 
     distribution: Literal["truncated_normal"]
     mean: Finite
@@ -361,7 +361,7 @@ class EarlyEndOptions(Options):
 
 
 class OutcomeOptions(EarlyEndOptions):
-    """One simulation.
+    """Outcome of one simulation at each point, within a horizon.
 
     horizon : s
     evaluation_time : s, length of the last stretch, over which ranges and fractions of the phases are taken
@@ -381,7 +381,7 @@ class OutcomeOptions(EarlyEndOptions):
 
 
 class RegionsOptions(Options):
-    """Outcomes over a plane, refined where they change.
+    """Outcomes over a plane of two parameters, computed more densely where they change.
 
     horizon : s
     initial_cell_size : initial side of a cell, in intervals of the grid
@@ -417,13 +417,13 @@ class CriticalSpeedOptions(EarlyEndOptions):
 
 
 class FloquetOptions(Options):
-    """The stick-slip cycle of each point."""
+    """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
 
     tol: CycleTolerance = 1e-12
 
 
 class HysteresisOptions(Options):
-    """Sweep of the speed up from the static start and down again, each speed going on where the last one ended.
+    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
 
     scan : rad/s
     dwell : s at each speed
@@ -439,7 +439,7 @@ class HysteresisOptions(Options):
 
 
 class RampsOptions(Options):
-    """The speed goes steadily up from the static start, stays, goes down and stays, once for each rate.
+    """Slow ramps of the speed, up from the static start and down again, once for each rate.
 
     low, high : rad/s, ends of the ramps
     rates : rad/s^2
@@ -459,7 +459,7 @@ class RampsOptions(Options):
 
 
 class BifurcationOptions(Options):
-    """Samples of what the motion has settled to.
+    """Samples of the motion after a transient, for bifurcation diagrams.
 
     section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
         motion then shows as many points as its period has events
@@ -478,7 +478,7 @@ class BifurcationOptions(Options):
 
 
 class LyapunovOptions(Options):
-    """The largest Lyapunov exponents of the motion but for the one along it, which is zero.
+    """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
 
     transient : s, left out
     duration : s, averaging time of the rates
@@ -494,7 +494,7 @@ class LyapunovOptions(Options):
 
 
 class BasinsOptions(Options):
-    """Outcomes of many starts; see `disc_model.stability.attractor`.
+    """Attractors, basin fractions and critical energy, from many starts.
 
     energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
     n_starts : number of starts at each energy
@@ -569,7 +569,7 @@ class StabilityCurvesOptions(Options):
 
 
 class BranchesOptions(Options):
-    """Branches of cycles against one parameter, beside a sweep up and down that carries the motion on.
+    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
 
     parameter : the one that varies
     scan : its values in the sweep; each cycle found is followed between the first and the last
@@ -601,7 +601,7 @@ class BranchesOptions(Options):
 
 
 class SensitivityOptions(Options):
-    """The stick-slip cycle at samples of distributed parameters, and what becomes of the static start.
+    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start.
 
     distributions : by parameter; for a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
         damping_ratio_2_0 for two nodal diameters and no circle
@@ -752,7 +752,7 @@ QUANTITIES = {
 
 
 class BatchSpec(Strict):
-    """How points are gathered into jobs.
+    """Division of the points of a grid into jobs.
 
     over : dimensions that are cut; each value of the others has batches of its own. If not given, the first dimensions
         are cut as far as `size` requires
@@ -781,7 +781,7 @@ def _in_part(model: type[BaseModel]) -> type[Strict]:
 
 
 class RecordSpec(Strict):
-    """What a case keeps. Windows bear names, under which figures and claims find them."""
+    """What is recorded of a case. Figures and claims refer to windows by their names."""
 
     windows: dict[WindowName, Window] = Field({})
     poincare: Poincare | None = None
@@ -823,11 +823,11 @@ _given: dict[str, Any] = {
     ),
     "truncation_quantity": (
         Annotated[Any, PlainValidator(_rule(checked_quantity), json_schema_input_type=Literal[*CHOSEN_BY])],
-        Field(None, description="quantity that n_diameters: auto keeps accurate"),
+        Field(None, description="quantity by which n_diameters: auto chooses the modes"),
     ),
     "truncation_tolerance": (
         Annotated[Any, PlainValidator(_rule(checked_tolerance), json_schema_input_type=Positive)],
-        Field(None, description="and how right, relative"),
+        Field(None, description="relative tolerance of this quantity"),
     ),
 }
 GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_given)
@@ -960,7 +960,7 @@ def _rule_of_grid(text: str) -> str:
 
 
 class Document(Strict):
-    """A grid, named cases, or both, and figures of either: docs/studies.md.
+    """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md.
 
     study : name of the study, and of its folder of results
     title : subject of the study
