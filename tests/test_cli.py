@@ -115,14 +115,6 @@ def test_run_agrees_with_simulate(command: Command) -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("t_end", ["0.1", "5"])
-def test_a_plot_is_written(command: Command, tmp_path: Path, t_end: str) -> None:
-    path = tmp_path / "run.svg"
-    assert str(path) in command.out("run", *BASE, "--t-end", t_end, "--plot", str(path))
-    assert path.stat().st_size > 10_000
-
-
-@pytest.mark.compiled
 def test_a_run_that_ends_early_is_drawn_to_its_end(command: Command, tmp_path: Path) -> None:
     drawn, wanted = tmp_path / "drawn.png", tmp_path / "wanted.png"
     asked = ("--t-end", "60", "--stop-at", "first_separation", "--plot", str(drawn))

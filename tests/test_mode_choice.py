@@ -121,18 +121,6 @@ def one_case(**said: Any) -> CaseSpec:
     return parse_study({"study": "s", "base": {"Omega": 15.1}, "cases": cases}).specs["A"]
 
 
-def test_quantity_and_tolerance_are_part_of_a_case(measured: Measured) -> None:
-    asked = measured(lambda d, c: 1.0)
-    usual, growth = one_case(), one_case(truncation_quantity="growth")
-    keys = {usual.key, growth.key, one_case(truncation_quantity="growth", truncation_tolerance=0.02).key}
-    keys |= {one_case(truncation_quantity="first_separation").key}
-    assert len(keys) == 4
-    assert one_case(truncation_quantity="frequencies").key == usual.key
-    assert one_case(truncation_quantity="growth", truncation_tolerance="0.01").key == growth.key
-    assert CaseSpec.from_canonical(growth.canonical) == growth
-    assert not asked  # reading a study simulates nothing
-
-
 def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
     done = run_case(one_case(truncation_quantity="growth"), choose=choose)

@@ -120,12 +120,6 @@ def test_help_has_nothing_of_pydantic_s(kind: type) -> None:
     assert not [name for name in dir(kind) if name.startswith("model_")]
 
 
-@given(st.floats(min_value=0, max_value=1e6), st.floats(min_value=0, max_value=1e3))
-def test_json_round_trip_is_exact(N: float, Omega: float) -> None:
-    p = Parameters(N=N, Omega=Omega)
-    assert Parameters.model_validate_json(p.canonical_json) == p
-
-
 def test_import_is_light() -> None:
     """The library for units is loaded where one is met only: it takes a second."""
     heavy = "{'numba', 'xarray', 'pandas', 'matplotlib', 'pint'}"

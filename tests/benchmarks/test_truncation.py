@@ -20,16 +20,6 @@ def test_study_and_its_figure(tmp_path):
     assert (tmp_path / "truncation.png").stat().st_size > 5000
 
 
-@pytest.mark.slow
-def test_growth_rate_converges_but_impacts_do_not():
-    study = truncation_study((4, 8, 12), (0, 1), ("orthonormal",), horizon=60.0).isel(normalization=0)
-    growth = study["growth_rate"].values
-    assert abs(growth[0, 2] - growth[0, 1]) < 0.5 * abs(growth[0, 1] - growth[0, 0])
-    impacts = study["separations"].values
-    assert impacts[0, 2] > 1.5 * impacts[0, 0]
-    assert np.isfinite(impacts).all()
-
-
 @pytest.mark.compiled
 @pytest.mark.slow  # kernels of one more law of contact
 def test_study_of_residual_flexibility_and_its_figure(tmp_path):

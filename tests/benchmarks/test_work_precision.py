@@ -8,7 +8,6 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import work_precision
-from disc_model.data.dataset import load, save
 from disc_model.data.variables import flag_names
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 
@@ -47,33 +46,6 @@ def test_every_point_is_reported_and_slow_ones_are_not_repeated(known: dict[str,
     )
     assert seen.count("RK4") == 4
     assert seen.count("series") == 9
-
-
-QUICK = {"stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (7e-4, 2e-4, 1e-4, 5e-5)}, "separating": {"RK4": (4e-4,)}}
-
-
-@pytest.mark.compiled
-def test_real_methods_are_measured_and_stored(tmp_path):
-    dataset = work_precision.work_precision(QUICK, rounds=2)
-    words = dataset["verdict"].attrs["flag_meanings"].split()
-    rk4 = dataset.sel(scene="stick_slip", solver="RK4")
-    assert [words[i] for i in rk4["verdict"].values] == ["unstable", "inaccurate", "converged", "converged"]
-    assert float(rk4["order_event"]) == pytest.approx(4.0, abs=0.3)
-    assert float(rk4["order_theory"]) == 4.0
-    series = dataset.sel(scene="stick_slip", solver="series")
-    assert float(series["order_state"]) == pytest.approx(1.0, abs=0.5)  # exponent of the tolerance
-    assert (series["separations"].values[:3] == 0).all()
-    assert [words[i] for i in dataset.sel(scene="separating", solver="RK4")["verdict"].values[:2]] == [
-        "wrong_events",
-        "not_run",
-    ]
-    assert dataset.attrs["machine"]
-    assert "heyoka" in json.loads(dataset.attrs["versions"])
-    assert json.loads(dataset.attrs["scene_separating"])["separations"] == 131
-    save(xr.DataTree(dataset), tmp_path / "bench.nc")
-    back = load(tmp_path / "bench.nc").to_dataset()
-    np.testing.assert_array_equal(back["verdict"], dataset["verdict"])
-    assert list(back["solver"].values) == list(dataset["solver"].values)
 
 
 def test_fitted_order():

@@ -23,8 +23,6 @@ ROOT = Path(__file__).parents[2]
 VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
 LOCKS = ("requirements.lock", "requirements-bench.lock")
-UV = Path(sys.prefix, "bin", "uv")
-needs_uv = pytest.mark.skipif(not UV.exists(), reason="uv is not installed")
 PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
 
 
@@ -207,11 +205,3 @@ def check_lock(lock: str, wanted: str) -> None:
 def test_the_lock_names_versions_and_hashes_only(lock: str) -> None:
     file = ROOT / lock
     check_lock(file.read_text(), file.with_suffix(".in").read_text())
-
-
-@needs_uv
-@pytest.mark.parametrize("version", VERSIONS)
-def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_path: Path) -> None:
-    """Each pin has a file for that version, and nothing that a pin then requires is missing."""
-    options = ("--quiet", "--dry-run", "--require-hashes", "--target", tmp_path, "-r", ROOT / "requirements.lock")
-    run(UV, "pip", "install", "--python-version", version, *options, cwd=tmp_path)

@@ -212,47 +212,6 @@ class Step:
         names = ["a", "b", "alpha", "beta", "psi", "f", "u", "v"]
         return {name: polyval(h, getattr(self, name)) for name in names}
 
-    def energy_defects(self, h):
-        """Largest coefficient of both energy balances over the step, relative to the energy at its start.
-
-        Transverse: d/dt (disc + slider + C V^2/2) = V f B - dampings; in the plane: d/dt = Omega r_0^2 F - r_0 f (T + R
-        B / r_0) - c_p r_0^2 (Omega - f)^2.  The energy holds N (u - u_0), to which a change of N adds N' (u - u_0).
-        Both hold as identities between series.
-        """
-        q, K = self.q, ORDER
-
-        def times(x, y):
-            return np.array([(x[k::-1] * y[: k + 1]).sum() for k in range(K)])
-
-        def square(x):
-            return sum((times(x[:, i], x[:, i]) for i in range(x.shape[1])), np.zeros(K, LONG))
-
-        modal = [(self.alpha, self.beta), (self.a, self.b)]
-        kinetic = sum((square(x) for x in modal[0]), np.zeros(K, LONG)) / 2
-        elastic = sum((square(x * np.sqrt(q.w2)) for x in modal[1]), np.zeros(K, LONG)) / 2
-        height = self.u.copy()
-        height[0] -= q.u_0
-        slider = (q.m * times(self.v, self.v) + q.k * times(height, height)) / 2 + times(self.load, height)
-        stored = q.C * times(self.V, self.V) / 2
-        lost = sum((square(x * np.sqrt(q.d)) for x in modal[0]), np.zeros(K, LONG)) + q.c * times(self.v, self.v)
-        fB = times(self.f, self.B)
-        power = times(np.append(self.V[:K], 0), np.append(fB, 0)) - lost + q.N_rate * height[:K]
-        transverse = kinetic + elastic + slider + stored
-        turning = self.drive - self.f
-        plane = q.r_0**2 * (q.m * times(self.f, self.f) + q.k_p * times(self.psi, self.psi)) / 2
-        supplied = q.r_0**2 * times(self.drive, self.F) - q.c_p * q.r_0**2 * times(turning, turning)
-        if self.phase == "slip":
-            dragged = np.append(self.T[:K], 0)
-            if q.normal:
-                dragged[:K] += times(self.R, self.B) / q.r_0
-            supplied = supplied - q.r_0 * times(self.f, dragged)
-        powers, k = h ** np.arange(1, K), np.arange(1, K).astype(LONG)
-        worst = []
-        for energy, gain in ((transverse, power), (plane, supplied)):
-            defect = abs(energy[1:] - gain[: K - 1] / k) * powers
-            worst.append(float(defect[: K - 2].max() / (abs(energy[0]) + q.N**2 * (q.s**2 / q.w2).sum())))
-        return worst
-
 
 # ------------------------------------------------------------------------------------- roots
 @cache
@@ -311,14 +270,11 @@ def _bisect(c, left, right):
 class Reference:
     """Event-driven run of a `Problem` from a `State`.
 
-    ``course`` has the corners of Omega and N, (time, Omega, N), from the start on.  ``defect`` is the worst of
-    `Step.energy_defects` if ``audit``; ``impacts`` has the change of the whole energy at each impact and what the model
-    says of it, J.
+    ``course`` has the corners of Omega and N, (time, Omega, N), from the start on.
     """
 
-    def __init__(self, q, state, truncation=TRUNCATION, audit=False, course=()):
-        self.q, self.truncation, self.audit, self.course = q, truncation, audit, course
-        self.events, self.defect, self.impacts = [], 0.0, []
+    def __init__(self, q, state, truncation=TRUNCATION, course=()):
+        self.q, self.truncation, self.course, self.events = q, truncation, course, []
         self.phase, self.direction = state.phase, int(state.direction)
         self.start, self.local = LONG(state.time), LONG(0)
         for name in ("a", "b", "alpha", "beta"):
@@ -366,8 +322,6 @@ class Reference:
             h = min(step.length(self.truncation), end - self.local)
             found = [(t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None]
             t, kind = min(found) if found else (h, None)
-            if self.audit and t > 0:
-                self.defect = max(self.defect, *step.energy_defects(t))
             for name, value in step.at(t).items():
                 setattr(self, name, value)
             self.local += t
@@ -416,20 +370,11 @@ class Reference:
             self.u, self.v, _ = self.disc()
         self._enter("separation", "separation", 0, gap=order)
 
-    def energy(self):
-        """Energy outside contact, J."""
-        q = self.q
-        disc = sum((x**2).sum() for x in (self.alpha, self.beta)) + sum((q.w2 * x**2).sum() for x in (self.a, self.b))
-        height = self.u - q.u_0
-        slider = q.m * self.v**2 + q.k * height**2 + 2 * q.N * height
-        return (disc + slider + q.r_0**2 * (q.m * self.f**2 + q.k_p * self.psi**2)) / 2
-
     def _reattach(self):
         q = self.q
         if not q.rigid:
             self._enter("reattachment", "slip", 1 if self.f > 0 else -1, R=1)
             return
-        before, f = self.energy(), self.f
         _, velocity, B = self.disc()
         give = q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0)
         p = (velocity - self.v) / give
@@ -437,8 +382,6 @@ class Reference:
         if q.normal:
             self.f = self.f - p * B / (q.m * q.r_0**2)
         self.u, self.v, _ = self.disc()
-        lost = -p * p / 2 * give
-        self.impacts.append((self.energy() - before, lost if q.normal else lost + p * f * B))
         if self.f == 0:
             raise RuntimeError("impact at rest: not met in the stored cases")
         self._enter("reattachment", "slip", 1 if self.f > 0 else -1)

@@ -108,9 +108,3 @@ def test_an_envelope_is_a_whole_number(value, wanted):
             Window(rate=1, envelope=value)
     else:
         assert Window(rate=1, envelope=value).envelope == wanted
-
-
-@pytest.mark.parametrize("model", [Window, Poincare])
-def test_windows_in_the_wrong_order_are_refused(model):
-    with pytest.raises(ParameterError, match=r"start=2: must be < stop=1"):
-        model(start=2, stop=1, **({"rate": 10} if model is Window else {}))

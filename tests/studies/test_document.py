@@ -13,8 +13,9 @@ import pytest
 import yaml
 
 from disc_model.studies.document import json_schema, schema_text
-from disc_model.studies.study import StudyError, load_study, parse_study, read_yaml
+from disc_model.studies.study import load_study, parse_study, read_yaml
 from tests.studies.refused import faults_of
+from tests.studies.test_messages import TEXTS
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = ROOT / "workflow" / "schemas" / "study.schema.json"
@@ -85,31 +86,12 @@ def test_what_a_study_may_say_fits(right: dict[str, Any]) -> None:
     parse_study(right)
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        grid(axis={}),
-        grid(quantity="outcomes"),
-        grid(options={"horizn": 10}),
-        grid(options={}),
-        grid(axes={"N": [1], "Omga": [1]}),
-        grid(axes={"N": [1], "Omega": {"start": 1, "stop": 2, "size": 3}}),
-        grid(base={"m": -1}),
-        grid(batch={"sise": 2}),
-        grid(figures={"f": {"kind": "heat"}}),
-        grid(figures={"f": {"kind": "heat_map", "x": "N", "variable": "outcome"}}),
-        grid(figures=["fig99"]),
-        cases(t_end=0),
-        cases(record={"windows": {"w": {"rate": 10, "stopp": 3}}}),
-        cases(stop_at="never"),
-        {"study": "s"},
-        {"study": "1s", "cases": cases()["cases"]},
-    ],
-)
-def test_what_is_refused_does_not_fit(wrong: dict[str, Any]) -> None:
-    assert not CHECK.is_valid(wrong)
-    with pytest.raises(StudyError):
-        parse_study(wrong)
+def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
+    """Of the files whose texts are kept in messages.json."""
+    words = re.compile(r"unknown (key|quantity|kind)|cannot be an axis|must be (a (mapping|list)|true)")
+    wrong = [entry for entry in TEXTS["studies"] if words.search(entry["faults"][0])]
+    assert len(wrong) > 30
+    assert [entry["faults"] for entry in wrong if CHECK.is_valid(entry["study"])] == []
 
 
 @pytest.mark.parametrize(

@@ -8,12 +8,13 @@ import contextlib
 import io
 import json
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Window, cli
+from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Window, cli, read_disc
 from disc_model.figures.kinds import PLOTS
 from disc_model.plausibility import doubts
 from disc_model.studies.study import StudyError, parse_study
@@ -61,8 +62,16 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
     return list(shown.misfits_of(role, own_study, other_study))
 
 
+def table(text: str) -> Disc:
+    """A disc from the text of its table."""
+    with TemporaryDirectory() as folder:
+        (path := Path(folder) / "disc.csv").write_text(text)
+        return read_disc(path)
+
+
 MADE = {one.__name__: one for one in (Parameters, Window, Poincare, Record, Disc)} | {
-    "read_asked": lambda **v: read_asked(v)
+    "read_asked": lambda **v: read_asked(v),
+    "table": table,
 }
 CHECKED = {
     "figure": faults_of_figure,

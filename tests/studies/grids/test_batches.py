@@ -6,20 +6,15 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Parameters, floquet, mode_choice
-from disc_model.data.variables import flag_names
-from disc_model.errors import DiscModelError
+from disc_model import floquet, mode_choice
 from disc_model.kernels import LAWS
 from disc_model.mode_choice import choose_modes
-from disc_model.studies import modes
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.study import GridStudy
-from disc_model.truncation import ModeChoice
 from tests.studies.grids.conftest import computed, study
 from tests.studies.refused import faults_of, parse_grid
 
@@ -170,23 +165,6 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     assert done["n_diameters"][0] < done["n_diameters"][1]
     assert done["n_diameters"].dims == ("normalization",)
     assert json.loads(done.attrs["base"])["n_diameters"] == "auto"
-
-
-@pytest.mark.compiled
-def test_a_point_for_which_no_number_of_modes_does_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    choose = modes.by_frequencies
-
-    def not_on_a_wall(p: Parameters, tolerance: float) -> ModeChoice:
-        if p.k > 1e6:
-            raise DiscModelError("no model up to (20, 6) (diameters, circles) meets it")
-        return choose(p, tolerance)
-
-    monkeypatch.setattr(modes, "by_frequencies", not_on_a_wall)
-    done = cycles({"k": [5e4, 1e12]}, Omega=20, **AUTOMATIC)
-    assert flag_names(done["status"]).tolist() == ["ok", "failed"]
-    assert done["n_diameters"].values.tolist() == [3, -1]
-    assert "no model up to" in str(done["message"].values[1])
-    assert np.isnan(done["growth_rate"].values[1])
 
 
 def test_what_modes_are_chosen_by_makes_other_batches() -> None:

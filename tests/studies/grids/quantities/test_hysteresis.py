@@ -10,7 +10,6 @@ import xarray as xr
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor import outcome as attractor_outcome
-from disc_model.stability.attractor.outcome import Segment
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
@@ -31,40 +30,32 @@ def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
     assert (one["separation_rate"].sel(direction="down") > 0).values.tolist() == [False] * 2 + [True] * 5
 
 
-def test_a_sweep_that_cannot_go_on_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
-    def final_segment(p, state, *_):
-        failed = p.Omega > 13
-        result = SimpleNamespace(status=Status.PARADOX if failed else Status.OK, message="why", final_state=state)
-        return result, None if failed else Segment(1, 2, 3, 4, 0.5, 0.5, 0, 0)
+@pytest.mark.usefixtures("fake_motions")
+@pytest.mark.parametrize(
+    ("way", "breaks_at", "onset", "offset"),
+    [(0, 13.5, math.nan, math.nan), (1, 13.5, 14.0, math.nan), (1, 12.5, 14.0, math.nan), (1, 12.0, 14.0, 13.0)],
+)
+def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
+    way: int, breaks_at: float, onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On its way up or down."""
+    whole, passed = attractor_outcome.final_segment, []
+
+    def final_segment(p, *how):
+        passed.append(p.Omega)
+        if passed.count(breaks_at) > way and p.Omega == breaks_at:
+            return SimpleNamespace(status=Status.STALLED, message="why", final_state=None), None
+        return whole(p, *how)
 
     monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
     table = swept(200, SCAN)
-    assert list(table.messages) == ["Omega=13.5: why"]
-    statuses = [[hysteresis.STATUSES[i] for i in row] for row in table.arrays["sweep_status"][0]]
-    assert statuses == [["ok", "ok", "ok", "paradox", "failed", "failed", "failed"], ["failed"] * 7]
-    assert np.isnan(table.arrays["P_min"][0, 0, 3:]).all()
-    assert np.isnan(table.arrays["onset_speed"][0])
-
-
-@pytest.mark.parametrize(("breaks_at", "offset_speed"), [(13.5, math.nan), (12.5, math.nan), (12.0, 13.0)])
-def test_a_sweep_that_breaks_off_on_the_way_down_says_what_it_has_seen(
-    breaks_at: float, offset_speed: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Separation begins at 14 rad/s and persists to 13."""
-
-    def final_segment(p, state, *_):
-        down = bool(state) and (state == "down" or p.Omega == 15)
-        failed = down and p.Omega == breaks_at
-        rate = float(p.Omega >= (13 if down else 14))
-        end = "down" if down or p.Omega == 15 else "up"
-        result = SimpleNamespace(status=Status.STALLED if failed else Status.OK, message="why", final_state=end)
-        return result, None if failed else Segment(1, 2, 3, 4, 0.5, 0.5, 0, rate)
-
-    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
-    found = swept(200, SCAN).arrays
-    assert found["onset_speed"][0] == 14.0
-    assert found["offset_speed"][0] == pytest.approx(offset_speed, nan_ok=True)
-    assert hysteresis.STATUSES[found["status"][0]] == "stalled"
+    found = table.arrays
+    assert list(table.messages) == [f"Omega={breaks_at:g}: why"]
+    np.testing.assert_array_equal([found["onset_speed"][0], found["offset_speed"][0]], [onset, offset])
+    statuses = np.array(hysteresis.STATUSES)[found["sweep_status"][0]]
+    assert hysteresis.STATUSES[found["status"][0]] == statuses[way, round((breaks_at - 12) / 0.5)] == "stalled"
+    assert (statuses[way] == "failed").sum() == (3 if way == 0 else round((breaks_at - 12) / 0.5))
+    assert np.array_equal(np.isnan(found["P_min"][0]), statuses != "ok")
 
 
 @pytest.mark.compiled
