@@ -151,7 +151,7 @@ def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(proje
     bad = int((dataset(project, "small_map/small_map.nc")["status"] != 0).sum())
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
     assert len(lines) == bad > 0
-    assert lines[-2].startswith("N = 1000000.0, Omega = 25.0, normalization = as_published: paradox: at t = ")
+    assert lines[-2].startswith("N = 1000000, Omega = 25, normalization = as_published: paradox: at t = ")
     project.complete("-j1", "gc")
     left = {f"compute_batch:small_map:{path.stem}" for path in project.folder.glob("results/small_map/batches/*")}
     assert left == batches(project, "small_map")

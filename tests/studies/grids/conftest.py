@@ -2,8 +2,9 @@
 
 import json
 import math
+from collections.abc import Iterable
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ import xarray as xr
 from disc_model.errors import Status
 from disc_model.stability.attractor import outcome as attractor_outcome
 from disc_model.stability.attractor.outcome import Segment
+from disc_model.studies.grids import run
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import critical_speed
@@ -38,6 +40,19 @@ def study(**changes: Any) -> dict[str, Any]:
 def computed(**raw) -> xr.Dataset:
     study = parse_grid({"study": "small", **raw})
     return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, {})
+
+
+class Table(NamedTuple):
+    """Arrays by variable, shape (points, ...), and a message for each point, empty without an error."""
+
+    arrays: dict[str, np.ndarray]
+    messages: list[str]
+
+
+def compute(quantity: Any, points: Iterable[Any], options: Any) -> Table:
+    """A quantity at some points."""
+    rows, messages = zip(*(run.compute(quantity, point, options) for point in points), strict=True)
+    return Table(run.arrays_of(quantity, rows, options), list(messages))
 
 
 SCAN = {"start": 12, "stop": 15, "step": 0.5}

@@ -35,10 +35,10 @@ def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset]) -
     assert merged.attrs["title"] == "t"
     lines = list(failures(merged))
     assert len(lines) == 4
-    assert lines[0].startswith("N = 100.0, Omega = 10.0: permanent stick: ")
+    assert lines[0].startswith("N = 100, Omega = 10: permanent stick: ")
     # what raised an error stands before what was found not to be there
     merged["status"].values[1, 0] = merged["status"].attrs["flag_meanings"].split().index("failed")
-    assert next(failures(merged)).startswith("N = 200.0, Omega = 10.0: failed")
+    assert next(failures(merged)).startswith("N = 200, Omega = 10: failed")
 
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
@@ -91,5 +91,5 @@ def test_a_point_that_fails_has_a_status_and_a_line() -> None:
     bad = merged["status"].values != 0
     assert bad.any()
     assert len(lines) == bad.sum()
-    assert lines[-1].startswith("N = 1000000.0, Omega = 20.0: ")
+    assert lines[-1].startswith("N = 1000000, Omega = 20: ")
     assert np.isnan(merged["P_max"].values[bad]).all()

@@ -13,8 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import STATUS, STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
-from disc_model.studies.grids.run import compute
-from tests.studies.grids.conftest import SCAN
+from tests.studies.grids.conftest import SCAN, compute
 
 P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 

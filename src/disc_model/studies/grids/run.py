@@ -6,8 +6,8 @@ import importlib
 import json
 import logging
 import time
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol, cast
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any, Protocol, cast
 
 import numpy as np
 import xarray as xr
@@ -59,22 +59,21 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     else:
         starts = {name: Start.model_validate(said) for name, said in data.get("starts", {}).items()}
         each = zip(parameters, varied, strict=True)
-        found = [_at(quantity, _point(p, values, start, starts), options) for p, values in each]
+        found = [compute(quantity, _point(p, values, start, starts), options) for p, values in each]
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
-    table = table_of(quantity, found, options)
-    for values, message in zip(varied, table.messages, strict=True):
+    rows, messages = zip(*found, strict=True)
+    for values, message in zip(varied, messages, strict=True):
         if message:
             log.warning("%s: %s", values, message)
     variables = {
-        name: xr.Variable((POINT, *column.dims), table.arrays[name], column.variable.attributes)
-        for name, column in quantity.COLUMNS.items()
+        name: xr.Variable((POINT, *quantity.COLUMNS[name].dims), array, quantity.COLUMNS[name].variable.attributes)
+        for name, array in arrays_of(quantity, rows, options).items()
     }
     if data["base"].get("n_diameters") == AUTO:
-        modes = [None if isinstance(p, DiscModelError) else mode_arrays(p) for p in parameters]
         for name in ("diameters", "circles"):  # -1 without a choice
-            highest = [-1 if one is None else getattr(one, name).max() for one in modes]
+            highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
             variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
-    variables["message"] = xr.Variable(POINT, np.array(table.messages, dtype=str), {"long_name": "what went wrong"})
+    variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
     attrs = {
         "Conventions": CONVENTIONS,
@@ -108,12 +107,11 @@ def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied[START]] if START in varied else start
-    kicks = {name.removeprefix("perturbation_"): value for name, value in varied.items() if name in PERTURBATIONS}
-    if kicks:
-        own = {str(name): value for name, value in start.perturbation.items()}
-        whole = {name: own.get(name, 0.0) + kicks.get(name, 0.0) for name in {**own, **kicks}}
-        start = start.model_copy(update={"perturbation": whole})
-    return Point(p, start, varied.get(SAMPLE, 0))
+    whole: dict[str, float] = {str(name): value for name, value in start.perturbation.items()}
+    for name in varied.keys() & PERTURBATIONS.keys():
+        coordinate = name.removeprefix("perturbation_")
+        whole[coordinate] = whole.get(coordinate, 0.0) + varied[name]
+    return Point(p, start.model_copy(update={"perturbation": whole}), varied.get(SAMPLE, 0))
 
 
 def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
@@ -176,19 +174,8 @@ class Quantity(Described, Protocol):
         """
 
 
-class Table(NamedTuple):
-    """Arrays by variable, shape (points, ...), and one message per point, empty without an error."""
-
-    arrays: dict[str, NDArray[Any]]
-    messages: list[str]
-
-
-def compute(quantity: Quantity, points: Iterable[Point | DiscModelError], options: Any) -> Table:
-    """Compute a quantity at each point; a point with an error (see `NUMERICAL`) is `failed`, with a message."""
-    return table_of(quantity, [_at(quantity, point, options) for point in points], options)
-
-
-def _at(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
+def compute(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
+    """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
     try:
         if isinstance(point, DiscModelError):
             raise point
@@ -197,16 +184,16 @@ def _at(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tupl
         return {"status": "failed"}, f"{type(error).__name__}: {error}"
 
 
-def table_of(quantity: Described, found: Sequence[tuple[Row, str]], options: Any) -> Table:
-    """Rows and messages as a table."""
+def arrays_of(quantity: Described, rows: Sequence[Row], options: Any) -> dict[str, NDArray[Any]]:
+    """Arrays by variable, shape (rows, ...)."""
     own = own_coordinates(quantity, options)
     arrays = {}
     for name, column in quantity.COLUMNS.items():
-        arrays[name] = column.empty((len(found), *(own[dim].size for dim in column.dims)))
-        for i, (row, _) in enumerate(found):
+        arrays[name] = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
+        for i, row in enumerate(rows):
             if name in row:
                 _store(row[name], arrays[name], (i,), column)
-    return Table(arrays, [message for _, message in found])
+    return arrays
 
 
 def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:

@@ -13,9 +13,8 @@ from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.document import BasinsOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import basins
-from disc_model.studies.grids.run import compute
 from tests.stability.test_attractor import stretch
-from tests.studies.grids.conftest import computed
+from tests.studies.grids.conftest import compute, computed
 
 QUIET = Attractor(
     Outcome.QUIET,

@@ -7,7 +7,7 @@ from disc_model.parameters import Parameters
 from disc_model.studies.document import BranchesOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import branches
-from disc_model.studies.grids.run import Table, compute
+from tests.studies.grids.conftest import Table, compute
 
 OPTIONS = {"scan": {"start": 14.75, "stop": 15.25, "step": 0.25}, "dwell": 60, "evaluation_time": 1, "max_points": 60}
 

@@ -11,8 +11,7 @@ from disc_model.parameters import Parameters
 from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed
-from disc_model.studies.grids.run import compute
-from tests.studies.grids.conftest import computed
+from tests.studies.grids.conftest import compute, computed
 
 
 def speeds_at(

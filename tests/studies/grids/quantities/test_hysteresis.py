@@ -13,8 +13,7 @@ from disc_model.stability.attractor import outcome as attractor_outcome
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
-from disc_model.studies.grids.run import Table, compute
-from tests.studies.grids.conftest import SCAN
+from tests.studies.grids.conftest import SCAN, Table, compute
 
 
 def swept(N: float, scan: dict[str, float]) -> Table:

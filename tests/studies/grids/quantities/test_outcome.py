@@ -11,8 +11,7 @@ from disc_model.simulation.api import simulate
 from disc_model.studies.document import FloquetOptions, OutcomeOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import floquet, outcome
-from disc_model.studies.grids.run import compute
-from tests.studies.grids.conftest import SMALL, computed
+from tests.studies.grids.conftest import SMALL, compute, computed
 
 
 def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:

@@ -13,7 +13,7 @@ from disc_model.simulation.ramps import values_at
 from disc_model.studies.document import RampsOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import ramps
-from disc_model.studies.grids.run import compute
+from tests.studies.grids.conftest import compute
 
 SPAN = {"low": 10, "high": 20, "dwell": 7}
 EVERY = 0.125

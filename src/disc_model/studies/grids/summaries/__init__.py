@@ -13,17 +13,13 @@ from typing import Any, Protocol
 import numpy as np
 import xarray as xr
 
+from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import Row
-from disc_model.studies.grids.run import Described, own_coordinates, table_of
+from disc_model.studies.grids.run import Described, arrays_of, own_coordinates
 
 
 class Summary(Described, Protocol):
-    """A module of a summary.
-
-    OVER : the dimension that is summarised
-    """
-
-    OVER: str
+    """A module of a summary."""
 
     def summarise(self, cell: xr.Dataset, options: Any) -> Row:
         """Values by column, for a merged dataset that has only the summarised dimension left."""
@@ -31,16 +27,12 @@ class Summary(Described, Protocol):
 
 def summary_of(quantity: str) -> Summary | None:
     """The summary of a quantity, if it has one."""
+    if not QUANTITIES[quantity].over:
+        return None
     # their import loads the engine, which most merges do not need
-    if quantity == "campbell":
-        from disc_model.studies.grids.summaries import campbell
+    from disc_model.studies.grids.summaries import campbell, sensitivity
 
-        return campbell
-    if quantity == "sensitivity":
-        from disc_model.studies.grids.summaries import sensitivity
-
-        return sensitivity
-    return None
+    return campbell if quantity == "campbell" else sensitivity
 
 
 def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> xr.Dataset:
@@ -49,10 +41,10 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     if summary is None:
         return study
     checked = SimpleNamespace(**options)
-    others = [dim for dim in map(str, study["status"].dims) if dim != summary.OVER]
+    others = [dim for dim in map(str, study["status"].dims) if dim != QUANTITIES[quantity].over]
     sizes = [study.sizes[dim] for dim in others]
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*sizes)]
-    arrays = table_of(summary, [(summary.summarise(cell, checked), "") for cell in cells], checked).arrays
+    arrays = arrays_of(summary, [summary.summarise(cell, checked) for cell in cells], checked)
     variables = {}
     for name, column in summary.COLUMNS.items():
         values = arrays[name].reshape((*sizes, *arrays[name].shape[1:]))

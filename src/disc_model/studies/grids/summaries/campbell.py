@@ -23,7 +23,6 @@ from disc_model.studies.grids.points import listed
 
 Array = NDArray[np.float64]
 
-OVER = "Omega"
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
@@ -135,11 +134,9 @@ def effect_of(
     growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
     """
     inside = np.abs(one.detuning) <= window
-    first, last = one.place, one.place + 1
-    while first >= 0 and inside[first]:
-        first -= 1
-    while last < len(inside) and inside[last]:
-        last += 1
+    outside = np.flatnonzero(~inside)
+    first = outside.max(initial=-1, where=outside <= one.place)
+    last = outside.min(initial=len(inside), where=outside > one.place)
     within = slice(first + 1, last)
     if first < 0 or last >= len(inside) or last - first - 1 < FEWEST:
         return "unresolved", math.nan, math.nan, 0

@@ -15,13 +15,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
-from disc_model.data.variables import SAMPLE, Column, Variable, flag_names
+from disc_model.data.variables import Column, Variable, flag_names
 from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE
 
 Array = NDArray[np.float64]
 
-OVER = SAMPLE
 FAILED = "failed"
 FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_simulated", FAILED))
 KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
