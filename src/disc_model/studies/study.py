@@ -109,58 +109,44 @@ def read_file(path: Path) -> tuple[Any, list[str]]:
         raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
 
 
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """A loader that records duplicate keys instead of silently taking the last value."""
-
-    def __init__(self, stream: Any) -> None:
-        super().__init__(stream)
-        self.faults: list[str] = []
-
-    def construct_mapping(self, node: Any, deep: bool = False) -> Any:
-        first: dict[Any, int] = {}
-        for key_node, _ in node.value:
-            key = key_node.value
-            line = key_node.start_mark.line + 1
-            if key in first and key != "<<":
-                self.faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
-            first.setdefault(key, line)
-        return super().construct_mapping(node, deep)
-
-
 LARGEST = 100_000
 """Greatest number of values in a file, repeated ones counted each time."""
 
 
-def _count(node: yaml.Node, known: dict[int, int]) -> int:
-    """Number of values below a node; nested aliases in a few lines can expand to more than fits into memory."""
-    if id(node) in known:
-        if not known[id(node)]:
+def _size(node: yaml.Node, sizes: dict[int, int], faults: list[str]) -> int:
+    """Number of values below a node: nested aliases in a few lines can expand to more than fits into memory.
+
+    Keys that are given twice are added to `faults`; YAML itself would take the last value.
+    """
+    if id(node) in sizes:
+        if not sizes[id(node)]:
             raise ValueError("a value contains itself")
-        return known[id(node)]
-    known[id(node)] = 0
-    children: list[yaml.Node] = []
+        return sizes[id(node)]
+    sizes[id(node)] = 0
+    children: list[yaml.Node] = node.value if isinstance(node, yaml.SequenceNode) else []
     if isinstance(node, yaml.MappingNode):
-        children = [part for pair in node.value for part in pair]
-    elif isinstance(node, yaml.SequenceNode):
-        children = node.value
-    known[id(node)] = 1 + sum(_count(child, known) for child in children)
-    if known[id(node)] > LARGEST:
+        children = [*chain(*node.value)]
+        first: dict[Any, int] = {}
+        for key, line in ((key.value, key.start_mark.line + 1) for key in children[::2]):
+            if key in first and key != "<<":
+                faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
+            first.setdefault(key, line)
+    sizes[id(node)] = 1 + sum(_size(child, sizes, faults) for child in children)
+    if sizes[id(node)] > LARGEST:
         raise ValueError(f"more than {LARGEST} values, repeated ones counted each time")
-    return known[id(node)]
+    return sizes[id(node)]
 
 
 def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
     """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
+    faults: list[str] = []
     try:
-        loader = _UniqueKeyLoader(text)
-        try:
-            node = loader.get_single_node()
-            if node is None:
-                return None, loader.faults
-            _count(node, {})
-            return loader.construct_document(node), loader.faults
-        finally:
-            loader.dispose()
+        loader = yaml.SafeLoader(text)
+        node = loader.get_single_node()
+        if node is None:
+            return None, faults
+        _size(node, {}, faults)
+        return loader.construct_document(node), faults
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
