@@ -1,5 +1,7 @@
 """Kinds of kernels: which cases need which."""
 
+import json
+
 import pytest
 
 from disc_model import Parameters, Ramp
@@ -7,7 +9,6 @@ from disc_model.engine.layout import HALF
 from disc_model.kernels import KINDS, LAWS, PAIRS_OF_A_BLOCK, example, kinds_of, kinds_of_case
 from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import engine_case
-from disc_model.studies.modes import to_text
 from disc_model.truncation import Asked
 
 P = Parameters(N=385, Omega=15)
@@ -36,9 +37,9 @@ def test_an_example_is_what_the_compiler_takes_for_its_kind(kind: str) -> None:
         ({"parameters": P.replace(n_circles=1)}, {"simulate-rigid_vertical-wide"}),
         ({"parameters": P.replace(contact_compliance=1e-8)}, {"simulate-compliant_vertical"}),
         ({"ramps": (RAMP,)}, {"simulate-rigid_vertical", "ramp-rigid_vertical"}),
-        ({"modes": to_text(Asked("first_separation", 0.01))}, SIMULATED),
+        ({"modes": json.dumps(Asked("first_separation", 0.01)._asdict())}, SIMULATED),
         (
-            {"modes": to_text(Asked("growth", 0.01))},
+            {"modes": json.dumps(Asked("growth", 0.01)._asdict())},
             SIMULATED | {"floquet-rigid_vertical", "floquet-rigid_vertical-wide"},
         ),
         (

@@ -10,10 +10,9 @@ import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import CANDIDATES, larger
+from disc_model.mode_choice import CANDIDATES, choose_when_run, larger
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.modes import choose
 from disc_model.studies.study import parse_study
 from disc_model.truncation import CHOSEN_BY, FREQUENCIES, real_modes
 
@@ -123,11 +122,11 @@ def one_case(**said: Any) -> CaseSpec:
 
 def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
-    done = run_case(one_case(truncation_quantity="growth"), choose=choose)
+    done = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
     assert json.loads(done.attrs["truncation"])["quantity"] == "growth"
     measured(lambda d, c: float(d))
-    failed = run_case(one_case(truncation_quantity="growth"), choose=choose)
+    failed = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert "n_diameters: undecided" in failed.attrs["message"]
 
 

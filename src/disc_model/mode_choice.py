@@ -7,6 +7,7 @@ difference of the largest models.  For a disc given by a table, the last candida
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
@@ -94,6 +95,12 @@ def choose_modes(
     if quantity == FREQUENCIES:
         return by_frequencies(case, tolerance, band, (int(rich[0]), int(rich[1])))
     return by_motion(case, Asked(quantity, tolerance))
+
+
+def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
+    """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as JSON."""
+    choice = by_motion(p, Asked(**json.loads(asked)))
+    return choice.parameters, choice.to_json()
 
 
 def by_motion(p: Parameters, asked: Asked) -> ModeChoice:

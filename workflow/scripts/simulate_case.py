@@ -8,10 +8,10 @@ from pathlib import Path
 
 from disc_model.data.dataset import save
 from disc_model.errors import script
+from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.recorder import SET_ASIDE
-from disc_model.studies.modes import choose
 
 
 @script
@@ -19,7 +19,7 @@ def main(case: str, output: str) -> None:
     place = Path(output)
     place.parent.mkdir(parents=True, exist_ok=True)
     checkpoint = place.with_name(f".{place.stem}.checkpoint")
-    save(run_case(CaseSpec.from_canonical(case), checkpoint, choose), place)
+    save(run_case(CaseSpec.from_canonical(case), checkpoint, choose_when_run), place)
     for former in checkpoint.parent.glob(f"{checkpoint.name}.*{SET_ASIDE}"):  # of former contents of the case
         former.unlink()
     checkpoint.unlink(missing_ok=True)

@@ -62,14 +62,12 @@ KINDS = {
     "cycle": Kind("case stability.cycle stability.return_map stability.sliding"),
     "settled": Kind("cycle stability.attractor stability.lyapunov analysis.classify"),
     "continuation": Kind("cycle stability.branch stability.continuation stability.grazing"),
-    "point": Kind(
-        "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run studies.modes truncation"
-    ),
+    "point": Kind("dataset simulation.case simulation.ramps studies.grids.points studies.grids.run truncation"),
     "figure": Kind("dataset simulation.case simulation.ramps figures.kinds figures.parts figures/disc_model.mplstyle"),
     "catalogue": Kind("figures.paper.catalogue figures/paper/catalogue.yaml"),
     "modes_by_motion": Kind("cycle mode_choice truncation"),
     # named cases
-    "simulate_case": Kind("case studies.modes truncation"),
+    "simulate_case": Kind("case"),
     "merge_cases": Kind("dataset studies.cases"),
     "describe_study": Kind("check_claims"),
     # grids, with a quantity each

@@ -491,7 +491,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
     Parameters
     ----------
     checkpoint : file from which an interrupted case continues, see `simulate`
-    choose : function that chooses the modes by a quantity of the motion, see `disc_model.studies.modes`; needed only
+    choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
         for a case that asks for such a choice
     """
     from disc_model.data.dataset import failed_groups, json_attribute, to_tree

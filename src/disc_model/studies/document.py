@@ -59,7 +59,6 @@ from disc_model.parameters import (
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
-from disc_model.studies.modes import to_text
 from disc_model.studies.rules import LONGEST, names_in
 from disc_model.truncation import (
     CHOSEN_BY,
@@ -894,7 +893,7 @@ class NamedCase(Strict):
         """Parameters, and how their modes were chosen or will be chosen when the case runs."""
         p, asked = self.parameters
         if asked is None or asked.quantity != FREQUENCIES:
-            return p, "", "" if asked is None else to_text(asked)
+            return p, "", "" if asked is None else json.dumps(asked._asdict(), sort_keys=True)
         try:
             choice = by_frequencies(p, asked.tolerance)
         except DiscModelError as error:  # no number of modes meets the tolerance

@@ -17,13 +17,13 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
+from disc_model.mode_choice import by_motion
 from disc_model.parameters import AUTO, Parameters, case_of, leaves_modes
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import START, Start
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
-from disc_model.studies.modes import chosen
-from disc_model.truncation import read_asked
+from disc_model.truncation import FREQUENCIES, by_frequencies, read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -121,7 +121,9 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
         if not leaves_modes(values):
             return Parameters.model_validate(values)
         p, asked = read_asked(values)
-        return p if asked is None else chosen(p, asked).parameters
+        if asked is None:
+            return p
+        return (by_frequencies(p, asked.tolerance) if asked.quantity == FREQUENCIES else by_motion(p, asked)).parameters
     except DiscModelError as error:
         return error
 
