@@ -15,8 +15,7 @@ import disc_model as dm
 from disc_model import cli, mode_choice
 from disc_model.cli.case import parameters_of
 from disc_model.disc import disc_table
-from disc_model.plate import modal_damping, mode_arrays, mode_shapes
-from disc_model.stability.return_map import ReturnMap
+from disc_model.plate import mode_arrays, mode_shapes
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.study import StudyError, load_study
@@ -140,11 +139,6 @@ def test_without_shapes_a_deflection_is_refused() -> None:
         dm.deflection(p, dm.snapshots(p, [0.0]), 0.1, 0.0)
 
 
-def test_a_damping_ratio_is_that_of_every_mode() -> None:
-    p = P.replace(damping_ratio=1e-3)
-    np.testing.assert_array_equal(modal_damping(p), 2e-3 * mode_arrays(p).omega)
-
-
 FIRST_LINES = (
     "diameters,omega_rad_per_s,amplitude_per_sqrt_kg",
     "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.05_m,shape_at_.1_m",
@@ -184,28 +178,6 @@ def test_the_command_line_says_which_column_is_wrong(tmp_path: Path) -> None:
 def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
     with pytest.raises(dm.ParameterError, match="must be a text file that can be read"):
         dm.read_disc(path)  # type: ignore[arg-type]
-
-
-def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
-    """Its damping rises with the root of E, and that of a plate with D_star not at all."""
-    p = P.replace(damping_ratio=0.05)
-    map_ = ReturnMap(p, parameters=("E",))
-    _, _, _, by = map_.evaluate(map_.static)
-    step, ends = 1e-5 * p.E, []
-    for change in (-step, step):
-        other = ReturnMap(p.replace(E=p.E + change))
-        reached = other.evaluate(map_.static / map_.scale * other.scale, tangent=False)[1]
-        ends.append(reached / other.scale * map_.scale)
-    expected = (ends[1] - ends[0]) / (2 * step)  # right to 1e-9 of itself, by the third derivative
-    assert np.linalg.norm(by[:, 0] - expected) < 1e-6 * np.linalg.norm(expected)
-
-
-@pytest.mark.parametrize(
-    ("parameters", "name"), [({"disc": dm.Disc(**THREE)}, "E"), ({"damping_ratio": 0.01}, "D_star")]
-)
-def test_there_is_no_derivative_by_what_a_case_has_not(parameters: dict[str, object], name: str) -> None:
-    with pytest.raises(dm.ParameterError, match="must be a parameter that the case has"):
-        ReturnMap(P.replace(**parameters), parameters=(name,))
 
 
 def study(folder: Path, disc: str) -> Path:

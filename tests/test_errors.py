@@ -14,6 +14,7 @@ from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.lyapunov import LyapunovStatus
 from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError, parse_study
+from tests.studies.refused import faults_of
 
 WINDOW = {"start": 0, "stop": 1, "rate": 100}
 
@@ -37,19 +38,12 @@ def said(make: Any, **values: Any) -> list[str]:
     return list(caught.value.faults)
 
 
-def said_of_case(**values: Any) -> list[str]:
-    """The faults of a study's case."""
-    case = {"title": "", "t_end": 1, "parameters": {"N": 1, "Omega": 1}, **values}
-    with pytest.raises(StudyError) as caught:
-        parse_study({"study": "s", "cases": {"here": case}})
-    return list(caught.value.faults)
-
-
 @pytest.mark.parametrize("value", [-1, -1.0, "-1", "-1e0", np.float32(-1)])
 def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
     assert said(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
     assert said(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
-    assert said_of_case(t_end=value) == ["cases.here.t_end = -1: must be > 0"]
+    case = {"title": "", "t_end": value, "parameters": {"N": 1, "Omega": 1}}
+    assert faults_of(parse_study, {"study": "s", "cases": {"here": case}}) == ["cases.here.t_end = -1: must be > 0"]
 
 
 @pytest.mark.parametrize(
@@ -73,16 +67,6 @@ def test_a_path_keeps_names_that_pydantic_gives_to_branches_of_a_union(name: str
     assert said(Outer, several={name: {"size": "big"}}) == [f"several.{name}.size='big': must be a number"]
     assert f"choice.{name}=3: unknown key (known: size)" in said(Outer, choice={name: 3, "size": 1})
     assert said(Outer, choice={name: 3, "size": "big"})[1] == "choice.size='big': must be a number"
-
-
-def test_a_window_may_be_called_like_the_class_of_a_span() -> None:
-    record = {"windows": {"Span": {"rate": -1}}, "events": {"start": -1}}
-    faults = said_of_case(record=record)
-    assert "cases.here.record.windows.Span.rate = -1: must be > 0" in faults
-    assert "cases.here.record.events.start = -1: must be >= 0" in faults
-    assert said_of_case(record={"windows": {"1st": {"rate": 1}}}) == [
-        "cases.here.record.windows.1st = '1st': must be letters, digits and _, starting with a letter"
-    ]
 
 
 def test_a_fault_is_its_text_and_knows_its_parts() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
 
-from disc_model import Parameters, plate_modes
+from disc_model import Disc, Parameters, plate_modes
 from disc_model import flexibility as module
 from disc_model.flexibility import harmonic_flexibility, residual_flexibility
 
@@ -152,3 +152,9 @@ def test_residual_flexibility_of_published_modes_falls_as_modes_are_added() -> N
     assert rests[0] > rests[1] > rests[2] > 0
     # the sum goes far enough
     assert 0 < found[0].remainder < 0.05 * rests[0]
+
+
+def test_a_disc_given_by_its_modes_has_the_flexibility_that_its_table_says() -> None:
+    disc = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], static_compliance=9e-6)
+    found = residual_flexibility(Parameters(N=385, Omega=15.1, disc=disc))
+    assert (found.total, found.kept, found.remainder) == (9e-6, pytest.approx(1e-6 + 4e-6, rel=1e-14), 0)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy import special
 
-from disc_model import ModeError, Parameters, coupled_natural_frequencies, plate_modes
+from disc_model import Disc, ModeError, Parameters, coupled_natural_frequencies, plate_modes
 from disc_model import plate as plate_module
 from disc_model.flexibility import residual_flexibility
 from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
@@ -73,13 +73,21 @@ def test_more_modes_lower_every_frequency() -> None:
     assert (more[: few.size] < few).all()
 
 
-def test_coupled_shapes_solve_the_equations_of_motion() -> None:
-    modes = mode_arrays(P)
-    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, P.m, P.k)
-    assert_allclose(frequencies[::-1], coupled(P), rtol=1e-12)
-    v = shapes / modes.omega[:, None]
-    pull = np.outer(modes.psi, modes.psi)
-    stiff, inert = np.diag(modes.omega**2) + P.k * pull, np.eye(modes.omega.size) + P.m * pull
+@pytest.mark.parametrize("give", [0.0, 2.5e-7])
+def test_coupled_shapes_solve_the_equations_of_motion(give: float) -> None:
+    """In rigid contact u is the disc's; on a compliant one it is a coordinate, and the contact is a spring."""
+    modes, n = mode_arrays(P), 5
+    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, P.m, P.k, give)
+    assert_allclose(frequencies[::-1], coupled_frequencies(modes.omega, modes.psi, P.m, P.k, give), rtol=1e-12)
+    slider = np.append(modes.psi, 0) if give == 0 else np.eye(n + 1)[n]
+    stiff = np.diag(np.append(modes.omega**2, 0)) + P.k * np.outer(slider, slider)
+    inert = np.diag(np.append(np.ones(n), 0)) + P.m * np.outer(slider, slider)
+    if give:
+        stretch = np.append(modes.psi, -1)
+        stiff += np.outer(stretch, stretch) / give
+    # rows: each mode times its frequency, and u over the root of the compliance
+    v = np.zeros((n + 1, len(frequencies)))
+    v[: len(shapes)] = shapes * np.append(1 / modes.omega, np.sqrt(give))[: len(shapes), None]
     # rounding of a problem whose condition is (highest frequency / lowest)^2, about 30
     assert_allclose(stiff @ v, inert @ v * frequencies**2, atol=1e-12 * np.abs(stiff @ v).max())
 
@@ -88,6 +96,9 @@ def test_modal_damping_is_twice_the_share_of_critical_damping_times_the_frequenc
     # 2 xi omega of the lowest mode: 1e-5 N m s over D = 104.66 N m times (1491.927 rad/s)^2
     assert modal_damping(P)[0] == pytest.approx(0.212676, rel=1e-5)
     assert_allclose(modal_damping(P.replace(D_star=0)), 0)
+    given = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0], damping_ratio=[1e-3, 0.0])
+    assert_allclose(modal_damping(P.replace(damping_ratio=1e-3)), 2e-3 * mode_arrays(P).omega)
+    assert_allclose(modal_damping(Parameters(N=385, Omega=15.1, disc=given)), [2.0, 0.0])
 
 
 def test_slider_at_rest_solves_the_secular_equation() -> None:

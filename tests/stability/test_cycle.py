@@ -14,10 +14,8 @@ from disc_model.stability.attractor.neighbourhood import cycle_near
 from disc_model.stability.cycle import (
     CycleError,
     CycleStatus,
-    bifurcation_type,
     find_cycle,
     find_cycle_near,
-    growth_rate,
 )
 from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -196,15 +194,6 @@ def test_from_a_given_point_no_other_cycle_is_taken():
     found = find_cycle(P, guess=far)
     assert found.status is CycleStatus.NO_CYCLE
     assert found.message == "no_cycle: no cycle near the given point of the section"
-
-
-def test_a_multiplier_tells_the_bifurcation():
-    assert [bifurcation_type(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)] == [
-        "fold",
-        "period_doubling",
-        "neimark_sacker",
-    ]
-    assert growth_rate(0j, 0.01) == -math.inf
 
 
 def test_attractors_are_those_that_are_stable():

@@ -1,12 +1,22 @@
 """The return map: its section, its derivatives, Newton on it."""
 
+import math
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
-from disc_model import Parameters, simulate
-from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
+from disc_model import Disc, ParameterError, Parameters, simulate
+from disc_model.stability.return_map import (
+    PARAMETERS,
+    RETURNED,
+    Counts,
+    Flight,
+    ReturnMap,
+    bifurcation_type,
+    growth_rate,
+    newton,
+)
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.test_variational import differences
 from tests.references.printed import Printed
@@ -99,11 +109,11 @@ def test_columns_of_stiff_springs_took_steps_too_long_for_them(stiff):
     np.testing.assert_allclose(jacobian, expected, rtol=0, atol=2e-3)
 
 
-def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float]) -> None:
-    """Derivatives of where a flight ends by all parameters, against differences of steps relative to their values."""
+def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS) -> None:
+    """Derivatives of where a flight ends by parameters, against differences of steps relative to their values."""
     p, how = map_.parameters, {"may_separate": True}
-    _, _, _, by = ReturnMap(p, parameters=PARAMETERS).evaluate(x, **how)
-    for i, name in enumerate(PARAMETERS):
+    _, _, _, by = ReturnMap(p, parameters=names).evaluate(x, **how)
+    for i, name in enumerate(names):
         value = getattr(p, name)
 
         def end(change: float, name: str = name, value: float = value) -> np.ndarray:
@@ -124,6 +134,31 @@ def test_derivatives_by_parameters_agree_with_central_differences(where):
     else:
         map_, x = after_separation(Parameters(N=385, Omega=15.1, c=0.01, c_p=0.01), 60.0)
     check_derivatives(map_, x, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
+
+
+def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
+    """Its damping rises with the root of E, and that of a plate with D_star not at all."""
+    map_ = ReturnMap(P.replace(damping_ratio=0.05))
+    check_derivatives(map_, map_.static, lambda name: 1e-4, ("E", "N"))
+
+
+@pytest.mark.parametrize(
+    ("parameters", "name"),
+    [
+        ({"disc": Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0])}, "E"),
+        ({"damping_ratio": 0.01}, "D_star"),
+    ],
+)
+def test_there_is_no_derivative_by_what_a_case_has_not(parameters: dict[str, object], name: str) -> None:
+    with pytest.raises(ParameterError, match="must be a parameter that the case has"):
+        ReturnMap(Parameters(N=385, Omega=15.1, **parameters), parameters=(name,))
+
+
+def test_a_multiplier_tells_growth_rate_and_bifurcation() -> None:
+    kinds = [bifurcation_type(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)]
+    assert kinds == ["fold", "period_doubling", "neimark_sacker"]
+    assert (growth_rate(0j, 0.01), growth_rate(1j, 0.01)) == (-math.inf, 0)
+    assert growth_rate(-2.0 + 0j, 0.01) == pytest.approx(100 * math.log(2))
 
 
 OTHER_LAWS = {name: LAWS[name] for name in ("compliant", "normal")} | {"residual": {"contact_compliance": "residual"}}

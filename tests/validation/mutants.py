@@ -65,7 +65,7 @@ MODULES = {
     "engine/transitions.py": (*EQUATIONS, *DERIVATIVES),
     "engine/saltation.py": DERIVATIVES,
     "engine/tangent.py": DERIVATIVES,
-    "engine/variational.py": SECTION,
+    "engine/variational.py": (*SECTION, "tests/engine/test_event_loop.py"),
     "flexibility.py": ("tests/test_flexibility.py",),
     "plate.py": ("tests/test_plate.py",),
     "simulation/ramps.py": RAMPS,
