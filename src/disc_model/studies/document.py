@@ -54,7 +54,6 @@ from disc_model.parameters import (
     Tolerance,
     Unit,
     each_in_si,
-    leaves_modes,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -833,19 +832,10 @@ GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_gi
 """Parameters, any of which may be left out; the number of modes may be left to each case."""
 
 
-class Chosen(NamedTuple):
-    """Parameters of a case, and how its modes are to be chosen, if they are."""
-
-    parameters: Parameters
-    asked: Asked | None
-
-
-def _of_case(values: Any) -> Chosen:
+def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
-    if not leaves_modes(values):
-        return Chosen(Parameters.model_validate(values), None)
-    return Chosen(*read_asked(values))
+    return read_asked(values)
 
 
 class NamedCase(Strict):
@@ -853,9 +843,9 @@ class NamedCase(Strict):
 
     title: str
     reference: str = ""
-    parameters: Annotated[Chosen, PlainValidator(_of_case, json_schema_input_type=GivenParameters)] = Field(
-        {}, validate_default=True
-    )
+    parameters: Annotated[
+        tuple[Parameters, Asked | None], PlainValidator(_of_case, json_schema_input_type=GivenParameters)
+    ] = Field({}, validate_default=True)
     t_end: Seconds
     tol: Tolerance = 1e-10
     stop_at: Literal["first_separation"] | None = None

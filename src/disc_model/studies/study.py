@@ -50,7 +50,6 @@ from disc_model.parameters import (
     cross_faults,
     faults_of_names,
     is_number,
-    leaves_modes,
     with_ratios,
 )
 from disc_model.plausibility import RULES
@@ -653,18 +652,14 @@ class GridStudy:
         if not most:
             return {}
         few = [dim.thinned(most) for dim in self.dims]
-        cut = _chunks(few, [dim.name for dim in few], n_points(few))
-        return self._texts(few, ({"points": every} for every in cut))
+        every = [[*chain.from_iterable(point)] for point in product(*(dim.values for dim in few))]
+        return self._texts(few, [{"points": every}])
 
     def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         """Parts of the grid that have points left, each as a text with everything that its result depends on."""
         names = [name for dim in dims for name in dim.names]
-        shared = {
-            "quantity": self.quantity,
-            "options": self.document.options.model_dump(),
-            "base": self.base,
-            "names": names,
-        }
+        options = self.document.options.model_dump()
+        shared = {"quantity": self.quantity, "options": options, "base": self.base, "names": names}
         texts = []
         for part in parts:
             every = [dict(zip(names, point, strict=True)) for point in part["points"]]
@@ -680,7 +675,7 @@ class GridStudy:
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the sources of its points, beyond the common ones, as in `disc_model.data.sources`."""
-        asked = asked_modes(self.base)[1] if leaves_modes(self.base) else None
+        asked = asked_modes(self.base)[1]
         return self.quantity, *["modes_by_motion"] * (asked is not None and asked.quantity != FREQUENCIES)
 
     @property
@@ -708,8 +703,8 @@ class GridStudy:
     @property
     def attrs(self) -> dict[str, str]:
         """Attributes of the merged dataset that describe the study."""
-        said = {"study": self.name, "title": self.title}
-        return said | ({"where": " and ".join(f"({rule})" for rule in self.where)} if self.where else {})
+        where = {"where": " and ".join(f"({rule})" for rule in self.where)} if self.where else {}
+        return {"study": self.name, "title": self.title} | where
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -790,8 +785,6 @@ class _Grid:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         said = self.document.base
         given = {name: getattr(said, name) for name in type(said).model_fields if name in said.model_fields_set}
-        if not leaves_modes(given):
-            return given, {}
         fixed, asked, more = asked_modes(given)
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
@@ -922,9 +915,7 @@ class _Grid:
         if not self.automatic:
             return
         given = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
-        if "n_circles" in self.base:
-            given.append(("base", "n_circles"))
-        for path in given:
+        for path in [*given, *[("base", "n_circles")] * ("n_circles" in self.base)]:
             self.add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
 
     def _check_where(self) -> None:

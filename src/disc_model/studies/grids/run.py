@@ -18,7 +18,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, attributes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import by_motion
-from disc_model.parameters import AUTO, Parameters, case_of, leaves_modes
+from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import START, Start
 from disc_model.studies.document import QUANTITIES
@@ -118,8 +118,6 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     """The parameters of a point, or the error if no number of modes meets the tolerance."""
     values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
-        if not leaves_modes(values):
-            return Parameters.model_validate(values)
         p, asked = read_asked(values)
         if asked is None:
             return p
