@@ -12,7 +12,7 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError, shown, suggestion
 from disc_model.parameters import Disc, Parameters
-from disc_model.plate import modal_damping, mode_arrays
+from disc_model.plate import Array, modal_damping, mode_arrays, modes_of_table
 
 if TYPE_CHECKING:
     import os
@@ -91,7 +91,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
         disc = Disc(**values)
     except ParameterError as error:
         raise ParameterError(*(_of_table(fault, places, names, rows) for fault in error.faults)) from None
-    static, modal = disc.static_compliance, math.fsum(np.square(np.divide(disc.amplitude, disc.omega)).tolist())
+    static, modal = disc.static_compliance, modes_of_table(disc).flexibility
     if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
         raise ParameterError(Fault((STATIC_COMPLIANCE,), shown(static), rule))
@@ -114,6 +114,14 @@ def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str]
     return Fault((names[at],), shown(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
 
 
+def damping_ratios(p: Parameters) -> Array:
+    """Damping ratios of the modes of a case; for a disc that is given by a table, exactly those of the table."""
+    if p.disc is not None:
+        return np.array(p.disc.damping_ratio)
+    with np.errstate(invalid="ignore"):
+        return modal_damping(p) / (2 * mode_arrays(p).omega)
+
+
 def disc_table(p: Parameters) -> str:
     """Write the modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
     from disc_model.flexibility import residual_flexibility
@@ -126,9 +134,7 @@ def disc_table(p: Parameters) -> str:
     shape_columns = [f"shape_at_{radius}_m" for radius in radii]
     names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio", *shape_columns)
     lines.append(",".join(names))
-    with np.errstate(invalid="ignore"):
-        ratios = modal_damping(p) / (2 * modes.omega) if p.disc is None else p.disc.damping_ratio
-    columns = (modes.diameters, modes.circles, modes.omega, modes.psi, ratios, *zip(*shapes, strict=True))
+    columns = (modes.diameters, modes.circles, modes.omega, modes.psi, damping_ratios(p), *zip(*shapes, strict=True))
     lines += [",".join(map(str, row)) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
 

@@ -24,9 +24,9 @@ from disc_model.truncation import (
     by_frequencies,
     checked_quantity,
     checked_tolerance,
+    count_modes,
     counts,
-    real_modes,
-    real_modes_of,
+    resized,
 )
 
 if TYPE_CHECKING:
@@ -111,13 +111,13 @@ def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
         group = (size, *others)
         for one in group:
             if one not in values:
-                values[one] = MEASURES[asked.quantity](_model(p, one))
+                values[one] = MEASURES[asked.quantity](resized(p, one))
         if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
             raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(p, group)}")
         change = max(_change(values[size], values[other]) for other in others or group)
         if change <= asked.tolerance:
-            count = _real(p, size)
-            return ModeChoice(_model(p, size), asked.tolerance, change, count, group[-1], None, asked.quantity, values)
+            count, chosen = count_modes(p, size), resized(p, size)
+            return ModeChoice(chosen, asked.tolerance, change, count, group[-1], None, asked.quantity, values)
     told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
         f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(p, group)}, more than the "
@@ -141,12 +141,6 @@ def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
     yield ((most,),)
 
 
-def _model(p: Parameters, size: tuple[int, ...]) -> Parameters:
-    if p.disc is not None:
-        return p.replace(disc=p.disc.first(*size))
-    return p.replace(**dict(zip(("n_diameters", "n_circles"), size, strict=True)))
-
-
 def larger(size: Size) -> tuple[Size, Size]:
     """The two larger models for comparison with a candidate."""
     diameters, circles = size
@@ -160,13 +154,8 @@ def _change(mine: float, other: float) -> float:
     return abs(mine / other - 1.0) if math.isfinite(mine) and math.isfinite(other) and other else math.inf
 
 
-def _real(p: Parameters, size: tuple[int, ...]) -> int:
-    """Number of real modes of a model."""
-    return real_modes(*size) if p.disc is None else real_modes_of(p.disc, *size)
-
-
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
-    return ", ".join(str(_real(p, size)) for size in sizes) + " modes"
+    return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -82,6 +82,12 @@ class Modes:
         for column in vars(self).values():
             column.setflags(write=False)
 
+    @property
+    def flexibility(self) -> float:
+        """Static flexibility under the slider: the sum of psi^2 / omega^2, m/N; infinite beyond the range of floats."""
+        with np.errstate(over="ignore"):
+            return float(np.sum((self.psi / self.omega) ** 2))
+
 
 def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
     """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call.
@@ -89,7 +95,7 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
     normalization : replaces that of the case if it is given
     """
     if p.disc is not None:
-        return _given_modes(p.disc)
+        return modes_of_table(p.disc)
     orthonormal = (normalization or p.normalization) == "orthonormal"
     return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, orthonormal)
 
@@ -224,7 +230,8 @@ def modal_damping(p: Parameters) -> Array:
 
 
 @lru_cache(maxsize=64)
-def _given_modes(disc: Disc) -> Modes:
+def modes_of_table(disc: Disc) -> Modes:
+    """The modes of a disc that is given by a table."""
     circles, diameters = (np.array(column, np.int64) for column in (disc.circles, disc.diameters))
     return Modes(circles, diameters, np.array(disc.omega), np.array(disc.amplitude))
 

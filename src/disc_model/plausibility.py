@@ -89,10 +89,9 @@ def _deflected(p: Parameters) -> str:
     if p.disc is not None:  # its thickness is unknown
         return ""
     try:
-        modes = mode_arrays(p, "orthonormal")  # the modes of the physical plate
+        deflection = p.N * mode_arrays(p, "orthonormal").flexibility  # of the physical plate
     except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
-    deflection = p.N * math.fsum(x**2 for x in (modes.psi / modes.omega).tolist())
     if not DEEPEST * p.h < deflection < math.inf:
         return ""
     times = f"{1e3 * deflection:.3g} mm, {deflection / p.h:.0f} times the thickness"

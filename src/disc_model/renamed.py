@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+_WITH_INTERVALS = {
+    "share": "basin_fraction",
+    "energy_share": "basin_fraction_by_energy",
+    "separating_share": "separating_fraction",
+    "cycle_share": "cycle_fraction",
+    "outcome_share": "outcome_fraction",
+    "first_index": "sobol_first",
+    "total_index": "sobol_total",
+}
+"""Variables that have an interval as well, from `_low` to `_high`."""
 RENAMED: dict[str, tuple[str, ...]] = {
+    **{f"{old}{end}": (f"{new}{end}",) for old, new in _WITH_INTERVALS.items() for end in ("", "_low", "_high")},
     # variables and dimensions of datasets
     "energy_transverse": ("energy_residual_transverse",),
     "energy_inplane": ("energy_residual_inplane",),
@@ -12,15 +23,6 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "forward": ("forward_wave_fraction",),
     "fate": ("attractor_class",),
     "reached": ("attractor_index",),
-    "share": ("basin_fraction",),
-    "share_low": ("basin_fraction_low",),
-    "share_high": ("basin_fraction_high",),
-    "energy_share": ("basin_fraction_by_energy",),
-    "energy_share_low": ("basin_fraction_by_energy_low",),
-    "energy_share_high": ("basin_fraction_by_energy_high",),
-    "separating_share": ("separating_fraction",),
-    "separating_share_low": ("separating_fraction_low",),
-    "separating_share_high": ("separating_fraction_high",),
     "least_kick": ("critical_energy",),
     "least_kick_not": ("critical_energy_lower",),
     "least_kick_sample": ("critical_energy_sampled",),
@@ -57,18 +59,6 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "drawn": ("parameter_values",),
     "n_draws": ("n_known_cycles",),
     "n_followed": ("n_known_outcomes",),
-    "cycle_share": ("cycle_fraction",),
-    "cycle_share_low": ("cycle_fraction_low",),
-    "cycle_share_high": ("cycle_fraction_high",),
-    "outcome_share": ("outcome_fraction",),
-    "outcome_share_low": ("outcome_fraction_low",),
-    "outcome_share_high": ("outcome_fraction_high",),
-    "first_index": ("sobol_first",),
-    "first_index_low": ("sobol_first_low",),
-    "first_index_high": ("sobol_first_high",),
-    "total_index": ("sobol_total",),
-    "total_index_low": ("sobol_total_low",),
-    "total_index_high": ("sobol_total_high",),
     "left_out": ("excluded_fraction",),
     # a variable of outcome, and keys of study files
     "settled": ("settling_time", "early_end"),

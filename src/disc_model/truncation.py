@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -87,35 +88,27 @@ class Asked(NamedTuple):
 def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
     """Find the model with the fewest real modes whose coupled frequencies in the band are within ``tolerance``.
 
-    The arguments are those of `disc_model.choose_modes`, which checks them.
+    The arguments are those of `disc_model.choose_modes`, which checks them.  For a table the candidates are its first
+    modes; the last one is the whole table.
     """
-    if p.disc is not None:
-        return _first_of_table(p, p.disc, tolerance, band)
-    p = p.replace(n_diameters=rich[0], n_circles=rich[1])
-    modes = mode_arrays(p)
-    right, top = _frequencies(p), band * float(modes.omega.min())
-    candidates = sorted((real_modes(d, c), c, d) for d in range(rich[0] + 1) for c in range(rich[1] + 1))
-    for count, circles, diameters in candidates[:-1]:
-        kept = (modes.circles <= circles) & (modes.diameters <= diameters)
-        chosen = p.replace(n_diameters=diameters, n_circles=circles)
+    sizes: Sequence[tuple[int, ...]]
+    if p.disc is None:
+        p = resized(p, rich)
+        every = product(range(rich[0] + 1), range(rich[1] + 1))
+        sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
+    else:
+        sizes = [(count,) for count in counts(p.disc)]
+    modes, right = mode_arrays(p), _frequencies(p)
+    top = band * float(modes.omega.min())
+    for size in sizes:
+        kept = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
+        chosen = resized(p, size)
         mine = coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k, contact_give(chosen))
         error = _worst(mine, right, top)
         if error <= tolerance:
-            return ModeChoice(chosen, tolerance, error, count, rich, band)
+            largest = rich if p.disc is None else sizes[-1]
+            return ModeChoice(chosen, tolerance, error, count_modes(p, size), largest, band)
     raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
-
-
-def _first_of_table(p: Parameters, disc: Disc, tolerance: float, band: float) -> ModeChoice:
-    """The fewest first modes of a table that agree with the whole table, which is the last candidate."""
-    modes, right = mode_arrays(p), _frequencies(p)
-    top = band * float(modes.omega.min())
-    for count in counts(disc):
-        chosen = p.replace(disc=disc.first(count))
-        mine = coupled_frequencies(modes.omega[:count], modes.psi[:count], p.m, p.k, contact_give(chosen))
-        error = _worst(mine, right, top)
-        if error <= tolerance:
-            break
-    return ModeChoice(chosen, tolerance, error, real_modes_of(disc, count), (len(modes.omega),), band)
 
 
 def counts(disc: Disc) -> range:
@@ -123,9 +116,16 @@ def counts(disc: Disc) -> range:
     return range(1 + next(i for i, each in enumerate(disc.amplitude) if each), len(disc.omega) + 1)
 
 
-def real_modes_of(disc: Disc, count: int) -> int:
-    """Number of real modes among the first `count` modes of a table: pairs count as two."""
-    return count + sum(each > 0 for each in disc.diameters[:count])
+def resized(p: Parameters, size: tuple[int, ...]) -> Parameters:
+    """The case with the modes of a size: up to these diameters and circles, or so many first modes of its table."""
+    if p.disc is not None:
+        return p.replace(disc=p.disc.first(*size))
+    return p.replace(n_diameters=size[0], n_circles=size[1])
+
+
+def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
+    """Number of real modes of `resized`: pairs count as two."""
+    return real_modes(*size) if p.disc is None else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:

@@ -18,7 +18,7 @@ from disc_model.cli.case import (
     table,
     with_case_options,
 )
-from disc_model.disc import disc_table
+from disc_model.disc import damping_ratios, disc_table
 from disc_model.errors import Fault, refuse, shown, suggestion
 from disc_model.kernels import KINDS, compile_kernels
 from disc_model.parameters import CYCLE_TOLERANCES, limits_rule
@@ -34,7 +34,7 @@ def modes(
 ) -> None:
     """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
     from disc_model.flexibility import residual_flexibility
-    from disc_model.plate import coupled_natural_frequencies, modal_damping, mode_arrays
+    from disc_model.plate import coupled_natural_frequencies, mode_arrays
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
@@ -44,7 +44,7 @@ def modes(
         return
     print_rows(choice_lines(choice))
     found = mode_arrays(parameters)
-    ratios = modal_damping(parameters) / (2 * found.omega)
+    ratios = damping_ratios(parameters)
     rows = [
         (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6f}", f"{ratio:.3g}")
         for c, l, omega, psi, ratio in zip(found.circles, found.diameters, found.omega, found.psi, ratios, strict=True)

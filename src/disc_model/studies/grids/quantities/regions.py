@@ -43,13 +43,13 @@ Array = NDArray[np.float64]
 T = TypeVar("T")
 Place = tuple[int, int]
 
-ORIGINS = ("none", "multipliers", "simulation", "inferred")
+METHODS = ("none", "multipliers", "simulation", "inferred")
 JOINED = ("no", "yes")
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 COLUMNS = {
     "status": Column(*STATUS),
     "outcome": Column("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
-    "method": Column("1", "how the outcome is known; inferred: like that cell's corners", ORIGINS),
+    "method": Column("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
     "first_separation": Column(*SCALARS["first_separation"]),
     "simulated_time": Column("s", "simulated time"),
     "cycle": Column("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
