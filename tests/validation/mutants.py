@@ -135,9 +135,6 @@ EQUIVALENT: dict[str, str] = {
     "engine/transitions.py:_rounding: - model.u_0 -> +": "a size",
     "engine/transitions.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
-    "stability/sliding.py:_jacobian: + p.m * weight * (2 * l * beta - 2 * l ** 2 * p.Omega * a) -> -": (
-        "zero at the equilibrium, where beta = l Omega a"
-    ),
 }
 PATIENCE = 100
 """s of the processor; all that is tried takes a fraction of that."""

@@ -21,7 +21,7 @@ from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
-from disc_model.stability.sliding import SteadySliding
+from disc_model.stability.sliding import SteadySliding, split_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,12 +72,9 @@ def _sliding_modes(
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     values, vectors = values[order], vectors[:, order]
     modes = mode_arrays(p)
-    l, omega, n = modes.diameters, modes.omega[:, None], len(modes.omega)
-    pairs = np.flatnonzero(l > 0)
-    m = len(pairs)
-    a, alpha, b_pairs, beta_pairs, (psi, f), height = np.split(vectors, np.cumsum([n, n, m, m, 2]))
-    b, beta, u = (np.zeros((rows, len(order)), complex) for rows in (n, n, 2))
-    b[pairs], beta[pairs], u[: len(height)] = b_pairs, beta_pairs, height
+    l, omega = modes.diameters, modes.omega[:, None]
+    (a, alpha, b, beta), (psi, f), height = split_rows(modes, vectors)
+    u = height if len(height) else np.zeros((2, len(order)))
     energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
     by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
     diameters = by_l.argmax(axis=0)

@@ -14,16 +14,32 @@ r_0 F = (mu_k + beta) R.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from types import FunctionType, ModuleType, SimpleNamespace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.engine import laws
 from disc_model.errors import StatusBase, refuse
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
+from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import Array, case_faults
+
+
+def _in_python(module: ModuleType) -> Any:
+    """The compiled functions of a module as functions of Python, which need no compilation for complex arrays."""
+    names = {**vars(module)}
+    compiled = {name: law.py_func.__code__ for name, law in names.items() if hasattr(law, "py_func")}
+    names |= {name: FunctionType(code, names) for name, code in compiled.items()}
+    return SimpleNamespace(**names)
+
+
+_LAWS = _in_python(laws)
 
 
 class SlidingStatus(StatusBase):
@@ -88,117 +104,81 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):
         return _absent(SlidingStatus.NO_SPRING)
-    modes = mode_arrays(p)
-    damping = modal_damping(p)
-    a, b, force = _equilibrium(p, modes, damping)  # the vertical force
-    if not (math.isfinite(force) and force > 0) and p.contact != "bonded":
+    modes, model, give = mode_arrays(p), engine_case(p).model, contact_give(p)
+    a, b, vertical = _equilibrium(p, modes, give)
+    if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bonded":
         return _absent(SlidingStatus.NO_CONTACT)
-    l = modes.diameters
-    alpha, beta = -l * p.Omega * b, l * p.Omega * a
-    slope = float(np.sum(l * modes.psi * b))
-    law = _Law(p, float(np.sum(modes.psi**2)), slope / p.r_0, force)
-    if law.denominator <= 1e-6:
+    alpha, beta = -modes.diameters * p.Omega * b, modes.diameters * p.Omega * a
+    height = (modes.psi @ a - give * vertical, 0.0) if give else ()
+
+    def at(psi: float) -> Array:
+        return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
+
+    i, _ = _slip(p, at(0.0)[:, None])
+    if _LAWS.slip_denominator(model, p.m, 1.0, i.dw_dtheta[0]) <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
-    jacobian = _jacobian(p, modes, damping, a, b, beta, slope, law)
+    # V and f' of a unit force, without F
+    share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, 1.0, np.ones(1)))
+    force = vertical / share
+    psi = -p.m * slowing * force / p.k_p if p.k_p > 0 else math.nan
+    rows = at(psi if p.k_p > 0 else 0.0)
+    _, rates = _slip(p, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
+    jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    # F = k_p psi
-    psi = law.resistance * law.force / (p.r_0 * p.k_p) if p.k_p > 0 else math.nan
     growth = float(eigenvalues[0].real)
-    name = "R" if law.normal else "P"
-    message = f"steady sliding with {name} = {law.force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
-    return SteadySliding(SlidingStatus.OK, message, law.force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian)
-
-
-class _Law:
-    """The law of contact at the equilibrium.
-
-    beta : B / r_0, but 0 under the vertical force, which does not depend on it
-    resistance : in-plane force on the slider over the contact force
-    force : contact force: P, or R under the normal force
-    denominator : denominator of the contact force in slip
-    """
-
-    def __init__(self, p: Parameters, S2: float, beta: float, vertical: float) -> None:
-        self.give, self.normal = contact_give(p), p.contact_force == "normal"
-        self.beta = beta if self.normal else 0.0
-        self.resistance = p.mu_k + self.beta
-        self.share = 1 - p.mu_k * self.beta  # V / R
-        self.force = vertical / self.share
-        mobility = 1 + p.m * S2
-        # by beta: of R, besides that of the numerator without B F: F r_0 = resistance R cancels for the vertical force
-        if self.give:
-            self.denominator, by_beta = self.share, p.mu_k * self.force
-        else:
-            self.denominator = mobility * self.share + self.resistance * beta
-            by_beta = self.force * (mobility * p.mu_k - self.beta)
-        self.by_beta = by_beta if self.normal else 0.0
+    name = "R" if p.contact_force == "normal" else "P"
+    message = f"steady sliding with {name} = {force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
+    return SteadySliding(SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian)
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
     return SteadySliding(status, status.advice)
 
 
-def _equilibrium(p: Parameters, modes: Modes, damping: Array) -> tuple[Array, Array, float]:
+def _equilibrium(p: Parameters, modes: Modes, give: float) -> tuple[Array, Array, float]:
     """Modal coordinates a, b (n_modes,) and the vertical force at the equilibrium."""
     turned = modes.diameters * p.Omega
-    gap = turned**2 - modes.omega**2
+    gap, lag = turned**2 - modes.omega**2, modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
-        by_force = modes.psi * gap / (gap**2 + (damping * turned) ** 2)
-        give = contact_give(p)
+        along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))
         static = float(np.sum(modes.psi**2 / modes.omega**2)) + give
-        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * by_force)) - give))
-        across = modes.psi * damping * turned / (gap**2 + (damping * turned) ** 2)
-    return by_force * force, across * force, force
+        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * along)) - give))
+    return along * force, across * force, force
 
 
-def _jacobian(
-    p: Parameters, modes: Modes, damping: Array, a: Array, b: Array, beta: Array, slope: float, law: _Law
-) -> Array:
-    """Jacobian of the equations of slip at the equilibrium.
+def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
+    """Arguments of the laws of contact, and rates of slip, at states in the rows of `SteadySliding.jacobian`."""
+    modes, model = mode_arrays(p), engine_case(p).model
+    (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
+    l, weight, w2, d = (each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p)))
+    rate_a, rate_b = alpha + l * f * b, beta - l * f * a
+    free_along, free_across = l * f * beta - d * alpha - w2 * a, -l * f * alpha - d * beta - w2 * b
+    w, velocity, slope, free = (
+        np.sum(weight * part, axis=0) for part in (a, rate_a, l * b, free_along + l * f * rate_b)
+    )
+    u, v = height if len(height) else (w, velocity)
+    i = laws.Instant(
+        p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_give(p), psi, f, w, velocity, slope, free, u, v
+    )  # fmt: skip
+    force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, 1.0, slope)
+    V, rate_f = _LAWS.slip_rates(model, i, 1.0, force)
+    lift = (v, (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m)[: len(height)]
+    return i, join_rows(modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift)
 
-    Rows a, alpha of all modes, b, beta of the pairs, psi, f, and u, u' on a compliant contact.
-    """
-    n, pairs = len(modes.omega), np.flatnonzero(modes.diameters > 0)
-    m = len(pairs)
-    l, w2, weight = modes.diameters.astype(float), modes.omega**2, modes.psi
-    at_alpha, at_b, at_beta, at_psi, at_f = n, 2 * n, 2 * n + m, 2 * n + 2 * m, 2 * n + 2 * m + 1
-    size = at_f + 1 + (2 if law.give else 0)
-    A = np.zeros((size, size))
-    i, j = np.arange(n), np.arange(m)
-    turned = l * p.Omega
-    A[i, at_alpha + i] = 1
-    A[at_alpha + i, i], A[at_alpha + i, at_alpha + i] = -w2, -damping
-    A[pairs, at_b + j], A[pairs, at_f] = turned[pairs], l[pairs] * b[pairs]
-    A[at_alpha + pairs, at_beta + j], A[at_alpha + pairs, at_f] = turned[pairs], l[pairs] * beta[pairs]
-    A[at_b + j, at_beta + j], A[at_b + j, pairs], A[at_b + j, at_f] = 1, -turned[pairs], -l[pairs] * a[pairs]
-    A[at_beta + j, at_beta + j], A[at_beta + j, at_b + j] = -damping[pairs], -w2[pairs]
-    A[at_beta + j, at_alpha + pairs] = -turned[pairs]
-    # alpha = -l Omega b at the equilibrium
-    A[at_beta + j, at_f] = l[pairs] * turned[pairs] * b[pairs]
-    A[at_psi, at_f] = -1
-    pull, lift, force = np.zeros(size), np.zeros(size), np.zeros(size)
-    pull[at_psi], pull[at_f] = p.k_p, -p.c_p
-    lift[at_b + j] = l[pairs] * weight[pairs] / p.r_0  # of B / r_0
-    if law.give:
-        force[i], force[at_f + 1] = weight / law.give, -1 / law.give
-    else:
-        force += slope * pull
-        force[i] += p.k * weight - p.m * weight * (w2 + turned**2)
-        force[at_alpha + i] += (p.c - p.m * damping) * weight
-        force[at_b + j] += p.c * weight[pairs] * turned[pairs]
-        force[at_beta + j] += 2 * p.m * weight[pairs] * turned[pairs]
-        by_f = p.c * weight * l * b + p.m * weight * (2 * l * beta - 2 * l**2 * p.Omega * a)
-        force[at_f] += float(np.sum(by_f))
-    force = (force + law.by_beta * lift) / law.denominator
-    vertical, held = force, p.mu_k * force
-    if law.normal:
-        vertical = law.share * force - p.mu_k * law.force * lift
-        held = law.resistance * force + law.force * lift
-    A[at_alpha + i] -= weight[:, None] * vertical
-    A[at_f] = (pull - held / p.r_0) / p.m
-    if law.give:
-        A[at_f + 1, at_f + 2] = 1
-        A[at_f + 2] = vertical / p.m
-        A[at_f + 2, at_f + 1 :] -= np.array([p.k, p.c]) / p.m
-    return A
+
+def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
+    """Rows of steady sliding's Jacobian as a, alpha, b, beta of all modes; psi, f; u, u' on a compliant contact."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    n, m = len(modes.omega), len(pairs)
+    a, alpha, b_pairs, beta_pairs, slider, height = np.split(rows, np.cumsum([n, n, m, m, 2]))
+    b, beta = np.zeros_like(a), np.zeros_like(a)
+    b[pairs], beta[pairs] = b_pairs, beta_pairs
+    return (a, alpha, b, beta), slider, height
+
+
+def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: Sequence[Any]) -> Any:
+    """Rows of steady sliding's Jacobian from the parts that `split_rows` returns."""
+    a, alpha, b, beta = disc
+    pairs = modes.diameters > 0
+    return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])

@@ -17,13 +17,13 @@ from scipy.linalg import expm
 from disc_model.data.variables import Outcome
 from disc_model.flexibility import contact_give
 from disc_model.parameters import Parameters
-from disc_model.plate import Modes, mode_arrays
+from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State, engine_case
 from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle, run_through_once
 from disc_model.stability.return_map import RETURNED, Array, ComplexArray, ReturnMap, newton
-from disc_model.stability.sliding import SteadySliding, steady_sliding
+from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
 
 CYCLE_TOL = 1e-12
 """Tolerance of cycles and their multipliers, at the level of rounding errors."""
@@ -290,7 +290,7 @@ def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     # with these factors the norm of rows is that of the energy
     slider = [p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)]
     height: Sequence[float] = [math.sqrt(1 / give + p.k), math.sqrt(p.m)] if give else []
-    scale = _rows(modes, (modes.omega, ones, modes.omega, ones), slider, height)
+    scale = join_rows(modes, (modes.omega, ones, modes.omega, ones), slider, height)
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
@@ -318,11 +318,4 @@ def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
     rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (1 + p.k * give)
     height = [float(state.u - rest), float(state.u_velocity)] if give else []
-    return _rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)
-
-
-def _rows(modes: Modes, disc: Sequence[Array], slider: Sequence[float], height: Sequence[float]) -> Array:
-    """Rows of steady sliding's Jacobian from a, alpha, b, beta of all modes, psi, f, and the contact's u, u'."""
-    a, alpha, b, beta = disc
-    pairs = modes.diameters > 0
-    return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, height])
+    return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)
