@@ -54,15 +54,8 @@ def quicklook(result: Sampled) -> Figure:
         example = "simulate(p, 20, record=Record(windows=(Window(rate=2000),)))"
         raise ParameterError(Fault(("record", "windows"), "", f"must have one window or more to be drawn: {example}"))
     columns = len(result.samples)
-    figure, axes = plt.subplots(
-        len(PANELS),
-        columns,
-        sharex="col",
-        squeeze=False,
-        figsize=(4.5 + 3.5 * (columns - 1), 5.0),
-        layout="constrained",
-        FigureClass=_ShownOnce,
-    )
+    how: dict[str, Any] = {"sharex": "col", "squeeze": False, "layout": "constrained", "FigureClass": _ShownOnce}
+    figure, axes = plt.subplots(len(PANELS), columns, figsize=(4.5 + 3.5 * (columns - 1), 5.0), **how)
     for column, window in enumerate(result.samples):
         for row, name in enumerate(PANELS):
             label, scale = axis_of(name)
@@ -91,11 +84,5 @@ def _mark_separation(axes: NDArray[Any], time: NDArray[np.float64], first: float
     if time.size and time[0] <= first <= time[-1]:
         for panel in axes:
             panel.axvline(first, color="C3", linewidth=0.8, linestyle="--")
-        axes[0].annotate(
-            "first separation",
-            (first, 1),
-            xycoords=("data", "axes fraction"),
-            ha="right",
-            va="bottom",
-            fontsize="small",
-        )
+        style: dict[str, Any] = {"ha": "right", "va": "bottom", "fontsize": "small"}
+        axes[0].annotate("first separation", (first, 1), xycoords=("data", "axes fraction"), **style)

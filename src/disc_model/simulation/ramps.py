@@ -65,11 +65,6 @@ class Piece(NamedTuple):
     N_rate: float
     constant: bool
 
-    def at(self, name: str, time: float) -> float:
-        """Omega or N at a time of this piece."""
-        value, rate = (self.Omega, self.Omega_rate) if name == "Omega" else (self.N, self.N_rate)
-        return value + rate * (time - self.begin)
-
 
 def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
     """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
@@ -94,7 +89,7 @@ def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
 
 def pieces(p: Parameters, ramps: Iterable[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the last one unbounded; ramps to the present value do not count."""
-    lines = {name: _line(getattr(p, name), [ramp for ramp in ramps if ramp.parameter == name]) for name in RAMPED}
+    lines = {name: _line(p, ramps, name) for name in RAMPED}
     knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
     found = [Piece(0.0, knots[0] if knots else math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)]
     angle = p.Omega * found[0].end if knots else 0.0
@@ -107,19 +102,16 @@ def pieces(p: Parameters, ramps: Iterable[Ramp]) -> tuple[Piece, ...]:
 
 def values_at(p: Parameters, ramps: Sequence[Ramp], name: str, times: ArrayLike) -> NDArray[np.float64]:
     """Omega or N at given times (s)."""
-    found = pieces(p, ramps)
-    starts = [piece.begin for piece in found]
-    wanted = np.asarray(times, dtype=float)
-    which = np.maximum(np.searchsorted(starts, wanted, side="right") - 1, 0)
-    flat = [found[i].at(name, time) for i, time in zip(which.ravel(), wanted.ravel(), strict=True)]
-    return np.array(flat).reshape(wanted.shape)
+    knots, values, _ = zip(*_line(p, ramps, name), strict=True)
+    return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
 
 
-def _line(value: float, ramps: list[Ramp]) -> list[tuple[float, float, float]]:
-    """Times at which the rate changes, with value and rate from then on; the first time is -inf."""
+def _line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:
+    """Times at which the rate of Omega or N changes, with value and rate from then on; the first time is -inf."""
+    value = getattr(p, name)
     line = [(-math.inf, value, 0.0)]
     for ramp in sorted(ramps, key=lambda ramp: ramp.start):
-        if ramp.to != value:
+        if ramp.parameter == name and ramp.to != value:
             if line[-1][0] == ramp.start:  # one ramp continues where another ends
                 line.pop()
             line += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
