@@ -103,8 +103,8 @@ def refuse(faults: Collection[str]) -> None:
 
 
 def broken(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold."""
-    return [Fault((name,), shown(value), rule) for holds, name, value, rule in rules if not holds]
+    """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold; dots join a path."""
+    return [Fault(tuple(name.split(".")), shown(value), rule) for holds, name, value, rule in rules if not holds]
 
 
 class ModeError(DiscModelError):

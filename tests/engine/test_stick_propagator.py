@@ -6,7 +6,7 @@ import pytest
 from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import contact_series, dense_output, exit_codes, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
-from disc_model.simulation.api import _Run
+from disc_model.simulation.api import _Request, _Run
 from disc_model.simulation.result import engine_case
 from tests.contact_laws import COMPILES, by_series
 
@@ -159,7 +159,7 @@ def test_samples_and_audit_within_a_coast() -> None:
 def test_samples_of_a_coast_fit_their_buffer() -> None:
     """The engine writes a whole coast before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
-    run = _Run(Parameters(N=385, Omega=0.2), 0.5, 1e-10, None, Record(windows=(window,)), None, None, ())
+    run = _Run(_Request(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,))))
     room, width = run.collector.rows.shape
     run.collector.rows = np.full((4 * room, width), np.nan)
     pauses = 0

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import math
 import os
 import time as clock
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +19,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
-from disc_model.errors import DiscModelError, Fault, ParameterError, Status, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, Status, broken, refuse, shown
 from disc_model.parameters import (
     TOLERANCES,
     Parameters,
@@ -33,7 +35,7 @@ from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.ramps import Ramp
-from disc_model.simulation.recorder import Checkpoint, Collector, Contents, faults, identity
+from disc_model.simulation.recorder import Checkpoint, Collector, Contents, faults
 from disc_model.simulation.result import (
     Result,
     State,
@@ -119,14 +121,15 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    kept_how = checkpoint, checkpoint_every
-    t_end = in_si(t_end, "s")
-    _check_arguments(p, t_end, tol, initial_state, record, stop_at, max_steps, progress, kept_how, ramps)
-    # numbers of other types would make the engine compile again, and would round differently
-    t_end, tol, max_steps = float(t_end), float(tol), None if max_steps is None else int(max_steps)
-    start = 0.0 if initial_state is None else float(initial_state.time)
+    asked = _Request(
+        p, in_si(t_end, "s"), tol, initial_state, record, stop_at, max_steps,
+        progress, checkpoint, checkpoint_every, ramps,
+    )  # fmt: skip
+    refuse(asked.faults())
+    start, t_end, steps = asked.start, float(asked.t_end), None if max_steps is None else int(max_steps)
     record = record.resolved(start, t_end)
-    run = _Run(p, t_end, tol, initial_state, record, stop_at, max_steps, ramps, told=progress is not False)
+    # numbers of other types would make the engine compile again, and would round differently
+    run = _Run(replace(asked, t_end=t_end, tol=float(tol), record=record, max_steps=steps))
     for window in record.outside(start, t_end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
@@ -149,60 +152,95 @@ def simulate(
     return result
 
 
+@dataclass(frozen=True)
+class _Request:
+    """Arguments of `simulate`, with a `Record` and a tuple of ramps in every case."""
+
+    p: Parameters
+    t_end: Any
+    tol: float = 1e-10
+    initial_state: State | None = None
+    record: Record = _EVENTS_ALONE
+    stop_at: str | None = None
+    max_steps: int | None = None
+    progress: Progress = None
+    checkpoint: str | os.PathLike[str] | None = None
+    checkpoint_every: float = 5.0
+    ramps: tuple[Ramp, ...] = ()
+
+    @property
+    def start(self) -> float:
+        """Time at the start, s."""
+        return 0.0 if self.initial_state is None else float(self.initial_state.time)
+
+    def faults(self) -> list[str]:
+        """Every fault of the arguments."""
+        t_end, stop_at, progress = self.t_end, self.stop_at, self.progress
+        stated = self.initial_state is None or isinstance(self.initial_state, State)
+        time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
+        timed = is_number(time) and math.isfinite(time)
+        start = time if timed else 0.0
+        rule = f"must be finite and > {shown(start)} (the time of the initial state)"
+        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
+        found = foreign_case(self.p) + broken(
+            (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
+            (stated, "initial_state", self.initial_state, "must be a State"),
+            (timed, "initial_state.time", time, "must be finite"),
+            (is_number(t_end) and start < t_end < math.inf, "t_end", t_end, rule),
+        )
+        stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+        counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
+        shows = progress is None or isinstance(progress, bool) or callable(progress)
+        found += limits_faults("tol", self.tol, TOLERANCES) + broken(
+            (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
+            (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
+            (shows, "progress", progress, "must be a function of the time, or False"),
+        )
+        found += faults(self.checkpoint, self.checkpoint_every)
+        if isinstance(self.p, Parameters) and not (isinstance(self.ramps, tuple) and not self.ramps):
+            found += courses.faults(self.p, self.ramps, poincare=getattr(self.record, "poincare", None) is not None)
+        return found
+
+
 class _Run:
     """One run: the engine's arrays, and the buffers that collect recorded rows."""
 
-    def __init__(
-        self,
-        p: Parameters,
-        t_end: float,
-        tol: float,
-        initial_state: State | None,
-        record: Record,
-        stop_at: str | None,
-        max_steps: int | None,
-        ramps: tuple[Ramp, ...],
-        told: bool = True,
-    ) -> None:
-        self.p, self.t_end, self.tol, self.record, self.stop_at, self.told = p, t_end, tol, record, stop_at, told
+    def __init__(self, asked: _Request) -> None:
+        self.asked, p, ramps, start = asked, asked.p, asked.ramps, asked.start
         # a case without ramps has a single piece, and skips the work of `pieces`
         steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
-        self.ramps, self.pieces = ramps, courses.pieces(p, ramps) if ramps else (steady,)
+        self.pieces = courses.pieces(p, ramps) if ramps else (steady,)
         self.case = case = engine_case(p)
         self.key = content_key(case.key + repr(ramps)) if ramps else case.key
         model = case.model
-        self.order = series_order(tol)
-        self.tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
+        self.order = series_order(asked.tol)
+        self.tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
         self.workspace = take_workspace(case, self.order)
         self.state = self.workspace.state
         anew = False
-        if initial_state is not None:
-            anew = write_state(case, initial_state, self.state, self.key)
-        start = self.time
-        self.collector = Collector(p, record, start, t_end, longest_step=event_loop.LONGEST_COAST * model.unit)
+        if asked.initial_state is not None:
+            anew = write_state(case, asked.initial_state, self.state, self.key)
+        longest_step = event_loop.LONGEST_COAST * model.unit
+        self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
-        self.max_steps = _step_limit(model, t_end - start) if max_steps is None else min(max_steps, MOST_STEPS)
-        self.pause_after = _pause_after(model, record.audit_every_step)
-        self.audit_every = 1 if record.audit_every_step else AUDIT_EVERY
+        limit = _step_limit(model, asked.t_end - start) if asked.max_steps is None else asked.max_steps
+        self.max_steps = min(limit, MOST_STEPS)
+        self.pause_after = _pause_after(model, asked.record.audit_every_step)
+        self.audit_every = 1 if asked.record.audit_every_step else AUDIT_EVERY
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < t_end:
+            if start < piece.end and piece.begin < asked.t_end:
                 self._enter(place)
         if anew:
             self._begin_at_switch()
 
-    def _model_of(self, piece: courses.Piece) -> layout.Model:
-        """The engine's constants over a piece of the ramps."""
-        if piece.constant:
-            return self.case.model
-        rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
-        return layout.on_ramp(self.case.model, piece.begin, piece.angle, **rates)
-
     def _enter(self, place: int) -> None:
         """Continue with another piece of the ramps."""
-        self.place[0] = place
-        self.model = self._model_of(self.pieces[place])
-        self.engine = _engine_for(self.model, self._arguments, self.told)
+        self.place[0], self.model, piece = place, self.case.model, self.pieces[place]
+        if not piece.constant:
+            rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
+            self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
+        self.engine = _engine_for(self.model, self._arguments, told=self.asked.progress is not False)
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
@@ -222,15 +260,27 @@ class _Run:
     @property
     def identity(self) -> dict[str, str]:
         """Values that a checkpoint of this run must share; to be read before the first step."""
-        others = identity(self.p, self.t_end, self.tol, self.record, self.stop_at, self.max_steps, self.state)
-        return others | {"ramps": repr(self.ramps)}
+        asked, modes = self.asked, mode_arrays(self.asked.p)
+        return {
+            "parameters": asked.p.canonical_json,
+            "modes": " ".join(array.tobytes().hex() for array in (modes.omega, modes.psi)),
+            "t_end": repr(asked.t_end),
+            "tol": repr(asked.tol),
+            "record": repr(asked.record),
+            "stop_at": str(asked.stop_at),
+            "max_steps": str(self.max_steps),
+            "initial state": " ".join(array.tobytes().hex() for array in self.state),
+            "sources": source_hash("case"),
+            "versions": json.dumps(versions(), sort_keys=True),
+            "ramps": repr(asked.ramps),
+        }
 
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
         place = int(self.place[0])
         code = self.engine(*self._arguments())
-        if code == exit_codes.TIME_OVER and self.pieces[place].end < self.t_end:
+        if code == exit_codes.TIME_OVER and self.pieces[place].end < self.asked.t_end:
             self._enter(place + 1)
             code = exit_codes.PAUSED
         self.collector.drain(self.workspace.counters)
@@ -239,9 +289,9 @@ class _Run:
 
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `event_loop.run`."""
-        work, keep = self.workspace, self.collector
+        work, keep, asked = self.workspace, self.collector, self.asked
         limits = event_loop.Limits(
-            self.order, self.tolerance, min(self.t_end, self.pieces[self.place[0]].end), self.stop_at is not None,
+            self.order, self.tolerance, min(asked.t_end, self.pieces[self.place[0]].end), asked.stop_at is not None,
             self.max_steps, self.pause_after, self.audit_every,
         )  # fmt: skip
         kept = event_loop.RunBuffers(
@@ -269,22 +319,23 @@ class _Run:
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run."""
+        asked = self.asked
         samples, poincare = self.collector.finish()
         return Result(
-            parameters=self.p,
-            t_end=self.t_end,
-            tol=self.tol,
-            record=self.record,
+            parameters=asked.p,
+            t_end=asked.t_end,
+            tol=asked.tol,
+            record=asked.record,
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.workspace, self.record.audit_every_step, float(self.wall_time[0])),
+            statistics=_statistics(self.workspace, asked.record.audit_every_step, float(self.wall_time[0])),
             samples=samples,
             poincare=poincare,
-            ramps=self.ramps,
+            ramps=asked.ramps,
         )
 
     def close(self) -> None:
@@ -309,48 +360,6 @@ def static_start(p: Parameters) -> State:
     """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
     case = engine_case(p)
     return read_state(case, case.start)
-
-
-def _check_arguments(
-    p: object,
-    t_end: Any,
-    tol: float,
-    initial_state: object,
-    record: object,
-    stop_at: str | None,
-    max_steps: int | None,
-    progress: object,
-    checkpoint: tuple[object, object],
-    ramps: object,
-) -> None:
-    """Raise one ParameterError that lists every fault."""
-    found = foreign_case(p)
-    if not isinstance(record, Record):
-        found.append(Fault(("record",), shown(record), "must be a Record or a Window"))
-    start = 0.0
-    if isinstance(initial_state, State):
-        if is_number(initial_state.time) and math.isfinite(initial_state.time):
-            start = initial_state.time
-        else:
-            found.append(Fault(("initial_state", "time"), shown(initial_state.time), "must be finite"))
-    elif initial_state is not None:
-        found.append(Fault(("initial_state",), shown(initial_state), "must be a State"))
-    if not is_number(t_end) or not start < t_end < math.inf:
-        rule = f"must be finite and > {shown(start)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
-        found.append(Fault(("t_end",), shown(t_end), rule))
-    found += limits_faults("tol", tol, TOLERANCES)
-    if stop_at is not None and not (isinstance(stop_at, str) and stop_at == "first_separation"):
-        found.append(Fault(("stop_at",), shown(stop_at), "must be None or 'first_separation'"))
-    if max_steps is not None and (not is_whole(max_steps) or max_steps < 1):
-        found.append(Fault(("max_steps",), shown(max_steps), "must be a whole number >= 1"))
-    if not (progress is None or isinstance(progress, bool) or callable(progress)):
-        found.append(Fault(("progress",), shown(progress), "must be a function of the time, or False"))
-    found += faults(*checkpoint)
-    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
-        found += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
-    if found:
-        raise ParameterError(*found)
 
 
 def _step_limit(model: layout.Model, duration: float) -> int:

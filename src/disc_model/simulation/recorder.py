@@ -16,18 +16,16 @@ import math
 import os
 import sys
 import time as clock
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.provenance import source_hash, versions
 from disc_model.engine import event_loop, sampling
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters, canonical_json, content_key, is_number
-from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Poincare, Record, Window
 
 # ----------------------------------------------------------------------------------------------------
@@ -50,25 +48,6 @@ class Contents(NamedTuple):
     rows: dict[str, list[Array]]
 
 
-def identity(
-    p: Parameters, t_end: float, tol: float, record: Record, stop_at: str | None, max_steps: int, start: Iterable[Array]
-) -> dict[str, str]:
-    """All values that determine a run's result, by name; ``start`` are the arrays of its initial state."""
-    modes = mode_arrays(p)
-    return {
-        "parameters": p.canonical_json,
-        "modes": " ".join(array.tobytes().hex() for array in (modes.omega, modes.psi)),
-        "t_end": repr(t_end),
-        "tol": repr(tol),
-        "record": repr(record),
-        "stop_at": str(stop_at),
-        "max_steps": str(max_steps),
-        "initial state": " ".join(array.tobytes().hex() for array in start),
-        "sources": source_hash("case"),
-        "versions": json.dumps(versions(), sort_keys=True),
-    }
-
-
 def faults(path: object, every: object) -> Iterator[str]:
     """Faults of the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulate`."""
     if path is not None:
@@ -88,7 +67,7 @@ class Checkpoint:
     ----------
     path : the file; simultaneous runs must not share it
     every : s of wall time between two checkpoints; longer if writing takes more than `SHARE` of it, unless it is 0
-    belongs_to : the run's `identity`
+    belongs_to : values that a run must share to continue from it, by name
     """
 
     def __init__(self, path: str | os.PathLike[str], every: float, belongs_to: Mapping[str, str]) -> None:
