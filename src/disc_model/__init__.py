@@ -15,37 +15,26 @@ from typing import TYPE_CHECKING, Any
 
 __version__ = "0.2.0"
 
-_HOMES = {
-    "Parameters": "parameters",
-    "Disc": "parameters",
-    "read_disc": "disc",
-    "plate_modes": "plate",
-    "coupled_natural_frequencies": "plate",
-    "choose_modes": "mode_choice",
-    "residual_flexibility": "flexibility",
-    "simulate": "simulation.api",
-    "snapshots": "simulation.deflection",
-    "deflection": "simulation.deflection",
-    "load": "data.dataset",
-    "floquet": "stability.cycle",
-    "steady_sliding": "stability.sliding",
-    "Record": "simulation.case",
-    "Window": "simulation.case",
-    "Poincare": "simulation.case",
-    "Ramp": "simulation.ramps",
-    "ImplausibleValue": "plausibility",
-    "Result": "simulation.result",
-    "State": "simulation.result",
-    "Status": "errors",
-    "DiscModelError": "errors",
-    "ParameterError": "errors",
-    "ModeError": "errors",
-    "SimulationError": "errors",
-    "PainleveParadox": "errors",
-    "StepLimit": "errors",
-    "Stalled": "errors",
-    "NonFinite": "errors",
+_NAMES = {
+    "data.dataset": "load",
+    "disc": "read_disc",
+    "errors": (
+        "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
+    ),
+    "flexibility": "residual_flexibility",
+    "mode_choice": "choose_modes",
+    "parameters": "Parameters Disc",
+    "plate": "plate_modes coupled_natural_frequencies",
+    "plausibility": "ImplausibleValue",
+    "simulation.api": "simulate",
+    "simulation.case": "Record Window Poincare",
+    "simulation.deflection": "snapshots deflection",
+    "simulation.ramps": "Ramp",
+    "simulation.result": "Result State",
+    "stability.cycle": "floquet",
+    "stability.sliding": "steady_sliding",
 }
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = [*_HOMES, "__version__"]
 

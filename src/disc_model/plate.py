@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -97,7 +98,7 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
     if p.disc is not None:
         return modes_of_table(p.disc)
     orthonormal = (normalization or p.normalization) == "orthonormal"
-    return _modes(p.a, p.b, p.r_0, p.h, p.E, p.nu, p.rho, p.n_diameters, p.n_circles, orthonormal)
+    return _modes(_PLATE(p), orthonormal)
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
@@ -236,20 +237,13 @@ def modes_of_table(disc: Disc) -> Modes:
     return Modes(circles, diameters, np.array(disc.omega), np.array(disc.amplitude))
 
 
+_PLATE = attrgetter("a", "b", "r_0", "h", "E", "nu", "rho", "n_diameters", "n_circles")
+
+
 @lru_cache(maxsize=1024)
-def _modes(
-    a: float,
-    b: float,
-    r_0: float,
-    h: float,
-    E: float,
-    nu: float,
-    rho: float,
-    n_diameters: int,
-    n_circles: int,
-    orthonormal: bool,
-) -> Modes:
+def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
     """Modes, cached by exactly the values on which they depend, so that another load or speed reuses them."""
+    a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
         none = np.zeros(0, dtype=np.int64)
         return Modes(none, none.copy(), np.zeros(0), np.zeros(0))
