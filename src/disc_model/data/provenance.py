@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-import ast
+import dis
 import functools
 import hashlib
 import importlib.metadata
 import platform
 import subprocess
-from collections.abc import Iterable
+import types
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from disc_model.data.sources import KINDS
 
 PACKAGE = Path(__file__).resolve().parents[1]
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
+_DECISIVE = "name names varnames freevars cellvars argcount posonlyargcount kwonlyargcount flags"
+_NOP = dis.opmap["NOP"]
 
 
 @functools.cache
@@ -62,12 +65,20 @@ def _file(path: Path) -> Path:
 
 @functools.cache
 def _code(path: Path) -> bytes:
-    """Python code without comments, docstrings and layout."""
-    tree = ast.parse(path.read_bytes())
-    for node in ast.walk(tree):
-        if isinstance(body := getattr(node, "body", None), list):
-            node.body = [x for x in body if not (isinstance(x, ast.Expr) and isinstance(x.value, ast.Constant))]  # type: ignore[attr-defined]
-    return ast.unparse(tree).encode()
+    """Python code as compiled: without comments, docstrings and layout. It is that of this version of Python."""
+    code = compile(path.read_bytes(), path.name, "exec", optimize=2, dont_inherit=True)
+    return repr((*_contents(code),)).encode()
+
+
+def _contents(code: types.CodeType) -> Iterator[object]:
+    yield tuple(getattr(code, f"co_{name}") for name in _DECISIVE.split())
+    pairs = (code.co_code[i : i + 2] for i in range(0, len(code.co_code), 2))
+    yield b"".join(pair for pair in pairs if pair[0] != _NOP)  # which a docstring leaves
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield tuple(_contents(constant))
+        else:  # the order within sets varies
+            yield sorted(map(repr, constant)) if isinstance(constant, frozenset) else repr(constant)
 
 
 def versions() -> dict[str, str]:
