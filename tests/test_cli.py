@@ -99,16 +99,11 @@ def test_modes_prints_the_papers_frequencies(command: Command) -> None:
         assert number in out
 
 
-@pytest.mark.compiled
-def test_run_prints_a_summary(command: Command) -> None:
-    code, out, err = command.run("run", *BASE, "--t-end", "0.5")
+def test_run_agrees_with_simulate(command: Command) -> None:
+    code, out, err = command.run("run", *BASE, "--t-end", "0.3", "--k-p", "1.5e4", "--tol", "1e-8")
     assert (code, err) == (0, "")
     parts = ("status              ok", "first separation    none", "stick_to_slip", "time in slip", "wall time")
     assert all(part in out for part in (*parts, "energy residual"))
-
-
-def test_run_agrees_with_simulate(command: Command) -> None:
-    out = command.out("run", *BASE, "--t-end", "0.3", "--k-p", "1.5e4", "--tol", "1e-8")
     result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
     assert f"events              {result.statistics['events']}\n" in out
     assert f"key {result.parameters.key}" in out

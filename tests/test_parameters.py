@@ -20,15 +20,6 @@ from disc_model import Disc, ParameterError, Parameters, Ramp, Record, Window
 from disc_model.parameters import RESIDUAL, is_number
 
 
-def test_base_values_are_those_of_table_1() -> None:
-    p = Parameters(N=385, Omega=15.1)
-    assert (p.E, p.m, p.k, p.k_p, p.c, p.c_p) == (150e9, 0.1, 5e4, 2e4, 0, 0)
-    assert (p.a, p.b, p.r_0, p.h, p.nu, p.rho) == (0.044, 0.12, 0.1, 0.002, 0.211, 7200)
-    assert (p.mu_s, p.mu_k, p.D_star, p.n_diameters, p.n_circles) == (0.4, 0.24, 1e-5, 4, 0)
-    assert (p.normalization, p.contact) == ("as_published", "separable")
-    assert pytest.approx(104.6595, abs=5e-5) == p.D
-
-
 def test_nested_in_another_schema_the_message_is_kept() -> None:
     class Study(BaseModel):
         case: Parameters

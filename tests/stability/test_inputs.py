@@ -9,7 +9,7 @@ import pytest
 from disc_model import ParameterError, Parameters, floquet, steady_sliding
 from disc_model.engine import variational
 from disc_model.stability.bifurcation import bifurcation_samples
-from disc_model.stability.continuation import continue_border, continue_cycle
+from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import ReturnMap
 
@@ -21,11 +21,7 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
     [
         (lambda: floquet("x", tol=0.5, releases=0), "p='x' tol=0.5 releases=0"),
         (lambda: floquet(P, releases=2), "releases=2"),
-        (lambda: continue_cycle(P, "k", (1, 2), guess="x", releases=0), "guess='x' releases=0"),
         (lambda: continue_cycle("x", "nu", (1, 2), releases=2), "p='x' name='nu' releases=2"),
-        (lambda: floquet(P, tol=True, releases=np.True_), "tol=True releases=np.True_"),
-        (lambda: continue_cycle(P, "k", (1, 2), guess=[1.0, 2.0]), "guess=[1.0, 2.0]"),
-        (lambda: continue_border("fold", P, ("k", "N"), {}, tol=0.5), "bounds={} tol=0.5"),
         (
             lambda: lyapunov_exponents("x", -1, transient=math.nan, count=9, interval=0),
             "p='x' duration=-1 transient=nan count=9 interval=0",

@@ -162,13 +162,6 @@ def test_every_snippet(snippet: str) -> None:
         try_text(text)
 
 
-def test_aliases_of_aliases_are_counted_before_they_are_followed() -> None:
-    with pytest.raises(StudyError, match="more than 100000 values"):
-        read_yaml(LAUGHS)
-    with pytest.raises(StudyError, match="contains itself"):
-        read_yaml("&a {study: s, cases: *a}")
-
-
 # ---- the command line
 
 OPTIONS = [

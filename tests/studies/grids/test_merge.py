@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 import xarray as xr
 
@@ -80,16 +79,3 @@ def test_zips_and_two_normalizations_keep_their_order() -> None:
     base = {"normalization": "orthonormal"}
     alone = computed(**study(quantity="floquet", options={}, base=base, axes={"N": [300], "Omega": [20]}))
     assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == alone["growth_rate"].item()
-
-
-@pytest.mark.compiled
-def test_a_point_that_fails_has_a_status_and_a_line() -> None:
-    # in the last case rigid friction on the sloping disc has no solution
-    base = {"k_p": 2e6, "mu_s": 3.0, "mu_k": 2.9, "E": 1e9}
-    merged = computed(**study(axes={"N": [300, 1e6], "Omega": [20]}, base=base, batch={"over": ["N"]}))
-    lines = list(failures(merged))
-    bad = merged["status"].values != 0
-    assert bad.any()
-    assert len(lines) == bad.sum()
-    assert lines[-1].startswith("N = 1000000, Omega = 20: ")
-    assert np.isnan(merged["P_max"].values[bad]).all()
