@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -248,8 +248,8 @@ def _intervals(case: CaseView, kind: str, what: str) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _motion(intervals: tuple[float, ...], closes: float) -> Motion:
-    """Cached, because claims are judged again with other thresholds."""
+def classify_intervals(intervals: tuple[float, ...], closes: float = CLOSES) -> Motion:
+    """Class of a motion by its intervals, s; computed once, though claims are judged again with other thresholds."""
     return motion_of(np.array(intervals), closes)
 
 
@@ -259,7 +259,7 @@ def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
     closes : s, see `disc_model.analysis.classify.motion_of`
     """
     intervals = release_intervals(case)
-    motion = _motion(tuple(intervals), closes)
+    motion = classify_intervals(tuple(intervals), closes)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
         rate = f"{1 / intervals.mean():.1f} releases/s"
@@ -305,7 +305,7 @@ def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
 
 def _by_separations(case: CaseView) -> str:
     """Class of a motion without stick, by the intervals between its separations."""
-    motion = _motion(tuple(separation_intervals(case)), CLOSES)
+    motion = classify_intervals(tuple(separation_intervals(case)))
     return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
@@ -459,6 +459,14 @@ def growth_or_nan(p: Parameters) -> float:
         return cycle_of(p).growth_rate
     except Missing:
         return math.nan
+
+
+@cache
+def sliding_growth(p: Parameters) -> float:
+    """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an equilibrium."""
+    from disc_model.stability.sliding import steady_sliding
+
+    return steady_sliding(p).growth_rate
 
 
 def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:

@@ -26,6 +26,7 @@ from disc_model.claims.measures import (
     is_kind,
     rows,
     said_rate,
+    sliding_growth,
 )
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
@@ -44,20 +45,10 @@ GREW = 1.02
 """Least factor by which a grown range is wider: sampling causes far less."""
 
 
-@cache
-def _sliding_growth(p: Parameters, Omega: float) -> float:
-    from disc_model.stability.sliding import steady_sliding
-
-    return steady_sliding(p.replace(Omega=Omega)).growth_rate
-
-
 @CHECKS("S43N0")
 def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
     p = case.parameters
-    speeds = np.arange(p.Omega, 1000.0, step)
-    growth_rates = np.array([_sliding_growth(p, float(speed)) for speed in speeds])
-    unstable = speeds[~(growth_rates < 1e-6)]  # nan: no equilibrium, at a resonance
-    onset = float(unstable.min(initial=math.inf))
+    onset = _sliding_onset(p, step)
     stuck = case["time_stick"] / case["time_reached"]
     return Answer(
         not case.separates and stuck < share and onset > case["Omega"],
@@ -65,6 +56,13 @@ def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
         stable_to=onset - step,
         true_speed=abs(onset - moving_load_speed(p)) <= step,
     )
+
+
+@cache
+def _sliding_onset(p: Parameters, step: float) -> float:
+    """The first speed, tried at a step in rad/s, at which steady sliding is unstable, or has no equilibrium."""
+    speeds = map(float, np.arange(p.Omega, 1000.0, step))
+    return next((speed for speed in speeds if not sliding_growth(p.replace(Omega=speed)) < 1e-6), math.inf)
 
 
 @CHECKS("S43Ninf")
@@ -428,9 +426,7 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
 @CHECKS("C1")
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
-    from disc_model.stability.sliding import steady_sliding
-
-    smooth = [steady_sliding(case.parameters.replace(mu_s=0.0, mu_k=0.0)).growth_rate for case in cases]
+    smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     said = [{"case": case, "rate": said_rate(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
     stable = [rate < growth for rate in smooth]
     return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=said)
@@ -442,8 +438,6 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     Without a stick-slip cycle near the start, the motion is steady sliding. Its growth is compared if the damper is the
     in-plane one. ``growing`` counts cycles that grow with little of it and exist with much.
     """
-    from disc_model.stability.sliding import steady_sliding
-
     loads_and_speeds = [*product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))]
     found = {"lowered": 0, "slides": 0, "ended": 0, "growing": 0, "lowered_growing": 0}
     places = []
@@ -451,7 +445,7 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
         p = case.parameters.replace(N=N, Omega=speed)
         without, damped = (growth_or_nan(p.replace(**{damper: value})) for value in (little, much))
         gone = math.isnan(damped)
-        rate = steady_sliding(p.replace(**{damper: much})).growth_rate if gone and damper == "c_p" else damped
+        rate = sliding_growth(p.replace(**{damper: much})) if gone and damper == "c_p" else damped
         found["lowered"] += rate < without
         found["slides"] += gone and rate < without
         found["ended"] += gone and without < 0 and not rate < without

@@ -18,7 +18,7 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, or_none, said_rate
 from disc_model.claims.model import Answer, Checks
@@ -286,7 +286,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(measures.times_of(case, kind))
         if intervals.size >= 2 * FEWEST:
-            motion = motion_of(intervals)
+            motion = measures.classify_intervals(tuple(intervals))
             if motion.period:
                 length = float(intervals[: motion.period].sum())
                 return motion.kind, f"repeats after {measures.counted(motion.period, name)} = {length:.4g} s"
