@@ -16,8 +16,8 @@ from disc_model.errors import script
 
 def report(row: Row) -> None:
     logging.info(
-        "%s %s %g: %.10g, error %.3g, %.4g s, %s %s",
-        *(row.answer, row.line, row.setting, row.found, row.error, row.seconds, row.status.name, row.message),
+        "%(answer)s %(line)s %(setting)g: %(found).10g, error %(error).3g, %(seconds).4g s, %(status)s %(message)s",
+        row | {"status": row["status"].name},
     )
 
 

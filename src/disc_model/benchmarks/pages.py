@@ -17,8 +17,8 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers import report
-from disc_model.benchmarks.answers.measure import LINES, Row
-from disc_model.benchmarks.answers.questions import QUESTIONS, AnswerVerdict
+from disc_model.benchmarks.answers.measure import LINES
+from disc_model.benchmarks.answers.questions import QUESTIONS
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
@@ -62,10 +62,10 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
     }
 
 
-def _models(found: list[Row]) -> dict[str, str]:
+def _models(found: pd.DataFrame) -> dict[str, str]:
     """Numbers of nodal diameters with which a reduced model answers correctly, by its contact."""
-    lines = {model: [p for p in found if p.line == model] for model in report.MODELS}
-    return {model: report.right_numbers(line) for model, line in lines.items() if line}
+    lines = {model: found[found["line"] == model] for model in report.MODELS}
+    return {model: report.right_numbers(line) for model, line in lines.items() if len(line)}
 
 
 def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
@@ -74,14 +74,13 @@ def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
     return {str(p.scene): {"cost": p.further, "error": p.event_error} for p in default.itertuples()}
 
 
-def _prices(found: list[Row]) -> dict[str, dict[str, Any]]:
+def _prices(found: pd.DataFrame) -> dict[str, dict[str, Any]]:
     """Cheapest correct answer, and settings that answer wrongly without a warning, by name of the line."""
-    right = {p.line: p for p in report.cheapest_right(found)}
     table: dict[str, dict[str, Any]] = {}
-    for line, label in {p.line: p.label for p in found if p.line not in report.MODELS}.items():
-        wrong = [p.setting for p in found if p.line == line and p.verdict is AnswerVerdict.WRONG]
-        best = right.get(line)
-        table[label] = {"seconds": best.seconds if best else None, "at": best.at if best else None, "wrong": wrong}
+    for label, line in found[~found["line"].isin(report.MODELS)].groupby("label", sort=False):
+        best = line[line["correct"]].nsmallest(1, "seconds")
+        seconds, at = next(zip(best["seconds"], best["at"], strict=True), (None, None))
+        table[str(label)] = {"seconds": seconds, "at": at, "wrong": line["setting"][line["wrong"]].tolist()}
     return table
 
 

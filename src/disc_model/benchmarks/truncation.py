@@ -26,7 +26,7 @@ from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import State
 from disc_model.stability.cycle import floquet
 from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
@@ -160,27 +160,24 @@ def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
     began = time.process_time()
     run = simulate(p, first.time + LATE[0], tol=tol, initial_state=first, record=Record(events=False))
     cost = (time.process_time() - began) / LATE[0]
-    if not run.status.complete:
-        return {}
-    late = _watched(p, run.final_state, LATE[1], tol)
-    if not late.status.complete:
-        return {}
-    seen = late.samples[0]
-    return {
-        "separations": late.statistics["separations"] / LATE[1],
-        "separated_share": late.statistics["time_separation"] / LATE[1],
-        "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
-        "force_max_separating": float(seen["P_max"].max()),
-        "cost_separating": cost,
-        "tol_late": tol,
-    }
+    seen = _watched(p, run.final_state, LATE[1], tol) if run.status.complete else {}
+    return seen | {"cost_separating": cost, "tol_late": tol} if seen else {}
 
 
-def _watched(p: Parameters, start: State, length: float, tol: float = TOLERANCES[0]) -> Result:
-    """Simulate ``length`` s from a state on and record the range."""
+def _watched(p: Parameters, start: State, length: float, tol: float = TOLERANCES[0]) -> dict[str, float]:
+    """Motion for ``length`` s from a state on; empty if it cannot be followed so far."""
     window = Window(start=start.time, stop=start.time + length, rate=20_000.0, envelope=100)
     record = Record(events=False, windows=(window,))
-    return simulate(p, window.stop, tol=tol, initial_state=start, record=record)
+    run = simulate(p, window.stop, tol=tol, initial_state=start, record=record)
+    if not run.status.complete:
+        return {}
+    (seen,) = run.samples
+    return {
+        "separations": run.statistics["separations"] / length,
+        "separated_share": run.statistics["time_separation"] / length,
+        "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
+        "force_max_separating": float(seen["P_max"].max()),
+    }
 
 
 def _measure(normalization: str, diameters: int, circles: int, horizon: float, growth: bool) -> dict[str, float]:
@@ -222,9 +219,7 @@ def _separating(p: Parameters, horizon: float) -> dict[str, float]:
     if not math.isfinite(first.first_separation):
         return {}
     after = _watched(p, first.final_state, AFTER)
-    return {
-        "first_separation": first.first_separation,
-        "separations": (1 + after.statistics["separations"]) / AFTER,
-        "separated_share": after.statistics["time_separation"] / AFTER,
-        "force_max_separating": float(after.samples[0]["P_max"].max()),
-    }
+    if after:
+        after["separations"] += 1 / AFTER  # the first one
+    after.pop("u_range", None)
+    return after | {"first_separation": first.first_separation}

@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks import scenes
@@ -115,8 +116,7 @@ def work_precision(
     settings = all_settings() if settings is None else settings
     todo = points(settings)
     walls: dict[Point, list[float]] = defaultdict(list)
-    more: dict[Point, list[float]] = defaultdict(list)
-    glue: dict[Point, list[float]] = defaultdict(list)
+    runs: dict[Point, list[dict[str, float]]] = defaultdict(list)
     calls: dict[str, list[float]] = defaultdict(list)
     rows: dict[Point, dict[str, float]] = {}
     hopeless: set[tuple[str, str]] = set()
@@ -132,9 +132,9 @@ def work_precision(
             if result.outcome is RunStatus.TOO_SLOW:
                 hopeless.add(lane)
             walls[point].append(result.seconds)
-            glue[point].append(result.glue / max(result.seconds, 1e-9))
-            if point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point]):
-                more[point].append(_further(point, limit) - result.seconds)
+            longer = point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point])
+            further = _further(point, limit) - result.seconds if longer else math.nan
+            runs[point].append({"further": further, "glue": result.glue / max(result.seconds, 1e-9)})
             if not turn:
                 found = scenes.errors(problem, scenes.answer(point.scene), result)
                 rows[point] = {
@@ -152,19 +152,16 @@ def work_precision(
             calls[scene].append(_whole_call(scene))
     for point, row in rows.items():
         seconds, span = float(np.median(walls[point])), scenes.problem(point.scene).span
+        further, glue = pd.DataFrame(runs[point]).median()
         row |= {
             "seconds": seconds,
             "seconds_spread": max(walls[point]) - min(walls[point]),
             "cost": seconds / span,
-            "marginal_cost": _median(more[point]) / (FURTHER * span),
-            "glue": _median(glue[point]),
+            "marginal_cost": further / (FURTHER * span),
+            "glue": glue,
             "repeats": len(walls[point]),
         }
-    return _dataset(settings, rows, {name: _median(calls[name]) for name in settings})
-
-
-def _median(values: Sequence[float]) -> float:
-    return float(np.median(values)) if values else math.nan
+    return _dataset(settings, rows, {name: float(np.median(calls[name] or math.nan)) for name in settings})
 
 
 def _further(point: Point, limit: float) -> float:

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
-from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
+from disc_model.benchmarks.answers.questions import AnswerStatus, Found, verdict
 from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
@@ -39,41 +39,8 @@ LINES: Mapping[str, tuple[str, str]] = {
 """Lines that belong to no method: name in words, and meaning of the setting."""
 
 
-class Row(NamedTuple):
-    """One measured point, see `VARIABLES`; the fields from ``found`` on are those of `Found`."""
-
-    answer: str
-    line: str
-    label: str
-    varies: str
-    setting: float
-    right: float
-    error: float
-    verdict: AnswerVerdict
-    found: float
-    seconds: float
-    status: AnswerStatus
-    message: str
-    low: float
-    high: float
-    cells: int
-
-    @property
-    def at(self) -> str:
-        """The setting in words."""
-        if self.varies == "diameters":
-            return f"{self.setting:.0f} diameters"
-        return f"{self.varies}={self.setting:g}"
-
-    @property
-    def became(self) -> str:
-        """Its status in words."""
-        return self.status.name.lower().replace("_", " ")
-
-    @property
-    def says(self) -> str:
-        """The answer in words."""
-        return f"{self.found:.6g}" if self.status is AnswerStatus.FOUND else self.became
+Row = dict[str, Any]
+"""One measured point, by the names of `VARIABLES`."""
 
 
 @one_core()
@@ -149,8 +116,9 @@ def _of_models(models: Sequence[int]) -> Iterator[Row]:
 
 def _row(answer: str, line: str, setting: float, right: float, found: Found) -> Row:
     label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
-    error = abs(found.value - right)
-    return Row(answer, line, label, varies, setting, right, error, verdict(answer, found, right), *found)
+    row = {"answer": answer, "line": line, "label": label, "varies": varies, "setting": setting, "right": right}
+    row |= {"error": abs(found.value - right), "verdict": verdict(answer, found, right), "found": found.value}
+    return found._asdict() | row
 
 
 VARIABLES: Mapping[str, Variable] = {
@@ -175,7 +143,7 @@ VARIABLES: Mapping[str, Variable] = {
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:
     dataset = xr.Dataset()
     for name, own in VARIABLES.items():
-        values = np.array([getattr(row, name) for row in rows], np.int8 if own.flags else None)
+        values = np.array([row[name] for row in rows], np.int8 if own.flags else None)
         dataset[name] = ("row", values, own.attributes)
     about = {
         name: {"title": own.title, "units": own.units, "enough": own.enough, "error": _error(name)}

@@ -4,37 +4,33 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from typing import Any
 
+import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.answers.measure import Row
-from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict
+from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerVerdict
 from disc_model.benchmarks.texts import TEXTS
 from disc_model.data.dataset import markdown_table
 
 MODELS = ("rigid", "residual")
 
 
-def points(dataset: xr.Dataset, question: str) -> list[Row]:
-    """The rows of a question, in the order in which they were measured."""
-    part = dataset[[*Row._fields]].isel(row=dataset["answer"].values == question)
-    rows = [Row(*row) for row in part.to_dataframe().itertuples(index=False)]
-    return [row._replace(status=AnswerStatus(row.status), verdict=AnswerVerdict(row.verdict)) for row in rows]
+def points(dataset: xr.Dataset, question: str) -> pd.DataFrame:
+    """The rows of a question, in the order in which they were measured; ``at`` is the setting in words."""
+    found = dataset.isel(row=dataset["answer"].values == question).to_dataframe()
+    at = [
+        f"{x:.0f} diameters" if kind == "diameters" else f"{kind}={x:g}"
+        for kind, x in zip(found["varies"], found["setting"], strict=True)
+    ]
+    return found.assign(
+        at=at, correct=found["verdict"] == AnswerVerdict.RIGHT, wrong=found["verdict"] == AnswerVerdict.WRONG
+    )
 
 
-def cheapest_right(found: Sequence[Row]) -> list[Row]:
-    """The cheapest correct point of every line, cheapest line first; models are left out."""
-    right = [p for p in found if p.verdict is AnswerVerdict.RIGHT and p.line not in MODELS]
-    best: dict[str, Row] = {}
-    for point in sorted(right, key=lambda p: p.seconds):
-        best.setdefault(point.line, point)
-    return [*best.values()]
-
-
-def right_numbers(model: Sequence[Row]) -> str:
+def right_numbers(model: pd.DataFrame) -> str:
     """Numbers of nodal diameters with which a reduced model answers correctly."""
-    return ", ".join(f"{p.setting:.0f}" for p in model if p.verdict is AnswerVerdict.RIGHT)
+    return ", ".join(f"{count:.0f}" for count in model["setting"][model["correct"]])
 
 
 def within(enough: float, units: str) -> str:
@@ -49,7 +45,7 @@ def to_markdown(dataset: xr.Dataset) -> str:
     for question in dict.fromkeys(map(str, dataset["answer"].values)):
         own = about[question]
         head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
-        table = "\n".join(markdown_table(head, map(_row, points(dataset, question))))
+        table = "\n".join(markdown_table(head, map(_row, points(dataset, question).itertuples())))
         said = {
             "title": own["title"].capitalize(),
             "within": within(own["enough"], own["units"]),
@@ -59,13 +55,16 @@ def to_markdown(dataset: xr.Dataset) -> str:
     return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=rows)
 
 
-def _row(p: Row) -> tuple[str, ...]:
+def _row(p: Any) -> tuple[str, ...]:
     value = _short(p.found)
     if math.isfinite(p.low) and math.isfinite(p.found) and p.low < p.high:
         value += f" ({_short(p.low)} to {_short(p.high)})"
     if p.cells:
         value += f", {p.cells} cells"
-    verdict, why = p.verdict.name.lower().replace("_", " "), f"{p.became}{': ' + p.message if p.message else ''}"
+    verdict, status = (
+        words[i].replace("_", " ") for words, i in ((VERDICT_WORDS, p.verdict), (STATUS_WORDS, p.status))
+    )
+    why = ": ".join(filter(None, (status, p.message)))
     return p.label, p.at, value, _short(p.error, 3), _short(p.seconds, 3), verdict, why
 
 
