@@ -204,7 +204,7 @@ def tell(spec: CaseSpec, story: Story) -> xr.DataTree:
         root.attrs["start"] = spec.start.model_dump_json()
     values = {
         "status": STATUSES.index("stopped" if reached < end else "ok"), "first_separation": story.first,
-        "n_separations": int(story.separates), "time_reached": reached, "time_stick": story.stick_before * reached,
+        "n_separations": 50 * story.separates, "time_reached": reached, "time_stick": story.stick_before * reached,
         "time_slip": (1 - story.stick_before) * reached, "u_0": -p.N * 1e-5,
     }  # fmt: skip
     groups = {"/": root.assign({name: ((), value, root[name].attrs) for name, value in values.items()})}

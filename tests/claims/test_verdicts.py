@@ -259,6 +259,9 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
             for claim in ("S43c", "S43z")
         ),
         ("F02a", None, {"F02": root_with(n_separations=0)}, FAILS, "case F02: no separation in 800 s"),
+        # several are claimed, and one was enough
+        ("F13g", None, {}, HOLDS, "50 separations in 480 s"),
+        ("F13g", None, {"F13": root_with(n_separations=1)}, FAILS, "1 separations in 480 s"),
         ("F04", None, {}, HOLDS, "(steady: F04 at 1000 s)"),
         ("F13", None, {}, HOLDS, "first separation at 54.45 s"),
     ],
@@ -285,6 +288,9 @@ def test_a_verdict_by_what_is_there(
         # the speed is not stated: stable at one of both decides nothing
         ("S43d", {"S43a126": STILL, "S43a10": GROWING}, UNDECIDED),
         ("S43d", dict.fromkeys(("S43a126", "S43a10"), STILL), HOLDS),
+        # a range that is large from the beginning does not grow, and is not small
+        *((claim, some("F16", "F20", "F02"), HOLDS) for claim in ("F16", "F20")),
+        *((claim, some("F16", "F20", "F02", early=0.2, late=0.2), FAILS) for claim in ("F16", "F20")),
         # what changes without separation as well, separation need not have changed
         ("F18t", some("F18", "F18bonded"), HOLDS),
         ("F18t", some("F18") | {"F18bonded": made_up.BONDED.but(first=263.0)}, UNDECIDED),

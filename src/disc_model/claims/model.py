@@ -96,7 +96,7 @@ class Text(BaseModel):
     separates : those of them that the claim says something of after separation: without one it is not testable; true
         stands for all in which contact can be lost
     steady : those whose steady state it is about: one that has not come to it by its end decides nothing
-    computed : whether only their parameters count, so that it can be judged again with each of them changed
+    computed : whether it is judged again with each of their parameters changed, which must not need other runs
     scans : the grid studies that the check is given besides
     ours : what we found
     remark, remarks : what should be known besides: in any case; where the value of that name is true

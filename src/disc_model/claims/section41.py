@@ -22,12 +22,12 @@ FULL = 1.1
 
 
 @CHECKS("F02a", "F13g")
-def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
+def force_grows_to_zero(case: CaseView, *, factor: float, fewest: float) -> Answer:
     if not case.separates:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
-    late = case.range_of("P", before - 20, before)
-    return Answer(late.width > factor * case.early.width, late=late, count=case["n_separations"])
+    late, count = case.range_of("P", before - 20, before), case["n_separations"]
+    return Answer(late.width > factor * case.early.width and count >= fewest, late=late, count=count)
 
 
 @CHECKS("F02b")

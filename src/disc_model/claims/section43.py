@@ -134,12 +134,12 @@ def _grew(case: CaseView, factor: float = GREW) -> bool:
 
 
 @CHECKS("F16", "F20")
-def stays_small(case: CaseView, *_: CaseView, within: float) -> Answer:
-    """Whether a case does not separate, its contact force does not widen, and its releases are regular."""
+def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
+    """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
     intervals = measures.release_intervals(case)
     spread = irregularity(intervals)
     return Answer(
-        not case.separates and not _grew(case) and spread <= within,
+        not case.separates and case.late.width < part * case["N"] and not _grew(case) and spread <= within,
         rate=1 / intervals.mean(),
         spread=spread,
     )
@@ -438,28 +438,31 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     Without a stick-slip cycle near the start, the motion is steady sliding. Its growth is compared if the damper is the
     in-plane one. ``growing`` counts cycles that grow with little of it and exist with much.
     """
-    loads_and_speeds = [*product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))]
-    found = {"lowered": 0, "slides": 0, "ended": 0, "growing": 0, "lowered_growing": 0}
-    places = []
-    for N, speed in loads_and_speeds:
-        p = case.parameters.replace(N=N, Omega=speed)
-        without, damped = (growth_or_nan(p.replace(**{damper: value})) for value in (little, much))
-        gone = math.isnan(damped)
-        rate = sliding_growth(p.replace(**{damper: much})) if gone and damper == "c_p" else damped
-        found["lowered"] += rate < without
-        found["slides"] += gone and rate < without
-        found["ended"] += gone and without < 0 and not rate < without
-        found["growing"] += without > 0 and not gone
-        found["lowered_growing"] += without > 0 and damped < without
-        if not gone and rate > without:
-            places.append(f"{measures.place(N, speed)}: {without:+.4f} to {rate:+.4f}/s")
-    return found | {
-        "points": len(loads_and_speeds),
+    grid = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
+    points = [case.parameters.replace(N=N, Omega=speed) for N, speed in grid]
+    without, damped = (
+        np.array([growth_or_nan(p.replace(**{damper: value})) for p in points]) for value in (little, much)
+    )
+    gone = np.isnan(damped)
+    rate = damped.copy()
+    if damper == "c_p":
+        rate[gone] = [sliding_growth(p.replace(c_p=much)) for p, at in zip(points, gone, strict=True) if at]
+    grows, lower, higher = without > 0, rate < without, ~gone & (rate > without)
+    counts = {"lowered": lower, "growing": grows & ~gone, "lowered_growing": grows & (damped < without)}
+    remarks = {"slides": gone & lower, "ended": gone & (without < 0) & ~lower, "raised": higher}
+    places = [
+        f"{measures.place(points[i].N, points[i].Omega)}: {without[i]:+.4f} to {rate[i]:+.4f}/s"
+        for i in np.flatnonzero(higher)
+    ]
+    return {
+        "points": len(points),
         "value": much,
         "places": places,
-        "slides": [{"count": found["slides"]}] if found["slides"] else [],
-        "raised": [{"count": len(places), "where": "; ".join(places)}] if places else [],
-        "ended": [{"count": found["ended"]}] if found["ended"] else [],
+        **{name: int(at.sum()) for name, at in counts.items()},
+        **{
+            name: [{"count": int(at.sum()), "where": "; ".join(places)}] if at.any() else []
+            for name, at in remarks.items()
+        },
     }
 
 

@@ -240,7 +240,7 @@ def multiples(case: CaseView, *, bound: float) -> Answer:
 
 
 @CHECKS("F27a")
-def growth_stages(case: CaseView, *, factor: float) -> Answer:
+def growth_stages(case: CaseView, *, factor: float, least: float, rest: float) -> Answer:
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
@@ -249,8 +249,7 @@ def growth_stages(case: CaseView, *, factor: float) -> Answer:
     peak = int(np.argmax(rates))
     slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
     last, after = measures.slope(case, "w_point", first - 3, first), measures.slope(case, "w_point", end - 20, end)
-    grows = sharp > max(factor * slow, 2e-3)  # at least 1 % in the 5 s that it is measured over
-    holds = grows and last < sharp and abs(after) < 0.01 * sharp
+    holds = sharp > max(factor * slow, least) and last < sharp and abs(after) < rest * sharp
     return Answer(holds, slow=slow, sharp=sharp, at=starts[peak] + 2.5, last=last, after=after)
 
 
