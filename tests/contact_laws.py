@@ -9,7 +9,7 @@ import pytest
 
 from disc_model import Parameters, Ramp, plate_modes
 from disc_model.engine import event_loop, laws, layout, transitions
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.simulation.result import engine_case, write_state
 from tests.references import stored, taylor
 from tests.references.printed import lively
@@ -63,7 +63,7 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
     )  # fmt: skip
     start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
     if p.contact_compliance:
-        start = start.replace(u=start.u - 500 * contact_give(p), u_velocity=start.u_velocity + 0.01)
+        start = start.replace(u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01)
     step = taylor.Step(taylor.problem_of(p, rates or (0.0, 0.0)), phase, direction, stored.reference_state(start, p))
     model = engine_case(p).model
     if rates:

@@ -144,8 +144,8 @@ def _text(path: str | os.PathLike[str]) -> str:
         too_large = Path(path).stat().st_size > LARGEST
         text = "" if too_large else Path(path).read_text(encoding="utf-8-sig")
     except (OSError, TypeError, ValueError) as error:
-        said = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
-        raise _fault(path, f"must be a text file that can be read ({said})") from None
+        reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
+        raise _fault(path, f"must be a text file that can be read ({reason})") from None
     if too_large:
         raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
     return text

@@ -161,8 +161,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         elif kind in ("union_tag_invalid", "union_tag_not_found") and context["discriminator"] == "'kind'":
             fields = [one.model_fields for one in _models_at(model, item["loc"])]
             tags = [each["kind"].default for each in fields if "kind" in each]
-            said = value.get("kind") if isinstance(value, Mapping) else None
-            yield Fault.of((*path, "kind"), said, f"unknown kind of figure{suggestion(said, tags)}")
+            word = value.get("kind") if isinstance(value, Mapping) else None
+            yield Fault.of((*path, "kind"), word, f"unknown kind of figure{suggestion(word, tags)}")
         elif item["loc"][-1:] == ("[key]",) and kind == "value_error":
             yield Fault(path, "", str(reason))
         else:

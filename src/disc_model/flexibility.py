@@ -82,7 +82,7 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     return Flexibility(whole, kept, (whole - half) / 3)
 
 
-def contact_give(p: Parameters) -> float:
+def contact_compliance(p: Parameters) -> float:
     """Compliance of a case's contact as a number, m/N.
 
     Raises

@@ -118,9 +118,9 @@ def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
         if change <= asked.tolerance:
             count, chosen = count_modes(p, size), resized(p, size)
             return ModeChoice(chosen, asked.tolerance, change, count, group[-1], None, asked.quantity, values)
-    told = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
+    changes = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
-        f"n_diameters: undecided: {asked.quantity} still changes {told} among {_listed(p, group)}, more than the "
+        f"n_diameters: undecided: {asked.quantity} still changes {changes} among {_listed(p, group)}, more than the "
         f"tolerance {asked.tolerance:g}; give the number of modes, a larger tolerance"
         + ("" if p.contact_compliance else ", or contact_compliance='residual'")
     )

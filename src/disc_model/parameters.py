@@ -225,8 +225,8 @@ def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
     """The mapping with `in_si` applied to each value whose name has a unit."""
     if not isinstance(data, dict):
         return data
-    said = [name for name, value in data.items() if isinstance(value, str | list | tuple | dict) and name in units]
-    return data | {name: in_si(data[name], units[name]) for name in said} if said else data
+    texts = [name for name, value in data.items() if isinstance(value, str | list | tuple | dict) and name in units]
+    return data | {name: in_si(data[name], units[name]) for name in texts} if texts else data
 
 
 @functools.cache
@@ -238,9 +238,9 @@ def _units_of(model: type[BaseModel]) -> dict[str, str]:
 
 def _unit_of(field: FieldInfo) -> str:
     """Unit of a field, from its schema or from a `Unit` in its type; "" if it has none."""
-    said = field.json_schema_extra
-    if isinstance(said, dict) and "unit" in said:
-        return str(said["unit"])
+    extra = field.json_schema_extra
+    if isinstance(extra, dict) and "unit" in extra:
+        return str(extra["unit"])
     return next((mark.name for mark in (*field.metadata, *_marks(field.annotation)) if isinstance(mark, Unit)), "")
 
 
@@ -281,8 +281,8 @@ class Checked(Strict, metaclass=_OwnNames):
     def __init__(self, /, *unnamed: Any, **data: Any) -> None:
         if unnamed:
             name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
-            said = ", ".join(f"{key}={shown(value)}" for key, value in named)
-            raise ParameterError(f"{name} takes named values: {name}({said})")
+            example = ", ".join(f"{key}={shown(value)}" for key, value in named)
+            raise ParameterError(f"{name} takes named values: {name}({example})")
         data = each_in_si(data, _units_of(type(self)))
         faults: list[str] = list(faults_of_names(data))
         try:
@@ -399,7 +399,7 @@ def _diameters(value: Any) -> Any:
     return value
 
 
-def _give(value: Any) -> Any:
+def _compliance(value: Any) -> Any:
     """A compliance in m/N, or `RESIDUAL`."""
     if value == RESIDUAL:
         return value
@@ -425,14 +425,14 @@ def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     def default(name: str) -> Any:
         return model.model_fields[name].default
 
-    said = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) not in (default(name), AUTO)}
+    given = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) not in (default(name), AUTO)}
     if data.get("disc") is not None:
         rule = "must be left out where a disc is given: it is a parameter of the plate"
-    elif "damping_ratio" in said:
-        said, rule = said & {"D_star"}, "must be left out where damping_ratio is given"
+    elif "damping_ratio" in given:
+        given, rule = given & {"D_star"}, "must be left out where damping_ratio is given"
     else:
         return []
-    return [Fault((name,), shown(data[name]), rule) for name in sorted(said)]
+    return [Fault((name,), shown(data[name]), rule) for name in sorted(given)]
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -648,7 +648,7 @@ class Parameters(Checked):
         "as_published", "", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
     contact: Literal["separable", "bonded"] = _field("separable", "", "whether the slider may leave the disc")
-    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_give)] = _field(
+    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_compliance)] = _field(
         0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
     )
     contact_force: Literal["vertical", "normal"] = _field(

@@ -48,18 +48,18 @@ def doubts(p: Parameters) -> dict[str, str]:
 
 
 _warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # shows the line that calls `simulate`
-_told: set[str] = set()
+_reported: set[str] = set()
 
 
 def warn_of_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
     """Report implausible values of a case, once in a process by each rule; by default as a warning."""
     for kind, text in doubts(p).items():
-        if kind not in _told:
-            _told.add(kind)
+        if kind not in _reported:
+            _reported.add(kind)
             tell(text)
 
 
-def _said(p: Parameters, name: str) -> str:
+def _value(p: Parameters, name: str) -> str:
     return f"{name} = {getattr(p, name):g} {Parameters.unit(name)}".removesuffix(" 1")
 
 
@@ -68,13 +68,13 @@ def _far(name: str, p: Parameters) -> str:
     if usual / FURTHEST <= value <= usual * FURTHEST or value == 0:
         return ""
     how = "more than a hundred times" if value > usual else "less than a hundredth of"
-    return f"{_said(p, name)} is {how} the {usual:g} of Table 1"
+    return f"{_value(p, name)} is {how} the {usual:g} of Table 1"
 
 
 def _thick(p: Parameters) -> str:
     if p.h <= THICKEST * (p.b - p.a):
         return ""
-    return f"{_said(p, 'h')} is more than a fifth of b - a = {p.b - p.a:g} m, and the disc is modelled as a thin plate"
+    return f"{_value(p, 'h')} is more than a fifth of b - a = {p.b - p.a:g} m, and the disc is modelled as a thin plate"
 
 
 def _sound(p: Parameters) -> str:
@@ -82,7 +82,7 @@ def _sound(p: Parameters) -> str:
     if SPEEDS[0] <= speed <= SPEEDS[1]:
         return ""
     limits = "{:g} to {:g} m/s".format(*SPEEDS)
-    return f"{_said(p, 'E')} and {_said(p, 'rho')} make sqrt(E/rho) = {speed:.3g} m/s, and solids have {limits}"
+    return f"{_value(p, 'E')} and {_value(p, 'rho')} make sqrt(E/rho) = {speed:.3g} m/s, and solids have {limits}"
 
 
 def _deflected(p: Parameters) -> str:
@@ -95,7 +95,7 @@ def _deflected(p: Parameters) -> str:
     if not DEEPEST * p.h < deflection < math.inf:
         return ""
     times = f"{1e3 * deflection:.3g} mm, {deflection / p.h:.0f} times the thickness"
-    return f"{_said(p, 'N')} bends the disc by {times}, and its theory is linear"
+    return f"{_value(p, 'N')} bends the disc by {times}, and its theory is linear"
 
 
 def _pitch(p: Parameters) -> str:
@@ -120,7 +120,7 @@ def _elsewhere(p: Parameters) -> str:
     if abs(there - amplitude) <= ELSEWHERE * abs(amplitude):
         return ""
     return (
-        f"{_said(p, 'r_0')} is not where the amplitudes of the disc were taken: "
+        f"{_value(p, 'r_0')} is not where the amplitudes of the disc were taken: "
         f"a mode moves by {there:.3g} kg^-1/2 there, and its amplitude is {amplitude:.3g}"
     )
 

@@ -54,7 +54,7 @@ _watched = False
 
 
 @contextmanager
-def compiling(told: bool = True) -> Iterator[None]:
+def compiling(report: bool = True) -> Iterator[None]:
     """Report the compilation of kernels in the block if it takes long; also usable as a decorator.
 
     A nested use has no effect of its own.
@@ -65,7 +65,7 @@ def compiling(told: bool = True) -> Iterator[None]:
         return
     _watched, kernels = True, _Kernels()
     try:
-        with event.install_listener("numba:compile", kernels) if told else nullcontext():
+        with event.install_listener("numba:compile", kernels) if report else nullcontext():
             yield
     finally:
         _watched = False

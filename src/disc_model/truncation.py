@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.errors import DiscModelError, Fault, ParameterError, broken, shown
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
 
@@ -103,7 +103,7 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
     for size in sizes:
         kept = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
         chosen = resized(p, size)
-        mine = coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k, contact_give(chosen))
+        mine = coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k, contact_compliance(chosen))
         error = _worst(mine, right, top)
         if error <= tolerance:
             largest = rich if p.disc is None else sizes[-1]
@@ -196,7 +196,7 @@ def frequency_error(p: Parameters, rich: Parameters) -> float:
 def _frequencies(p: Parameters) -> np.ndarray:
     """Coupled frequencies of a case under its own law of contact, rad/s."""
     modes = mode_arrays(p)
-    return coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_give(p))
+    return coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))
 
 
 def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq, minimize_scalar
 
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from tests.references.literal import Literal
 
 #: Of a phase: whether there is contact, whether the slider sticks, and the direction of slip.
@@ -115,7 +115,7 @@ class Motion:
     """
 
     def __init__(self, p, start, drive=0.0, course=(), rtol=1e-13):
-        case, C, normal = Literal(p), contact_give(p), float(p.contact_force == "normal")
+        case, C, normal = Literal(p), contact_compliance(p), float(p.contact_force == "normal")
         self.mu_s, self.bonded, self.rigid, self.rtol = p.mu_s, p.contact == "bonded", C == 0, rtol
         self.modes, self.S = np.array([case.l, case.omega, case.Psi, case.damping], float), (case.Psi**2).sum()
         u_0 = case.w_0 - C * p.N

@@ -64,9 +64,9 @@ class Problem:
 def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
     from disc_model import plate_modes
-    from disc_model.flexibility import contact_give
+    from disc_model.flexibility import contact_compliance
 
-    modes, law = plate_modes(p), Law(contact_give(p), p.contact_force)
+    modes, law = plate_modes(p), Law(contact_compliance(p), p.contact_force)
     base = {name: getattr(p, name) for name in BASE}
     q = Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, rates)
     q.l = modes["diameters"].to_numpy().astype(LONG)

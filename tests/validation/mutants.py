@@ -111,7 +111,7 @@ NO_EQUATION = {
             "_forget_switch _check_height _faults amplitude_faults is_finite_array"
         ),
         "stability/return_map.py": "case_faults ReturnMap.__init__ ReturnMap._place ReturnMap.returns",
-        "flexibility.py": "contact_give _modal_sum",
+        "flexibility.py": "contact_compliance _modal_sum",
         "plate.py": (
             "mode_arrays mode_shapes radial_range _inverse_squares _shapes _evaluate _check_circles _roots "
             "_refine _determinant _with_slope _bessel _bessel_small _gauss"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.simulation.api import static_start
 from tests.contact_laws import course_of
 from tests.references import stored
@@ -76,7 +76,7 @@ def fastest(p):
     """Fastest oscillation, rad/s."""
     modes = plate_modes(p)
     found = max(modes["omega"].max() if len(modes) else 0.0, math.sqrt(max(p.k, p.k_p) / p.m))
-    give = contact_give(p)
+    give = contact_compliance(p)
     return max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give)) if give else found
 
 
@@ -107,7 +107,7 @@ def drawn_start(rng, p, time):
     ]
     angle = rng.uniform(-1.2, 1.2) * p.mu_s * p.N / (p.r_0 * p.k_p)
     lively = spread(rng, 0.03, 3)
-    give = contact_give(p)
+    give = contact_compliance(p)
     for _ in range(20):
         a, b, alpha, beta = (lively * size * rng.normal(size=len(psi)) for _ in range(4))
         a, b, alpha, beta = rest.a + a, b * pair, omega * alpha, omega * beta * pair
@@ -209,7 +209,7 @@ class Compared:
         good = clear & (self.times < horizon) & (error.max(axis=1) < 1e-4)
         # 1e-12 s: of event times; and errors are relative to static deflection, which a ramp alone moves much less
         allowed = (1e-10 + 1e-12 * fastest(self.p) + 10 * error) * scale
-        give = contact_give(self.p)
+        give = contact_compliance(self.p)
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
         sample, folded = self.result.samples
@@ -224,7 +224,7 @@ class Compared:
 
     def check_energies(self):
         """Those of the last state, in the slider's frame."""
-        p, end, give = self.p, self.result.final_state, contact_give(self.p)
+        p, end, give = self.p, self.result.final_state, contact_compliance(self.p)
         now = p.replace(N=float(self.result.value_at("N", end.time)))
         omega, lift = plate_modes(p)["omega"].to_numpy(), end.u - self.result.u_0
         disc = np.sum(end.alpha**2 + end.beta**2 + omega**2 * (end.a**2 + end.b**2))

@@ -21,7 +21,7 @@ import xarray as xr
 from disc_model.benchmarks.grid import measured
 from disc_model.benchmarks.hardware import machine
 from disc_model.data.variables import Variable
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
@@ -142,7 +142,7 @@ def contact_study(
 
 def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
     """A row of `contact_study`."""
-    row = _of_the_modes(p) | {"contact_compliance": contact_give(p)}
+    row = _of_the_modes(p) | {"contact_compliance": contact_compliance(p)}
     row["growth_rate"] = float(floquet(p).growth_rate) if row["modes"] <= MOST_GROWTH else math.nan
     quiet = Record(events=False)
     simulate(p, 1e-3, record=quiet)  # compiles
@@ -200,7 +200,7 @@ def _of_the_modes(p: Parameters) -> dict[str, float]:
     modes = mode_arrays(p)
     return {
         "modes": float(real_modes(p.n_diameters, p.n_circles)),
-        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_give(p))[0]),
+        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))[0]),
         "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
     }
 

@@ -90,10 +90,10 @@ def _compliance(p: Parameters) -> float:
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
     # imported here, because it imports scipy, for which jobs that only read results would have to wait
-    from disc_model.flexibility import contact_give
+    from disc_model.flexibility import contact_compliance
 
     try:
-        return contact_give(p)
+        return contact_compliance(p)
     except DiscModelError:
         return math.nan
 

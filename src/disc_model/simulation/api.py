@@ -240,7 +240,7 @@ class _Run:
         if not piece.constant:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        self.engine = _engine_for(self.model, self._arguments, told=self.asked.progress is not False)
+        self.engine = _engine_for(self.model, self._arguments, report=self.asked.progress is not False)
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
@@ -343,11 +343,11 @@ class _Run:
         give_back(self.case, self.order, self.workspace)
 
 
-def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], told: bool) -> Callable[..., int]:
+def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], report: bool) -> Callable[..., int]:
     """The engine, compiled for this kind of model: the kind determines the types of all ``arguments`` of a run."""
     kind = (len(model.more_blocks), len(model.compliance), len(model.normal), len(model.ramp))
     if kind not in _ENGINES:
-        with compiling(told):
+        with compiling(report):
             _ENGINES[kind] = compiled_for(event_loop.run, arguments())
     return _ENGINES[kind]
 

@@ -65,10 +65,10 @@ class Span(Checked):
     @model_serializer(mode="wrap")
     def _plain(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """Leave out an absent ``last``, so that the content address of a case with absolute times stays the same."""
-        said: dict[str, Any] = handler(self)
+        values: dict[str, Any] = handler(self)
         if self.last is None:
-            said.pop("last", None)
-        return said
+            values.pop("last", None)
+        return values
 
     def resolved(self, start: float, t_end: float) -> Self:
         """The same span with absolute times, for a run from ``start`` to ``t_end``.
@@ -289,8 +289,8 @@ class CaseSpec(Strict):
     def canonical(self) -> str:
         """JSON text that is equal for equal cases, however they were written; `from_canonical` reads it."""
         fields = type(self).model_fields
-        unsaid = {name for name in _LATER if getattr(self, name) == fields[name].default}
-        return canonical_json(self.model_dump(exclude=unsaid) | {"parameters": self.parameters.canonical})
+        defaults = {name for name in _LATER if getattr(self, name) == fields[name].default}
+        return canonical_json(self.model_dump(exclude=defaults) | {"parameters": self.parameters.canonical})
 
     @property
     def beside(self) -> str:

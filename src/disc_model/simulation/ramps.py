@@ -37,8 +37,8 @@ class Ramp(Checked):
 
     @model_validator(mode="before")
     @classmethod
-    def _in_unit(cls, said: Any) -> Any:
-        return each_in_si(said, {"to": Parameters.unit(str(said.get("parameter")))}) if isinstance(said, dict) else said
+    def _in_unit(cls, data: Any) -> Any:
+        return each_in_si(data, {"to": Parameters.unit(str(data.get("parameter")))}) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:

@@ -22,8 +22,8 @@ from disc_model.engine.audit import N_SUMS
 from disc_model.engine.event_loop import EVENT_ROW, N_COUNTERS
 from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, shown
-from disc_model.flexibility import contact_give
-from disc_model.parameters import RESIDUAL, Parameters, is_number
+from disc_model.flexibility import contact_compliance
+from disc_model.parameters import Parameters, is_number
 from disc_model.plate import modal_damping, mode_arrays
 from disc_model.plausibility import warn_of_doubts
 from disc_model.simulation.case import Record
@@ -402,7 +402,7 @@ def engine_case(p: Parameters) -> EngineCase:
         modal_damping(p),
         {name: getattr(p, name) for name in names},
         bonded=p.contact == "bonded",
-        compliance=contact_give(p) if p.contact_compliance == RESIDUAL else float(p.contact_compliance),
+        compliance=contact_compliance(p),
         normal=p.contact_force == "normal",
     )
     pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)

@@ -101,8 +101,8 @@ class FloquetResult:
 
     def __repr__(self) -> str:
         p, found = self.parameters, self.status is CycleStatus.OK
-        told = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if found else self.status.value
-        return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {told}, {len(self.multipliers)} multipliers)"
+        summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if found else self.status.value
+        return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
 
     @cached_property
     def sliding(self) -> SteadySliding:
@@ -233,7 +233,7 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
     for _ in range(TRANSIENT):
         flight, x, _, _ = map_.evaluate(x, tangent=False)
         if flight.outcome != RETURNED:
-            return _none(p, tol, *_said(flight))
+            return _none(p, tol, *_why(flight))
     for releases in RETURNS_TRIED:
         found = newton(map_, x, tol=tol, releases=releases)
         if found is not None:
@@ -242,11 +242,11 @@ def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
-def _said(flight: Flight) -> tuple[CycleStatus, str]:
+def _why(flight: Flight) -> tuple[CycleStatus, str]:
     """Status and message of a transient's flight that did not return."""
     lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
     slips = f"the slider slips on for {flight.period:.3g} s without sticking"
-    said = {
+    reasons = {
         "time_over": (CycleStatus.NO_STICK_SLIP, slips),
         "lost_contact": lost,
         "off_section": lost,
@@ -254,7 +254,7 @@ def _said(flight: Flight) -> tuple[CycleStatus, str]:
         "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
         "paradox": (CycleStatus.PARADOX, "the motion from the static start runs into Painleve's paradox"),
     }
-    return said[ENDS[flight.outcome]]
+    return reasons[ENDS[flight.outcome]]
 
 
 def _counted(counts: Counts) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from disc_model.errors import ParameterError
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_shapes, mode_arrays
 
@@ -77,7 +77,7 @@ def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     own.  A compliant contact adds one mode, in which the slider moves against the disc.
     """
     modes = mode_arrays(p)
-    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k, contact_give(p))
+    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))
     coupled = [
         (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]), True)
         for frequency, shape in zip(frequencies, shapes.T, strict=True)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, refuse
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
 from disc_model.simulation.result import engine_case
@@ -104,12 +104,12 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):
         return _absent(SlidingStatus.NO_SPRING)
-    modes, model, give = mode_arrays(p), engine_case(p).model, contact_give(p)
-    a, b, vertical = _equilibrium(p, modes, give)
+    modes, model, compliance = mode_arrays(p), engine_case(p).model, contact_compliance(p)
+    a, b, vertical = _equilibrium(p, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bonded":
         return _absent(SlidingStatus.NO_CONTACT)
     alpha, beta = -modes.diameters * p.Omega * b, modes.diameters * p.Omega * a
-    height = (modes.psi @ a - give * vertical, 0.0) if give else ()
+    height = (modes.psi @ a - compliance * vertical, 0.0) if compliance else ()
 
     def at(psi: float) -> Array:
         return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
@@ -136,14 +136,14 @@ def _absent(status: SlidingStatus) -> SteadySliding:
     return SteadySliding(status, status.advice)
 
 
-def _equilibrium(p: Parameters, modes: Modes, give: float) -> tuple[Array, Array, float]:
+def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array, Array, float]:
     """Modal coordinates a, b (n_modes,) and the vertical force at the equilibrium."""
     turned = modes.diameters * p.Omega
     gap, lag = turned**2 - modes.omega**2, modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
         along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))
-        static = float(np.sum(modes.psi**2 / modes.omega**2)) + give
-        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * along)) - give))
+        static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
+        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
     return along * force, across * force, force
 
 
@@ -159,7 +159,7 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     )
     u, v = height if len(height) else (w, velocity)
     i = laws.Instant(
-        p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_give(p), psi, f, w, velocity, slope, free, u, v
+        p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_compliance(p), psi, f, w, velocity, slope, free, u, v
     )  # fmt: skip
     force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, 1.0, slope)
     V, rate_f = _LAWS.slip_rates(model, i, 1.0, force)

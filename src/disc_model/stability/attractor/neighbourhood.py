@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from disc_model.data.variables import Outcome
-from disc_model.flexibility import contact_give
+from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
@@ -285,7 +285,7 @@ def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     sliding = steady_sliding(p)
     if not sliding.stable or state.phase != "slip":
         return False
-    modes, give = mode_arrays(p), contact_give(p)
+    modes, give = mode_arrays(p), contact_compliance(p)
     ones = np.ones_like(modes.omega)
     # with these factors the norm of rows is that of the energy
     slider = [p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)]
@@ -313,7 +313,7 @@ def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     """Distance from steady sliding, in the rows of its Jacobian."""
-    modes, give = mode_arrays(p), contact_give(p)
+    modes, give = mode_arrays(p), contact_compliance(p)
     disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
     # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
     rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (1 + p.k * give)
