@@ -15,7 +15,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window
 from disc_model.data.dataset import load
-from disc_model.simulation import recorder
+from disc_model.simulation import api
 from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import State
@@ -199,7 +199,7 @@ class TestNotTrusted:
         self, run: Options, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch, function, name
     ) -> None:
         interrupt(3, P, 55, **run)
-        monkeypatch.setattr(recorder, function, lambda *_: "another")
+        monkeypatch.setattr(api, function, lambda *_: "another")
         begun: list[float] = []
         simulate(P, 55, **run, progress=begun.append)
         assert f"(other {name})" in caplog.text

@@ -40,8 +40,8 @@ class Motion(NamedTuple):
 
     Attributes
     ----------
-    kind : `OTHER_CYCLE` (any cycle in contact) or `SEPARATING` for a periodic motion, otherwise `QUASI_PERIODIC`,
-        `IRREGULAR` or, if the 0-1 test is inconclusive, `UNDECIDED`
+    kind : `OTHER_CYCLE` for a periodic motion, otherwise `QUASI_PERIODIC`, `IRREGULAR` or, if the 0-1 test is
+        inconclusive, `UNDECIDED`
     period : number of releases after which the motion repeats, 0 if it does not
     spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
     closure : s, largest difference between an interval and the one `period` (or one) later
@@ -62,7 +62,7 @@ class Motion(NamedTuple):
         return str(self.kind).replace("_", "-")
 
 
-def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = False) -> Motion:
+def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """Classify a motion by the intervals between its releases, or between its separations.
 
     Parameters
@@ -70,7 +70,6 @@ def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = 
     intervals : s, shape (n,)
     tolerance : s, largest difference for a periodic motion: above the remaining transient, and far below the
         differences of successive intervals
-    separates : whether the motion loses contact
 
     Raises
     ------
@@ -82,8 +81,7 @@ def motion_of(intervals: Array, tolerance: float = CLOSES, *, separates: bool = 
     spread = irregularity(intervals)
     longest = intervals.size // 2
     if period := shortest_period(intervals, tolerance):
-        kind = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
-        return Motion(kind, period, spread, closure(intervals, period), np.nan, longest)
+        return Motion(Outcome.OTHER_CYCLE, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
     kind = (
         Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.IRREGULAR if chaos > 1 - REGULAR else Outcome.UNDECIDED

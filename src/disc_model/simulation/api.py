@@ -308,14 +308,14 @@ class _Run:
 
     def contents(self) -> Contents:
         """The state that the rest of the run depends on and all rows recorded so far, for `restore`."""
-        return Contents(self._changing() | self.collector.position(), self.collector.kept())
+        return self._changing() | self.collector.contents()
 
     def restore(self, contents: Contents) -> None:
         """Continue from the point at which `contents` was called."""
         for name, array in self._changing().items():
-            array[:] = contents.state[name]
+            array[:] = contents[name]
         self._enter(int(self.place[0]))
-        self.collector.restore(*contents)
+        self.collector.restore(contents)
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run."""

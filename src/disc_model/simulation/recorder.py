@@ -18,7 +18,7 @@ import sys
 import time as clock
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,11 +41,8 @@ SHARE = 0.1
 Array = NDArray[Any]
 
 
-class Contents(NamedTuple):
-    """Contents of a checkpoint: ``state`` changes from one checkpoint to the next, ``rows`` only grow."""
-
-    state: dict[str, Array]
-    rows: dict[str, list[Array]]
+Contents = dict[str, Array]
+"""Contents of a checkpoint: the state, and parts of recorded rows such as ``events/0``, in order."""
 
 
 def faults(path: object, every: object) -> Iterator[str]:
@@ -106,14 +103,7 @@ class Checkpoint:
         if differing:
             self._set_aside(f"of another run (other {', '.join(differing)})", content_key(canonical_json(belongs_to)))
             return None
-        contents = Contents({}, {})
-        for entry, array in held.items():
-            part, name, *_ = entry.split("/")
-            if part == "state":
-                contents.state[name] = array
-            else:
-                contents.rows.setdefault(name, []).append(array)
-        return contents
+        return held
 
     def _aside(self, whose: str) -> Path:
         return self.path.with_name(f"{self.path.name}.{whose}{SET_ASIDE}")
@@ -136,9 +126,7 @@ class Checkpoint:
         """Write a checkpoint; if that fails, the run continues and the previous checkpoint stays."""
         from disc_model.data.dataset import write_atomically
 
-        arrays: dict[str, Any] = {f"state/{name}": array for name, array in contents.state.items()}
-        arrays |= {f"rows/{name}/{i}": rows for name, parts in contents.rows.items() for i, rows in enumerate(parts)}
-        arrays["belongs_to"] = np.array(json.dumps(self.belongs_to))
+        arrays: dict[str, Any] = contents | {"belongs_to": np.array(json.dumps(self.belongs_to))}
 
         def write(name: str) -> None:
             with open(name, "wb") as file:  # given a name, numpy would add a suffix to it
@@ -199,22 +187,21 @@ class Collector:
         self.first_separation = math.nan
         """Time of the first loss of contact, s; nan if there was none."""
 
-    def position(self) -> dict[str, NDArray[Any]]:
-        """The collector's state for a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
-        none = np.zeros((0, len(sampling.ROW)))
-        rest = {f"rest_{i}": np.concatenate([none, *parts]) for i, parts in enumerate(self._rest)}
-        return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rest}
+    def _lists(self) -> Iterator[tuple[str, list[Array]]]:
+        yield "events", self._events
+        for name, lists in (("samples", self._parts), ("rest", self._rest)):
+            yield from ((f"{name}_{i}", parts) for i, parts in enumerate(lists))
 
-    def kept(self) -> dict[str, list[Array]]:
-        """The rows recorded so far, as lists that only grow."""
-        return {"events": self._events} | {f"samples_{i}": parts for i, parts in enumerate(self._parts)}
+    def contents(self) -> Contents:
+        """The collector's part of a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
+        rows = {f"{name}/{i}": part for name, parts in self._lists() for i, part in enumerate(parts)}
+        return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rows}
 
-    def restore(self, position: Mapping[str, NDArray[Any]], kept: Mapping[str, Sequence[Array]]) -> None:
-        """Continue from the values of `position` and `kept`."""
-        self.sampled[:], self.first_separation = position["sampled"], float(position["first_separation"][0])
-        self._rest = [[position[f"rest_{i}"]] for i in range(len(self._rest))]
-        for name, parts in self.kept().items():
-            parts[:] = kept.get(name, ())
+    def restore(self, contents: Contents) -> None:
+        """Continue from `contents`."""
+        self.sampled[:], self.first_separation = contents["sampled"], float(contents["first_separation"][0])
+        for name, parts in self._lists():
+            parts[:] = [part for entry, part in contents.items() if entry.startswith(f"{name}/")]
 
     def drain(self, counters: NDArray[np.int64]) -> None:
         """Copy the rows from the buffers and empty them."""
