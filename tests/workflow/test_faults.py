@@ -96,17 +96,6 @@ def test_lost_records(project: Project, finished: Project) -> None:
     assert_recovered(project, finished)
 
 
-def test_clock_set_back_between_two_runs(project: Project, finished: Project) -> None:
-    """A case computed anew by an earlier clock looks older than what was made of its former self."""
-    case = project.folder / "results" / "small" / "cases" / "F13.nc"
-    for old, new, days in (("15.1", "15.2", -2), ("15.2", "15.1", -4)):
-        project.edit(SMALL, f"Omega: {old}", f"Omega: {new}")
-        project.complete("-j2", "--until", "simulate_case")
-        set_times([case], days)
-        project.complete("-j2")
-        assert (project.products() == finished.products()) == (new == "15.1")
-
-
 def set_times(paths: list[Path], days: float) -> None:
     at = time.time() + 86400 * days
     for path in paths:

@@ -76,17 +76,6 @@ def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str,
     assert project.planned() == jobs(project)
 
 
-def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
-    project.edit(SMALL, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
-    project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 300]")
-    assert project.planned() == TABLES | MAP_TAIL
-    project.complete("-j2")
-    assert list(dataset(project, "small/cases.nc")["case"].values) == ["F11", "F13"]
-    assert list(dataset(project, "small_map/small_map.nc")["N"].values) == [100, 300]
-    project.edit(MAP, "N: [100, 300]", "N: [100, 200, 300]")
-    assert project.planned() == MAP_TAIL
-
-
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
