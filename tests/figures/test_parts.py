@@ -6,6 +6,7 @@ import pytest
 import xarray as xr
 
 from disc_model.figures import parts
+from disc_model.figures.kinds import Campbell
 
 
 @pytest.mark.parametrize(
@@ -22,11 +23,18 @@ from disc_model.figures import parts
 def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], said: str) -> None:
     study = xr.Dataset(coords={"k": [1.0, 2.0]}, attrs={"title": "Made up", "base": json.dumps(base)})
     figure = parts.new_figure(parts.COLUMN, 2)
-    parts.head(figure, study, "")
+    parts.head(figure, study, Campbell())
     assert figure.get_suptitle() == f"Made up\n{said}"
+
+
+def test_a_figure_with_a_caption_has_no_heading() -> None:
+    """The paper's figures have none, and those of grids said in the picture what stood below it too."""
+    figure = parts.new_figure(parts.COLUMN, 2)
+    parts.head(figure, xr.Dataset(attrs={"title": "Made up", "base": '{"N": 385}'}), Campbell(caption="Said below."))
+    assert figure.get_suptitle() == ""
 
 
 def test_a_value_stays_in_the_line_of_its_name() -> None:
     figure = parts.new_figure(1.0, 2)
-    parts.entitle(figure, "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
+    parts.entitle(figure, Campbell(), "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
     assert figure.get_suptitle().split("\n") == ["N = 385 N,", "Ω = 15.1 rad/s,", "D* = 2e-05 N m s"]

@@ -288,10 +288,10 @@ def explorer_pictures():
             "file": f"{RESULTS}/figures/{name}.png",
         }
     for name in ASKED:
-        for plot in GRIDS[name].plots:
+        for plot, asked in GRIDS[name].plots.items():
             yield {
                 "heading": "Maps and curves",
                 "title": f"{GRIDS[name].title or name}: {plot}",
-                "caption": f"From the grid study {name}.",
+                "caption": f"{asked.caption} From the grid study {name}.".strip(),
                 "file": f"results/{name}/figures/{plot}.png",
             }

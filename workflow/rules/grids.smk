@@ -71,6 +71,7 @@ rule draw_plot:
         plot=lambda wildcards: GRIDS[wildcards.study]
         .plots[wildcards.plot]
         .model_dump_json(),
+        caption=lambda wildcards: GRIDS[wildcards.study].plots[wildcards.plot].caption,
         made_of=lambda wildcards: plot_made_of(wildcards.study, wildcards.plot),
         files=lambda wildcards, input: [
             f"{role}={file}"
@@ -80,4 +81,4 @@ rule draw_plot:
             ]
         ],
     shell:
-        "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"
+        "job draw_figure {params.plot:q} {params.caption:q} {output} {params.files:q} > {log} 2>&1"

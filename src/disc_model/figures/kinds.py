@@ -24,12 +24,15 @@ class Kind(Strict):
     """A figure: its fields are what a study file may say of it.
 
     drawn_by : module below `disc_model.figures` and its function, see `disc_model.figures.parts.draw`
+    title : stands above the figure
+    caption : stands below the figure in report, explorer and gallery; with it, nothing stands above
     """
 
     drawn_by: ClassVar[str]
 
     kind: str
     title: Title = ""
+    caption: str = ""
 
     @property
     def module(self) -> str:
@@ -437,12 +440,16 @@ class HeatMap(General):
 
 
 class CurvePlot(General):
-    """A variable against one dimension; a line for each value of a second, if wanted."""
+    """A variable against one dimension; a line for each value of a second, if wanted.
+
+    limits : ends of the variable's axis, so that figures can be compared
+    """
 
     drawn_by = "grids.curve.draw"
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"
+    limits: tuple[Number, Number] | None = None
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -474,7 +481,7 @@ class CasePlot(Kind):
     @property
     def options(self) -> dict[str, Any]:
         """Keyword arguments of the drawing function."""
-        return self.model_dump(exclude={"kind", "title", "case"})
+        return self.model_dump(exclude={"kind", "title", "caption", "case"})
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
         """Faults that keep it from being drawn; a case that is None has faults of its own."""

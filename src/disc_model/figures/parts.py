@@ -22,7 +22,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, said_values, typeset
 from disc_model.figures import STYLE
-from disc_model.figures.kinds import CasePlot, OwnFigure, Plot
+from disc_model.figures.kinds import CasePlot, Kind, OwnFigure, Plot
 
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
@@ -92,7 +92,7 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
         elif isinstance(plot, CasePlot):
             (case,) = inputs.values()
             figure = function(inputs, **plot.options)
-            entitle(figure, plot.title, what_case(json.loads(case.attrs.get("parameters", "{}"))))
+            entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
         else:
             figure = function(inputs, **plot.options)
     return figure
@@ -199,7 +199,9 @@ def fixed(study: xr.Dataset, modes_said: bool = False) -> str:
     values = json.loads(study.attrs.get("base", "{}"))
     # 0 stands for N or Omega if the quantity varies it by itself
     idle = {name for name in ("N", "Omega") if not values.get(name)}
-    return what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_said)
+    said = what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_said)
+    modes = [] if modes_said or "normalization" not in study.coords else normalizations(study)
+    return ", ".join(filter(None, [said, MODES[modes[0]] if len(modes) == 1 else ""]))
 
 
 def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
@@ -215,7 +217,7 @@ def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
 
 
 def head(
-    figure: Figure, study: xr.Dataset, title: str, shown: xr.DataArray | None = None, modes_said: bool = False
+    figure: Figure, study: xr.Dataset, plot: Plot, shown: xr.DataArray | None = None, modes_said: bool = False
 ) -> None:
     """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary.
 
@@ -228,21 +230,29 @@ def head(
         if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
     ]
     said = ", ".join(filter(None, [*values, fixed(study, modes_said)]))
-    entitle(figure, title or study.attrs.get("title", ""), said)
+    entitle(figure, plot, study.attrs.get("title", ""), said)
 
 
-def entitle(figure: Figure, title: str, values: str) -> None:
-    """Write a figure's title and the values of parameters, if there are any, above it."""
-    if said := headline(figure, title, values):
+def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
+    """Write a figure's title, or else another one, and the values of parameters above it; a caption says both."""
+    if said := headline(figure, plot, title, values):
         figure.suptitle(said, fontsize=8)
 
 
-def headline(figure: Figure, title: str, values: str) -> str:
-    """A figure's title and the values of parameters, in lines that fit."""
+def headline(figure: Figure, plot: Kind, title: str, values: str) -> str:
+    """The same in lines that fit."""
+    if plot.caption:
+        return ""
     width = round(figure.get_figwidth() / 0.06)
     # keep a value on the line of its name
     kept = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-    return "\n".join(fill(text, width) for text in (title, kept) if text).replace("\u00a0", " ")
+    return "\n".join(fill(text, width) for text in (plot.title or title, kept) if text).replace("\u00a0", " ")
+
+
+def note(figure: Figure, plot: Kind, text: str) -> None:
+    """Write how a figure was computed below it, unless a caption says it."""
+    if not plot.caption:
+        figure.supxlabel(fill(text, round(figure.get_figwidth() / 0.055)), fontsize=7)
 
 
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
@@ -324,6 +334,12 @@ def headroom(ax: Axes, share: float) -> None:
     ax.set_ylim(low, high + share * (high - low))
 
 
+def broken(x: np.ndarray, y: np.ndarray, jump: float) -> list[np.ndarray]:
+    """A line with gaps where its height changes by more than `jump`."""
+    gaps = np.flatnonzero(np.abs(np.diff(y)) > jump) + 1
+    return [np.insert(along.astype(float), gaps, np.nan) for along in (x, y)]
+
+
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     """Runs of True: index of the first element, and the index after the last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
@@ -385,10 +401,10 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
     return study.sel(normalization=normalization) if "normalization" in study.dims else study
 
 
-def of_one(study: xr.Dataset, others: Mapping[str, xr.Dataset]) -> tuple[str, xr.Dataset, dict[str, xr.Dataset]]:
-    """The first normalization of a grid study, and the values of all studies for it."""
+def of_one(study: xr.Dataset, others: Mapping[str, xr.Dataset]) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
+    """The values of all studies for the first normalization of a grid study."""
     norm = normalizations(study)[0]
-    return norm, of(study, norm), {role: of(other, norm) for role, other in others.items()}
+    return of(study, norm), {role: of(other, norm) for role, other in others.items()}
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:

@@ -230,7 +230,8 @@ class Study:
     def figure(self, name: str) -> CaseFigure:
         """A figure of cases or of the paper, by its name."""
         if (plot := self.plots.get(name)) is not None:
-            said = f"{plot.title or name}: {plot.case}, {said_parameters(self.specs[plot.case].parameters)}"
+            said = plot.caption or f"{plot.title or name}: {plot.case}"
+            said = f"{said}, {said_parameters(self.specs[plot.case].parameters)}"
             return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, said)
         entry, specs = CATALOGUE[name], self.specs.items()
         said = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})

@@ -51,7 +51,7 @@ def chart(monkeypatch: pytest.MonkeyPatch, **others: xr.Dataset) -> Figure:
 def test_curves_crossings_and_what_the_paper_says_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     figure = chart(monkeypatch)
     named = {"cycle loses stability", "stable cycle ends (fold)", "onset of separation within 1000 s"}
-    named |= {"open: end of separation", "paper", "2 $f_s$ = 135.42 Hz"}
+    named |= {"end of separation", "paper", "2 $f_s$ = 135.42 Hz"}
     assert set(labels(figure)) == named | {"continuation failed: 2"}
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}
@@ -93,4 +93,4 @@ def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
     save(both, tmp_path / "both.png")
     twice = speeds.copy(deep=True)
     twice["crossing"][..., 1], twice["crossing_kind"][..., 1] = 14.2, 2
-    assert "open: end of separation" in labels(draw("critical_speed", twice))
+    assert "end of separation" in labels(draw("critical_speed", twice))

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import AsinhNorm
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids.cells import GREATEST, alone, cycles_of, growth_cells, scale_of
+from disc_model.figures.grids.cells import GREATEST, alone, cycles_of, growth_cells, scale_of, unresolved
 from disc_model.figures.grids.growth_map import Curve, parted
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import regions
@@ -67,6 +67,14 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     assert _hatched(axes) == [there.tolist()]
 
 
+def test_a_tongue_of_one_cell_is_unresolved_and_a_layer_between_two_areas_is_not() -> None:
+    """Tongues finer than the cells stood as boxes of an outcome."""
+    tongue = np.array([list("qqsqq"), list("qqsqq"), list("qqqqq")])
+    assert np.argwhere(unresolved(tongue)).tolist() == [[0, 2], [1, 2]]
+    layers = np.array([list("qqqq"), list("gggg"), list("ssss")])
+    assert not unresolved(layers).any()
+
+
 def _hatched(ax: Any) -> list[Any]:
     return [(~np.ma.getmaskarray(cells.get_array())).tolist() for cells in ax.collections if cells.get_hatch()]
 
@@ -82,7 +90,7 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     growth[2:] = np.nan
     followed = np.where(np.isfinite(growth), 1, 0)
     outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
-    outcome[3, 0] = "growing"
+    outcome[3, 1] = "growing"
     codes = {"outcome": np.vectorize(regions.OUTCOMES_TO_HORIZON.index)(outcome)}
     codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
@@ -111,7 +119,7 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
     assert lengths(shown) == lengths(growth) == [2, 2]
     assert {text.get_text() for text in shown.texts} == {"F2", "b"}
-    # one in a corner, and its neighbour, which nothing beside is like
+    # between two that are alike
     assert np.sum(_hatched(shown)[0]) == 1
     named = {"quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
     named |= {"paper: quiet", "paper: separation", "no cycle found", "unresolved"}

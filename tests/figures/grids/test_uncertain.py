@@ -31,7 +31,7 @@ def test_instability_against_each_parameter() -> None:
     assert len(figure.axes) == 2 * study.sizes["N"]
     assert figure.subfigs[0].get_suptitle().startswith("Preload N = 200 N, unstable ")
     assert [ax.get_xlabel() for ax in figure.axes[-2:]] == ["k\n(kN/m)", "$μ_s$"]
-    assert "k, $μ_s$ ± 10 %" in figure.get_suptitle()
+    assert "k, $μ_s$ ± 10 %" in figure.get_supxlabel()
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below. The
     size of an attractor's mark is its fraction of all starts.
     """
-    study = parts.of_one(study, {})[1].transpose(plot.x, ...)
+    study = parts.of_one(study, {})[0].transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
     along, energies = study[plot.x].values * factor, study["energy"].values
     figure = new_figure(PAGE, 4.6)
@@ -72,7 +72,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
     patches = [Patch(color=COLOURS[class_], label=said.get(class_, class_)) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
-    parts.head(figure, study, plot.title)
+    parts.head(figure, study, plot)
     return figure
 
 

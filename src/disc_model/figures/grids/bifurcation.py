@@ -25,6 +25,8 @@ HEIGHTS = {"samples": 2.4, "period": 0.9, "lyapunov": 1.4}
 """Heights of the panels, inch."""
 ERRORS = 4
 """Half-width of the band about an exponent, in standard errors."""
+JUMP = 0.05
+"""Change of an exponent, 1/s, at which another motion begins and a line is broken."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
@@ -34,7 +36,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
     events.  The further study ``lyapunov``, if given, has a panel below.
     """
-    _, study, overlays = parts.of_one(study, overlays)
+    study, overlays = parts.of_one(study, overlays)
     study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
     names = SWITCHES if options.get("section") == "event" else {}
@@ -84,8 +86,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
-    parts.head(figure, study, plot.title)
-    figure.supxlabel(_start(options), fontsize=7, x=1, ha="right")
+    parts.head(figure, study, plot)
+    parts.note(figure, plot, _start(options))
     return figure
 
 
@@ -122,7 +124,8 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
         low, high = (exponent[i].values + s * ERRORS * error[i].values for s in (-1, 1))
-        ax.plot(along, exponent[i], ".-", color=color, markersize=3, linewidth=0.8, label=label)
+        shown = parts.broken(along, exponent[i].values, JUMP)
+        ax.plot(*shown, ".-", color=color, markersize=3, linewidth=0.8, label=label)
         ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
         if "converged" in lyapunov:
             moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
@@ -132,7 +135,6 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     if unsure:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
-    ax.set_ylabel(
-        "Lyapunov exponents" + (",\nwithout the trivial one" if "trivial_exponent" in lyapunov else "") + " (1/s)"
-    )
+    others = ",\nwithout the\ntrivial one" if "trivial_exponent" in lyapunov else ""
+    ax.set_ylabel(f"Lyapunov\nexponents{others} (1/s)")
     parts.legend_above(ax)

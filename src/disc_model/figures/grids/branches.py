@@ -22,8 +22,7 @@ LOWEST = 1e-3
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
     """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
-    norm, study, _ = parts.of_one(study, overlays)
-    study = study.squeeze()
+    study = parts.of_one(study, overlays)[0].squeeze()
     name = str(json.loads(study.attrs["options"])["parameter"])
     label, factor = parts.axis_of(name)
     figure = new_figure(PAGE, 3.6)
@@ -53,7 +52,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
     for mark, text in zip("^v", ("rising", "falling"), strict=True):
         ax.plot([], [], mark, color=GREY, markersize=3, label=f"simulated, {text}")
     figure.legend(loc="outside lower center", ncols=6)
-    parts.entitle(figure, plot.title, f"{parts.fixed(study, modes_said=True)}, {parts.MODES[norm]}")
+    parts.head(figure, study, plot)
     return figure
 
 

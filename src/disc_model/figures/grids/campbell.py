@@ -54,8 +54,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
     said = "\n".join([_SAID if met else _NOTHING, *(f"{i}  {one.said}" for i, one in enumerate(met, 1))])
     below.text(0, 1, said, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
-    title = plot.title or study.attrs.get("title", "")
-    parts.head(figure, study, ", ".join(filter(None, [title, parts.MODES[norm]])), modes_said=True)
+    parts.head(figure, study, plot)
     return figure
 
 
@@ -190,9 +189,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
         # so large a step leads to another cycle
-        jumps = np.flatnonzero(np.abs(np.diff(values)) > LINEAR) + 1
-        x, y = (np.insert(along, jumps, np.nan) for along in (speeds, values))
-        ax.plot(x, y, ".-", color=_colour(l), linewidth=0.8, markersize=1)
+        ax.plot(*parts.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))

@@ -10,13 +10,13 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import AsinhNorm, BoundaryNorm, ListedColormap, to_hex, to_rgb
+from matplotlib.colors import AsinhNorm, BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.figures.parts import BLACK, GREY, SEPARATED, label_of
+from disc_model.figures.parts import BLACK, GREY, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -36,24 +36,28 @@ class Look(NamedTuple):
 
 HATCH = 8 * "/"
 """Hatch so dense that a cell of a fiftieth of a panel has two lines."""
+UNRESOLVED = Look("unresolved", "none", HATCH)
+"""Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells."""
 OUTCOME_LOOKS = {
-    "quiet": Look("quiet", "#e9eef2"),
-    "steady_sliding": Look("steady sliding", "#e4dcec"),
-    "at_rest": Look("permanent stick", "#dcebe1"),
-    "other_cycle": Look("another cycle in contact", "#7f93a3"),
-    "growing": Look("growing, in contact", "#a9b4bd"),
-    "separation": Look("separation", SEPARATED),
-    "undecided": Look("undecided", "#a98b6d"),
-    "failed": Look("failed", "#333333"),
+    "quiet": Look("quiet", "#f3f6f8"),
+    "steady_sliding": Look("steady sliding", "#e3d5ee"),
+    "at_rest": Look("permanent stick", "#c4e3cd"),
+    "growing": Look("growing, in contact", "#c2ccd6"),
+    "other_cycle": Look("another cycle in contact", "#86a0b8"),
+    "separation": Look("separation", "#bb5200"),
+    "undecided": Look("undecided", "#6d5a45"),
+    "failed": Look("failed", "#222222"),
 }
+"""Looks of outcomes in all maps and charts, from light to dark: distinct in grey print, too."""
 CYCLE_LOOKS = {
     "steady_sliding": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
     "at_rest": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
     "nearby_only": Look("start not on a cycle", "#f2e6a2"),
     "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
-    "alone": Look("growth differs from all neighbours", "none", HATCH),
+    "alone": UNRESOLVED,
     "failed": Look("failed", "#333333"),
+    EXCLUDED: Look("left out by the study's rule", "white"),
 }
 """Looks of points where no cycle is followed, and of growth rates that may be another cycle's."""
 WITHOUT = {
@@ -66,10 +70,11 @@ WITHOUT = {
 """Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`."""
 
 
-def paler(look: Look, share: float) -> Look:
-    """The same look, blended with white."""
-    red, green, blue = (part + share * (1 - part) for part in to_rgb(look.face))
-    return look._replace(face=to_hex((red, green, blue)))
+def unresolved(words: Names) -> NDArray[np.bool_]:
+    """Cells between two that have one other word: single ones, and strips that are one cell wide."""
+    around = np.pad(words, 1)
+    pairs = ((around[:-2, 1:-1], around[2:, 1:-1]), (around[1:-1, :-2], around[1:-1, 2:]))
+    return np.asarray(np.any([(one == other) & (one != words) & (one != "") for one, other in pairs], axis=0))
 
 
 def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
@@ -153,16 +158,24 @@ def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
     return mesh
 
 
+def stability_of(data: xr.Dataset, x: str, y: str) -> Names:
+    """Stability of the followed cycle, or the word of the quantity `regions` where there is none."""
+    rate = data["growth_rate"].transpose(y, x).values
+    return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", words_of(data, "cycle", x, y)))
+
+
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     """Words where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
-        return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y))
+        words = np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y)).astype("<U16")
+        words[unresolved(stability_of(data, x, y))] = "alone"
+        return words
     words = np.full(rate.shape, "no_cycle", dtype="<U16")
     if "status" in data:
         status = words_of(data, "status", x, y)
         words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
-        words[status == EXCLUDED] = ""
+        words[status == EXCLUDED] = EXCLUDED
     if "sliding_growth_rate" in data:
         # growing steady sliding is no lasting motion
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)

@@ -14,30 +14,28 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, edges_of, fill, paler, patch, words_of
+from disc_model.figures.grids.cells import OUTCOME_LOOKS, UNRESOLVED, Look, edges_of, fill, patch, unresolved, words_of
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, new_figure
 
 Array = NDArray[np.float64]
 
-PALER = {"other_cycle": 0.35, "growing": 0.35, "separation": 0.75}
-BEHIND = OUTCOME_LOOKS | {name: paler(OUTCOME_LOOKS[name], share) for name, share in PALER.items()}
-"""Looks of the outcomes of the static start, behind curves and marks."""
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
-LOOKS = ((ONSET, "o"), (BLUE, "^"), (SKY, "s"), (GREEN, "D"), (PURPLE, "v"))
-"""Colour and marker of each horizon, the longest first."""
+LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
+"""Colour and marker of each horizon, the longest first; all have black edges, to be seen on any area."""
 WIDTH = 20.0
 """Width of a bar measured at one load, N: well within the step of the sweeps."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
-    norm, study, overlays = parts.of_one(study, overlays)
+    study, overlays = parts.of_one(study, overlays)
     lost = parts.failed(study).values
     sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
     scan = span(study["scan_Omega"].values)
@@ -76,8 +74,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
         handles += ax.get_legend_handles_labels()[0]
     axes[0].set_ylabel(LOAD)
     figure.legend(handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0)
-    fixed = ", ".join(filter(None, [parts.fixed(study, modes_said=True), parts.MODES[norm]]))
-    parts.entitle(figure, plot.title or study.attrs.get("title", ""), fixed)
+    parts.head(figure, study, plot)
     return figure
 
 
@@ -134,7 +131,10 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
         look: dict[str, Any] = {
             "color": color,
             "marker": marker,
-            "markersize": 3,
+            "markersize": 3.5,
+            "markeredgecolor": BLACK,
+            "markeredgewidth": 0.6,
+            "path_effects": [withStroke(linewidth=1.8, foreground=BLACK)],
             "zorder": 1.9 - 0.1 * i,
         }  # below the curves
         if i == 0:
@@ -149,8 +149,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     ends = speeds_of(study, horizons[0], "ends")
     if sum(map(len, ends)):
         loads = np.repeat(study["N"].values, [found.size for found in ends])
-        look = {"color": ONSET, "marker": "o", "markersize": 3, "markerfacecolor": "white", "markeredgewidth": 0.7}
-        ax.plot(np.concatenate(ends), loads, linestyle="", label="open: end of separation", **look)
+        ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=4, label="end of separation")
 
 
 def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
@@ -175,9 +174,10 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
-    looks: Mapping[str, Look] = BEHIND
+    looks: Mapping[str, Look] = OUTCOME_LOOKS | {"fine": UNRESOLVED}
     if "outcome" in cycle:
         words = words_of(cycle, "outcome", "Omega", "N")
+        words = np.where(unresolved(words), "fine", words)
         horizon = [Patch(alpha=0, label=f"areas: within {_map_horizon(cycle):g} s")]
     else:
         words = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")

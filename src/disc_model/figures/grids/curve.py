@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from textwrap import fill
 from typing import Any
 
@@ -21,7 +22,9 @@ from disc_model.figures.parts import BLACK, COLUMN, GREY, new_figure
 WIDEST = 25
 """Greatest length of a name that fits beside the panel, letters."""
 LINEAR = 0.1
-"""Growth rate up to which its scale is linear, 1/s."""
+"""Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
+MARKS = "os^Dv<>"
+"""Marks of the lines; they are open, so that lines on top of each other show."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot) -> Figure:
@@ -39,9 +42,16 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
     along = found[plot.x].values * factor
     words = parts.flags_of(found)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
-    for colour, (said, line) in zip(colours, lines, strict=True):
-        mark, name = "." if words else ".-", said if numbers is None else ""
-        ax.plot(along, line.values, mark, color=colour, markersize=3, linewidth=0.8, label=name or None)
+    jump = np.inf if plot.log or plot.variable != "growth_rate" else LINEAR
+    for colour, (said, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
+        name = said if numbers is None else ""
+        x, y = parts.broken(along, line.values, jump)
+        ax.plot(
+            x, y, mark + "-" * (not words), color=colour, label=name or None,
+            markersize=3, markerfacecolor="none", markeredgewidth=0.6, linewidth=0.7,
+        )  # fmt: skip
+    if plot.limits is not None:
+        ax.set_ylim(plot.limits)
     if plot.log:
         ax.set_yscale("log")
     elif plot.variable == "growth_rate":  # peaks of tens occur beside hundredths
@@ -61,7 +71,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
     if ax.get_legend_handles_labels()[0]:
         beside = by is not None and numbers is None and max(len(said) for said, _ in lines) < WIDEST
         figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or by else 2)
-    parts.head(figure, study, plot.title, found)
+    parts.head(figure, study, plot, found)
     return figure
 
 

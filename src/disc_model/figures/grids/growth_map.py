@@ -180,5 +180,5 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, axes)
-    parts.head(figure, study, plot.title, modes_said=True)
+    parts.head(figure, study, plot, modes_said=True)
     return figure

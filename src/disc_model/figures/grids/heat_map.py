@@ -15,8 +15,17 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
+from disc_model.figures.grids.cells import (
+    CYCLE_LOOKS,
+    cycle_patches,
+    cycles_of,
+    growth_bar,
+    growth_cells,
+    patch,
+    scale_of,
+)
 from disc_model.figures.kinds import HeatMap
 from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure
 
@@ -50,17 +59,18 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
         if left_out is not None:
             for ax, (_, panel) in zip(axes, parts.slices(left_out, by), strict=False):
                 _empty(ax, panel, plot)
+            handles.append(patch(CYCLE_LOOKS[EXCLUDED]))
         bar = figure.colorbar(mesh, ax=axes, pad=0.01, aspect=30)
         bar.set_label(parts.label_of(found)[0])
         if words := parts.flags_of(found):
             bar.set_ticks(list(range(len(words))), labels=words)
             bar.minorticks_off()
         elif gaps := parts.gaps(study, found, plot.at):
-            handles = [Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=", ".join(gaps))]
+            handles = [*handles, Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=", ".join(gaps))]
     _name(figure, axes, [said for said, _ in panels], found, plot)
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
-    parts.head(figure, study, plot.title, found)
+    parts.head(figure, study, plot, found)
     return figure
 
 

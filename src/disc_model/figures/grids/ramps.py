@@ -20,7 +20,7 @@ BEYOND = "none up to the highest speed"
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """Draw one point; with the further study ``curves``, also the speed at which the cycle ends."""
-    norm, study, overlays = parts.of_one(study, overlays)
+    study, overlays = parts.of_one(study, overlays)
     study = study.squeeze()
     options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
@@ -40,7 +40,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpee
     ax.margins(x=0.04)
     ax.set(xlabel="Ramp rate (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
     figure.legend(loc="outside lower center", ncols=1)
-    parts.entitle(figure, plot.title, f"{parts.fixed(study, modes_said=True)}, {parts.MODES[norm]}")
+    parts.head(figure, study, plot)
     return figure
 
 

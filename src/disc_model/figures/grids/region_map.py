@@ -12,7 +12,6 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
@@ -21,10 +20,6 @@ from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted
 from disc_model.figures.grids.stability_map import finish, legend_below_head
 from disc_model.figures.kinds import RegionMap
 from disc_model.figures.parts import PAGE, new_figure
-
-UNRESOLVED = cells.Look("unresolved", "none", cells.HATCH)
-"""Look of points whose outcome no neighbour shares."""
-Mask = NDArray[np.bool_]
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
@@ -40,10 +35,11 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         edges, words = cells.edges_of(one, plot.x, plot.y), cells.words_of(one, "outcome", plot.x, plot.y)
-        cells.fill(axes[0, column], edges, words, cells.OUTCOME_LOOKS)
-        single = standing_alone(words)
-        cells.fill(axes[0, column], edges, np.where(single, "here", ""), {"here": UNRESOLVED})
-        hatched |= bool(single.any())
+        fine = cells.unresolved(words)
+        cells.fill(
+            axes[0, column], edges, np.where(fine, "fine", words), cells.OUTCOME_LOOKS | {"fine": cells.UNRESOLVED}
+        )
+        hatched |= bool(fine.any())
         cells.growth_cells(axes[1, column], one, plot.x, plot.y)
         for row in range(2):
             ax = axes[row, column]
@@ -51,7 +47,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
             lines += _curves(ax, one, overlays) if "curves" in overlays else _borders(ax, one, plot)
     above: list[Artist] = [cells.patch(cells.OUTCOME_LOOKS[name]) for name in cells.OUTCOME_LOOKS
                            if name in flag_names(study["outcome"])]  # fmt: skip
-    above += [cells.patch(UNRESOLVED)] * hatched
+    above += [cells.patch(cells.UNRESOLVED)] * hatched
     above += {line.get_label(): line for line in lines}.values()
     legend_below_head(figure, study, plot, [*above, *finish(axes, study, plot)])
     cells.growth_bar(figure, list(axes[1]))
@@ -59,13 +55,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     below.append(Line2D([], [], linestyle="", label="\n".join(_said(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
     return figure
-
-
-def standing_alone(words: cells.Names) -> Mask:
-    """Points whose outcome no neighbour shares."""
-    around = np.pad(words, 1)
-    beside = (around[:-2, 1:-1], around[2:, 1:-1], around[1:-1, :-2], around[1:-1, 2:])
-    return np.asarray(np.all([words != other for other in beside], axis=0))
 
 
 def _curves(ax: Axes, data: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> list[Artist]:
@@ -79,11 +68,12 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
     """Draw borders between cells: where the same cycle changes its stability, and where a stable one ends.
 
     A cycle ends where the next cell has no cycle and the motion does not stay quiet there. A start that follows no
-    cycle, or another one, does not prove an end.
+    cycle, or another one, does not prove an end. Nothing is drawn around unresolved cells.
     """
     x, y = cells.edges_of(data, plot.x, plot.y)
-    growth = data["growth_rate"].transpose(plot.y, plot.x).values
-    stable, unstable = growth < 0, growth > 0
+    state = cells.stability_of(data, plot.x, plot.y)
+    state[cells.unresolved(state)] = "unresolved"
+    stable, unstable = state == "stable", state == "unstable"
     gone = cells.words_of(data, "cycle", plot.x, plot.y) == "no_cycle"
     gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
     # the axes of the study's plane may be exchanged

@@ -15,16 +15,19 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, shown_number, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
-from disc_model.figures.parts import BLUE, GREY, PAGE, new_figure
+from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
 
 BINS = 3
 """Number of parts, with equal numbers of draws, of a parameter's distribution."""
+
+WHOLE: dict[str, Any] = {"color": BLACK, "linewidth": 0.7, "linestyle": (0, (3, 2))}
+"""Look of the probability at all values."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
     """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
 
-    Bars are 95 % intervals; the line is the probability at all values.
+    Bars are 95 % intervals; the dashed line is the probability at all values.
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
     figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
@@ -41,9 +44,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
         )
         part.suptitle(", ".join((title.replace("\n", ", "), said)), x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
-    title = plot.title or study.attrs.get("title", "")
-    said = spreads(options["distributions"])
-    parts.head(figure, study, ": ".join(filter(None, [title, said])))
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    parts.note(figure, plot, spreads(options["distributions"]))
+    parts.head(figure, study, plot)
     return figure
 
 
@@ -71,8 +74,9 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
 
 def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     middle, share, error = probabilities(cell, name)
-    ax.axhline(float(cell["probability_unstable"]), color=GREY, linewidth=0.7)
-    ax.errorbar(middle, share, 1.96 * error, color=BLUE, marker="o", markersize=2.5, linewidth=0.8, capsize=1.5)
+    ax.axhline(float(cell["probability_unstable"]), label="all values", **WHOLE)
+    label = "a third of the values, with its interval"
+    ax.errorbar(middle, share, 1.96 * error, fmt="o", color=BLUE, markersize=2.5, capsize=1.5, label=label)
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
     _, _, unit, factor = shown_number(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)

@@ -162,6 +162,6 @@ def _round_values(values: np.ndarray) -> list[float]:
 
 def legend_below_head(figure: Figure, study: xr.Dataset, plot: StabilityMap, handles: Iterable[Artist]) -> None:
     """Draw a legend over all panels, below `head`, which a title of the figure itself would cover."""
-    said = parts.headline(figure, plot.title or study.attrs.get("title", ""), parts.fixed(study, modes_said=True))
+    said = parts.headline(figure, plot, study.attrs.get("title", ""), parts.fixed(study, modes_said=True))
     shown = list(handles)
     figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title=said, title_fontsize=8)
