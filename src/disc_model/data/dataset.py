@@ -18,7 +18,7 @@ import os
 import secrets
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -29,7 +29,6 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, shown
 from disc_model.parameters import RESIDUAL, Parameters
 
 CONVENTIONS = "CF-1.11"
-T = TypeVar("T")
 OVERHEAD = 1 << 18
 """Approximate size of attributes and file format, in bytes."""
 
@@ -99,9 +98,7 @@ def _compliance(p: Parameters) -> float:
 
 
 def _column(column: Any, flags: tuple[str, ...]) -> np.ndarray:
-    if flags:
-        return pd.Categorical(column, categories=flags).codes.astype(np.int8)
-    return np.asarray(column, dtype=float)
+    return pd.Categorical(column, categories=flags).codes.astype(np.int8) if flags else np.asarray(column, dtype=float)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -125,8 +122,12 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     """
     if not isinstance(tree, xr.DataTree):
         raise ParameterError(Fault(("tree",), shown(tree), "must be an xarray.DataTree"))
-    file, encoding = _file(path), _encoding(tree)
-    size = sum(node.to_dataset(inherit=False).nbytes for node in tree.subtree)
+    file, groups = _file(path), {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+    encoding = {
+        place: {str(name): _encode(variable) for name, variable in group.variables.items()}
+        for place, group in groups.items()
+    }
+    size = sum(group.nbytes for group in groups.values())
     write_atomically(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
 
 
@@ -156,20 +157,11 @@ def agreed(values: Iterable[str]) -> str:
     return different[0] if len(different) == 1 else json_attribute(different)
 
 
-def _encoding(tree: xr.DataTree) -> dict[str, dict[str, Any]]:
-    return {
-        node.path: {str(name): _encode(var) for name, var in node.to_dataset(inherit=False).variables.items()}
-        for node in tree.subtree
-    }
-
-
 def _encode(variable: xr.Variable) -> dict[str, Any]:
     if variable.dtype.kind in "UO":
         return {"dtype": "S1"}
-    encoding: dict[str, Any] = {"_FillValue": None}
-    if variable.ndim and variable.size:
-        encoding |= {"zlib": True, "complevel": 1, "shuffle": True}
-    return encoding
+    compressed = {"zlib": True, "complevel": 1, "shuffle": True} if variable.ndim and variable.size else {}
+    return {"_FillValue": None} | compressed
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -284,24 +276,14 @@ class InputsError(DiscModelError):
 
 
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
-    """Read files written by `save`; damaged ones are treated as in `each_intact`."""
-    return each_intact(load, paths)
-
-
-def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
-    """Read files as `load_inputs` does, into a mapping by the names of the files, which are those of the cases."""
-    return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
-
-
-def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
-    """Apply a function to files; raises `InputsError` if any is damaged or missing.
+    """Read files written by `save`; raises `InputsError` if any is damaged or missing.
 
     Damaged files are renamed, so that the next run finds them missing and computes them again.
     """
     found, faults = [], []
     for path in paths:
         try:
-            found.append(read(path))
+            found.append(load(path))
         except DamagedFile as error:
             faults.append(f"{error}; now called {set_aside(path).name}")
         except FileNotFoundError:
@@ -309,6 +291,11 @@ def each_intact(read: Callable[[Path], T], paths: Sequence[Path]) -> list[T]:
     if faults:
         raise InputsError("\n".join([*faults, "Run snakemake again: it computes them anew."]))
     return found
+
+
+def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
+    """Read files as `load_inputs` does, into a mapping by the names of the files, which are those of the cases."""
+    return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
 
 
 def set_aside(path: Path) -> Path:
