@@ -151,10 +151,11 @@ def json_attribute(value: Any) -> str:
     return json.dumps(value, sort_keys=True)
 
 
-def agreed(values: Iterable[str]) -> str:
-    """The common value if all values are equal; otherwise the list of all, as text."""
-    different = sorted(set(values))
-    return different[0] if len(different) == 1 else json_attribute(different)
+def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
+    """Attributes that say what made datasets; a value that differs between them becomes the list of all, as text."""
+    names = ("source_hash", "git_commit", "versions")
+    found = {name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names}
+    return {name: min(said) if len(said) == 1 else json_attribute(sorted(said)) for name, said in found.items() if said}
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
@@ -294,7 +295,7 @@ def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
 
 
 def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
-    """Read files as `load_inputs` does, into a mapping by the names of the files, which are those of the cases."""
+    """Read files as `load_inputs` does, into a mapping by the names of the files, such as those of cases or studies."""
     return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
 
 

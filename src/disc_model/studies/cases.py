@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from disc_model.data.dataset import CONVENTIONS, agreed
+from disc_model.data.dataset import CONVENTIONS, common_provenance
 
 
 def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:
@@ -34,7 +34,7 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
         texts[name] = [labels.get(case, {}).get(name, "") for case in cases]
     for name, values in texts.items():
         table[name] = ("case", np.array(values, dtype=str), {"long_name": _TEXTS.get(name, name)})
-    table.attrs = {"Conventions": CONVENTIONS, **_common(rows)}
+    table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
     tree = xr.DataTree(table)
     for name, case in cases.items():
         tree[name] = case
@@ -46,12 +46,3 @@ _TEXTS = {
     "reference": "place in the paper",
     "title": "what the case is",
 }
-
-
-def _common(rows: list[xr.Dataset]) -> dict[str, str]:
-    """Provenance of the cases; a value that differs between them becomes the list of all."""
-    common = {}
-    for name in ("source_hash", "git_commit", "versions"):
-        if values := [str(row.attrs[name]) for row in rows if name in row.attrs]:
-            common[name] = agreed(values)
-    return common

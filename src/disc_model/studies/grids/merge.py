@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.dataset import CONVENTIONS, agreed, json_attribute
+from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError, shown
 from disc_model.studies.grids.points import STATUSES
@@ -135,6 +135,4 @@ def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, st
         every = [json.loads(batch.attrs["specification"])[key] for batch in batches]
         specification[key] = {name: one for named in every for name, one in sorted(named.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
-    for name in ("source_hash", "git_commit", "versions"):
-        common[name] = agreed(str(batch.attrs[name]) for batch in batches)
-    return common
+    return common | common_provenance(batches)
