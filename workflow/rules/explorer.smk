@@ -17,18 +17,24 @@ rule explorer:
         refuse_unrecorded,
 
 
-# Short histories at a few points of a study's grid. As with batches, the file's name is the hash of all that decides
-# its content.
-use rule compute_batch as compute_motions with:
+rule compute_motions:
+    # Short histories at a few points of a study's grid. As with batches, the file's name is the hash of all that
+    # decides its content.
+    input:
+        lambda wildcards: compiled(GRIDS[wildcards.study].kernels),
     output:
         motion_file("{study}", "{key}"),
     log:
         "results/{study}/logs/compute_motions/{key}.log",
+    conda:
+        "../envs/disc_model.yaml"
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
         made_of=lambda wildcards: made_of(
             "compute_motions", *GRIDS[wildcards.study].sources
         ),
+    shell:
+        "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
 
 
 rule build_explorer:

@@ -19,7 +19,7 @@ rule compute_batch:
         batch=lambda wildcards: GRIDS[wildcards.study].batches[wildcards.batch],
         made_of=lambda wildcards: batch_made_of(wildcards.study),
     shell:
-        "job {rule} {output} <<< {params.batch:q} > {log} 2>&1"
+        "job compute_batch {output} <<< {params.batch:q} > {log} 2>&1"
 
 
 rule merge_batches:
