@@ -42,6 +42,7 @@ from disc_model.simulation.result import (
     Workspace,
     engine_case,
     give_back,
+    is_finite,
     read_state,
     series_order,
     series_tolerance,
@@ -178,7 +179,7 @@ class _Request:
         t_end, stop_at, progress = self.t_end, self.stop_at, self.progress
         stated = self.initial_state is None or isinstance(self.initial_state, State)
         time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
-        timed = is_number(time) and math.isfinite(time)
+        timed = is_finite(time)
         start = time if timed else 0.0
         rule = f"must be finite and > {shown(start)} (the time of the initial state)"
         rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule

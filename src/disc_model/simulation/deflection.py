@@ -46,18 +46,15 @@ def snapshots(
     SimulationError
         If the motion ends before the last time.
     """
-    faults = _foreign(p, initial_state)
-    wanted = _numbers(times)
-    if wanted is None or np.any(np.diff(wanted) < 0):
-        faults.append(Fault(("times",), shown(times), "must be finite and ascend"))
-    if faults or wanted is None:
-        raise ParameterError(*faults)
+    given = _numbers(times)
+    ascend = given is not None and not np.any(np.diff(given) < 0)
+    refuse(_foreign(p, initial_state) + broken((ascend, "times", times, "must be finite and ascend")))
+    wanted: list[float] = [] if given is None else given.tolist()
     state = static_start(p) if initial_state is None else initial_state
-    if wanted.size and wanted[0] < state.time:
-        rule = f"must be >= {shown(state.time)} (the time of the initial state)"
-        raise ParameterError(Fault(("times",), shown(float(wanted[0])), rule))
+    rule = f"must be >= {shown(state.time)} (the time of the initial state)"
+    refuse(broken(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
     found = []
-    for time in wanted.tolist():
+    for time in wanted:
         if time > state.time:
             state = simulate(p, time, tol=tol, initial_state=state, record=_NOTHING).raise_for_status().final_state
         found.append(state)
@@ -117,7 +114,7 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     )
     for i, state in enumerate(given):
         if not isinstance(state, State):
-            faults.append(Fault(("states", str(i)), shown(state), "must be a State"))
+            faults += broken((False, f"states.{i}", state, "must be a State"))
         elif len(state.a) != len(psi):
             rule = f"must have {len(psi)} modes, as the case, and not {len(state.a)}"
             faults.append(Fault(("states", str(i)), "", rule))

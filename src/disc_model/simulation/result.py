@@ -21,7 +21,7 @@ from disc_model.engine import layout
 from disc_model.engine.audit import N_SUMS
 from disc_model.engine.event_loop import EVENT_ROW, N_COUNTERS
 from disc_model.engine.transitions import TOUCHING
-from disc_model.errors import Fault, ParameterError, Status, shown
+from disc_model.errors import Fault, ParameterError, Status, broken, refuse, shown
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters, is_number
 from disc_model.plate import modal_damping, mode_arrays
@@ -209,12 +209,9 @@ class Result:
             If the name is another one, or a time is not a finite number.
         """
         known = isinstance(name, str) and name in RAMPED
-        errors.refuse(
-            errors.broken(
-                (known, "name", name, f"must be one of {', '.join(RAMPED)}"),
-                (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
-            )
-        )
+        finite = is_finite_array(times, flat=False)
+        rule = f"must be one of {', '.join(RAMPED)}"
+        refuse(broken((known, "name", name, rule), (finite, "times", times, "must be finite numbers")))
         return values_at(self.parameters, self.ramps, name, times)
 
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
@@ -552,37 +549,31 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
 
 
 def _faults(given: State, case: EngineCase) -> list[str]:
-    faults: list[str] = []
     n_modes = len(case.amplitudes)
     # in compliant contact, contact and its force can begin at the same instant
-    highest_known = 7 if len(case.model.compliance) == 1 else 3
-
-    def add(name: str, rule: str, value: object = None) -> None:
-        faults.append(Fault(("initial_state", name), "" if value is None else shown(value), rule))
-
-    for name in _MODAL:
-        if not is_finite_array(getattr(given, name), n_modes):
-            add(name, f"must be {n_modes} finite numbers, one per row of plate_modes")
-    faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
-    endless = [name for name in _PLAIN if not _is_finite(getattr(given, name))]
-    for name in endless:
-        if name != "time_low":
-            add(name, "must be finite", getattr(given, name))
+    highest, known = (7, "a whole number from 0 to 7") if len(case.model.compliance) == 1 else (3, "0, 1, 2 or 3")
+    rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
+    wrong = [name for name in _MODAL if not is_finite_array(getattr(given, name), n_modes)]
+    faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
+    finite = {name: is_finite(getattr(given, name)) for name in _PLAIN}
     # the clock's compensation is at most a unit in the last place of the time
-    if "time_low" in endless or ("time" not in endless and abs(given.time_low) > math.ulp(given.time)):
-        add("time_low", "must be less than the last digit of the time", given.time_low)
-    if not _is_among(given.known, range(highest_known + 1)):
-        rule = "0, 1, 2 or 3" if highest_known == 3 else f"a whole number from 0 to {highest_known}"
-        add("known", f"must be {rule}", given.known)
-    if not isinstance(given.phase, str) or given.phase not in PHASES:
-        add("phase", f"must be one of {', '.join(PHASES)}", given.phase)
-    elif given.phase == "stick" and "f" not in endless and given.f != 0:
-        add("f", "must be 0 in stick", given.f)
-    elif given.phase == "slip" and not _is_among(given.direction, (-1, 1)):
-        add("direction", "must be -1 or 1 in slip", given.direction)
-    elif given.phase == "slip" and "f" not in endless and given.f * given.direction < 0:
-        add("f", f"must have the sign of direction={given.direction}", given.f)
-    return faults
+    small = finite["time_low"] and (not finite["time"] or abs(given.time_low) <= math.ulp(given.time))
+    phase = given.phase if isinstance(given.phase, str) else ""
+    f, directed = given.f if finite["f"] else 0.0, _is_among(given.direction, (-1, 1))
+    against = phase == "slip" and directed and f * given.direction < 0
+    rules = (
+        *((finite[name], name, "must be finite") for name in _PLAIN if name != "time_low"),
+        (small, "time_low", "must be less than the last digit of the time"),
+        (_is_among(given.known, range(highest + 1)), "known", f"must be {known}"),
+        (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),
+        (phase != "stick" or f == 0, "f", "must be 0 in stick"),
+        (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),
+        (not against, "f", f"must have the sign of direction={given.direction}"),
+    )
+    faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
+    return faults + broken(
+        *((holds, f"initial_state.{name}", getattr(given, name), rule) for holds, name, rule in rules)
+    )
 
 
 def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) -> list[str]:
@@ -600,7 +591,8 @@ def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) ->
     ]
 
 
-def _is_finite(value: object) -> bool:
+def is_finite(value: object) -> bool:
+    """Whether a value is a finite number."""
     return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import exit_codes, layout, saltation, tangent, variational
 from disc_model.errors import StatusBase, broken, refuse, shown
-from disc_model.parameters import TOLERANCES, Parameters, is_number, limits_faults
+from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, limits_faults
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
@@ -243,7 +243,7 @@ def _check(
     most = layout.WIDTH if faults else min(layout.WIDTH, len(_coordinates(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
-    counts = isinstance(count, int | np.integer) and not isinstance(count, bool) and 1 <= count <= most
+    counts = is_whole(count) and 1 <= count <= most
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
     starts = initial_state is None or isinstance(initial_state, State)
     faults += broken(
