@@ -40,6 +40,8 @@ def test_frequencies_of_the_free_disc_agree_with_the_paper() -> None:
 def test_published_amplitudes() -> None:
     psi = plate_modes(P).psi.to_numpy()
     assert_allclose(psi**2, [1.70575, 66.79457, 2.35417, 1.32275, 0.96751], rtol=0, atol=5.1e-6)
+    # what the modes give way under a unit force
+    assert mode_arrays(P).flexibility == pytest.approx(float(np.sum(psi**2 / plate_modes(P).omega ** 2)), rel=1e-14)
 
 
 def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:

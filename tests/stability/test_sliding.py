@@ -38,6 +38,8 @@ def check_against_flow(p: Parameters, apart: float) -> None:
 def test_steady_sliding_is_told_in_a_line():
     """Its eigenvalues and its Jacobian, 9,181 characters, came with it."""
     assert len(repr(steady_sliding(P))) < 300
+    for force, name in (("vertical", "P"), ("normal", "R")):
+        assert steady_sliding(P.replace(contact_force=force)).message.startswith(f"steady sliding with {name} = ")
 
 
 @pytest.mark.compiled

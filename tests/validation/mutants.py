@@ -105,7 +105,7 @@ NO_EQUATION = {
         "engine/sampling.py": "sample_step",
         "engine/saltation.py": "rest",
         "engine/variational.py": "coordinate _place",
-        "simulation/ramps.py": "Ramp._ordered faults values_at",
+        "simulation/ramps.py": "Ramp._ordered faults",
         "simulation/result.py": (
             "State.replace State.save State.load Result._groups _checked_names engine_case _point write_state "
             "_forget_switch _check_height _faults amplitude_faults is_finite_array"
@@ -134,6 +134,8 @@ EQUIVALENT: dict[str, str] = {
     "engine/transitions.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
     "engine/transitions.py:_rounding: - model.u_0 -> +": "a size",
     "engine/transitions.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
+    "stability/sliding.py:_slip: - p.N -> +": "a constant, and only derivatives of these rates are taken",
+    "stability/sliding.py:_slip: - model.u_0 -> +": "a constant, and only derivatives of these rates are taken",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
 }
 PATIENCE = 100
