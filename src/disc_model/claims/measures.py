@@ -461,6 +461,16 @@ def growth_or_nan(p: Parameters) -> float:
         return math.nan
 
 
+@lru_cache(maxsize=64)
+def simulate_again(p: Parameters, until: float) -> xr.DataTree:
+    """A case from the static start until a time in s, with its window `history`."""
+    from disc_model.simulation.api import run_case
+    from disc_model.simulation.case import CaseSpec, Window
+
+    history = Window(start=0.0, stop=until, rate=2000.0, envelope=1000)
+    return run_case(CaseSpec(parameters=p, t_end=until, windows=(("history", history),)))
+
+
 @cache
 def sliding_growth(p: Parameters) -> float:
     """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an equilibrium."""

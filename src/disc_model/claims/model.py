@@ -18,7 +18,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from disc_model.analysis.classify import SETTLED
-from disc_model.claims.measures import STRETCH, Absent, CaseView, rows
+from disc_model.claims.measures import STRETCH, Absent, CaseView, rows, simulate_again
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Parts, Sentences
 from disc_model.errors import DiscModelError
@@ -97,6 +97,7 @@ class Text(BaseModel):
         stands for all in which contact can be lost
     steady : those whose steady state it is about: one that has not come to it by its end decides nothing
     computed : whether it is judged again with each of their parameters changed, which must not need other runs
+    simulated : whether it is judged again with each changed in new simulations of the cases, up to their times
     scans : the grid studies that the check is given besides
     ours : what we found
     remark, remarks : what should be known besides: in any case; where the value of that name is true
@@ -117,6 +118,7 @@ class Text(BaseModel):
     separates: Names = ()
     steady: Names = ()
     computed: bool = False
+    simulated: bool = False
     scans: tuple[str, ...] = ()
     ours: str
     remark: str = ""
@@ -181,7 +183,7 @@ class Claim:
         try:
             needed = {name: _needed(cases, name, until) for name, until in self.said.cases.items()}
             if changed:
-                needed = {name: replace(case, scaled=((changed, CHANGED),)) for name, case in needed.items()}
+                needed = {name: self._changed(case, changed) for name, case in needed.items()}
             for name in self.said.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
@@ -195,8 +197,17 @@ class Claim:
         except Missing as missing:
             return _without(missing)
 
+    def _changed(self, case: CaseView, parameter: str) -> CaseView:
+        """The case with a parameter taken to be 0.1 % larger, or simulated with it."""
+        other = replace(case, scaled=((parameter, CHANGED),))
+        if not self.said.simulated:
+            return other
+        return CaseView(case.name, simulate_again(other.parameters, self.said.cases[case.name]))
+
     def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
         """Final result of the claim, undecided if a halved or doubled threshold changes the verdict; and such changes.
+
+        That other simulations change it is a remark: the paper speaks of one, with exactly its values.
 
         judge : result of a claim, this one or with other thresholds; with a parameter changed if it is `computed`
         """
@@ -205,7 +216,13 @@ class Claim:
         if turned not in ("", "stable") and found.verdict != UNDECIDED:
             remark = "; ".join(filter(None, (f"small changes turn it: {turned}", found.remark)))
             found = replace(found, verdict=UNDECIDED, remark=remark)
-        return found, turned
+        if not self.said.simulated or found.verdict.startswith(NOT_COMPUTED):
+            return found, turned
+        others = _turns({f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}, found.verdict)
+        if others:
+            remark = "; ".join(filter(None, (found.remark, f"of these very values: {others}")))
+            found = replace(found, verdict=REMARK if found.verdict == HOLDS else found.verdict, remark=remark)
+        return found, "; ".join(filter(None, (turned.replace("stable", ""), others))) or "stable"
 
     def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
         """The bounds, halved or doubled, or the parameters, changed, that change the verdict; "stable" without any.
@@ -222,9 +239,7 @@ class Claim:
                 others[f"{name} = {other:.4g}"] = judge(replace(self, said=said)).verdict
         if self.said.computed:
             others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
-        kind = verdict.replace(REMARK, HOLDS)
-        turned = [f"{other} with {name}" for name, other in others.items() if other.replace(REMARK, HOLDS) != kind]
-        return "; ".join(turned) or "stable"
+        return _turns(others, verdict) or "stable"
 
     def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
         said, values = self.said, self.numbers | rows_of(cases or {}) | answer.values
@@ -296,6 +311,15 @@ CHECKS = Checks()
 
 # ----------------------------------------------------------------------------------------------------
 # Checks of the evidence
+
+
+def _turns(others: Mapping[str, str], verdict: str) -> str:
+    """The verdicts that differ from a verdict, each with the changes that bring it."""
+    kind, names = verdict.replace(REMARK, HOLDS), dict[str, list[str]]()
+    for name, other in others.items():
+        if other.replace(REMARK, HOLDS) != kind:
+            names.setdefault(other, []).append(name)
+    return "; ".join(f"{other} with {', '.join(changes)}" for other, changes in names.items())
 
 
 def _without(missing: Missing) -> Finding:
