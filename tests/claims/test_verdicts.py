@@ -343,7 +343,7 @@ def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pyt
 
 @pytest.mark.parametrize(
     ("story", "verdict", "turned"),
-    [(made_up.as_told()["F13"], HOLDS, "stable"), (STILL, REMARK, "does not hold with k 0.1 % larger")],
+    [(made_up.as_told()["F13"], HOLDS, "stable"), (STILL, REMARK, "does not hold with k (each 0.1 % larger)")],
 )
 def test_other_simulations_of_a_case_are_a_remark(
     story: Story, verdict: str, turned: str, monkeypatch: pytest.MonkeyPatch

@@ -218,9 +218,10 @@ class Claim:
             found = replace(found, verdict=UNDECIDED, remark=remark)
         if not self.said.simulated or found.verdict.startswith(NOT_COMPUTED):
             return found, turned
-        others = _turns({f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}, found.verdict)
+        others = _turns({name: judge(self, name).verdict for name in PHYSICAL}, found.verdict)
         if others:
-            remark = "; ".join(filter(None, (found.remark, f"of these very values: {others}")))
+            others += " (each 0.1 % larger)"
+            remark = "; ".join(filter(None, (found.remark, f"only for these very values: {others}")))
             found = replace(found, verdict=REMARK if found.verdict == HOLDS else found.verdict, remark=remark)
         return found, "; ".join(filter(None, (turned.replace("stable", ""), others))) or "stable"
 
