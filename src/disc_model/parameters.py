@@ -721,6 +721,11 @@ def foreign_case(p: object) -> list[str]:
     return [] if isinstance(p, Parameters) else [Fault(("p",), shown(p), "must be Parameters")]
 
 
+def leaves_modes(values: Mapping[str, Any]) -> bool:
+    """Whether a file's values of a case leave the number of modes to `disc_model.truncation`."""
+    return values.get("n_diameters") == AUTO or any(name in values for name in CHOOSING)
+
+
 def _rigidity(E: float, h: float, nu: float) -> float:
     return E * h**3 / 12 / (1 - nu**2)
 

@@ -54,6 +54,7 @@ from disc_model.parameters import (
     Tolerance,
     Unit,
     each_in_si,
+    leaves_modes,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -835,7 +836,7 @@ GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_gi
 def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
-    return read_asked(values)
+    return read_asked(values) if leaves_modes(values) else (Parameters.model_validate(values), None)
 
 
 class NamedCase(Strict):

@@ -50,6 +50,7 @@ from disc_model.parameters import (
     cross_faults,
     faults_of_names,
     is_number,
+    leaves_modes,
     with_ratios,
 )
 from disc_model.plausibility import RULES
@@ -786,6 +787,8 @@ class _Grid:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         said = self.document.base
         given = {name: getattr(said, name) for name in type(said).model_fields if name in said.model_fields_set}
+        if not leaves_modes(given):
+            return given, {}
         fixed, asked, more = asked_modes(given)
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
