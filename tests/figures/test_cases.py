@@ -262,6 +262,12 @@ def test_sections_of_a_pair_share_the_axes_of_the_slider() -> None:
     assert second.get_xlim() != disc.get_xlim()
 
 
+def test_spans_side_by_side_share_their_axis() -> None:
+    """Figs. 26 and 28 showed two spans on axes of their own, of which only the left one had a name."""
+    left, right = (ax for ax in draw("fig26").axes if ax.get_xlabel().endswith("(ms)"))
+    assert left.get_ylim() == right.get_ylim()
+
+
 def test_closures_fall_to_rounding_at_the_period_only() -> None:
     """Releases that repeat after three: nothing showed that motions of long periods are periodic."""
     times = np.cumsum(np.tile([0.01, 0.02, 0.04], 10))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -38,7 +39,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
     unstable = study["sliding_growth_rate"].values > 0
     said = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
     ax.plot(along, np.full(along.size, LOWEST), color=GREY, linewidth=0.8, linestyle="--" if unstable.all() else "-")
-    parts.say(ax, f"steady sliding: {said}", (along[0], LOWEST), (4, 3), fontsize=7, color=GREY)
+    parts.say(ax, f"steady sliding: {said}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
     for case, value in plot.paper_cases.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = -1 if value == min(plot.paper_cases.values()) else 1
@@ -69,7 +70,8 @@ def _sweep(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: 
     """Draw the marks of a sweep, and an arrow at each jump."""
     shown = np.maximum(y, LOWEST)
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
-        ax.plot(x[at], shown[at], mark, color=color, markersize=2.5, markerfacecolor="white", markeredgewidth=0.5)
+        look: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
+        ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **look)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
     for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP)):

@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
 LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
 """Colour and marker of each horizon, the longest first; all have black edges, to be seen on any area."""
+STEEPEST = 0.15
+"""Change of an onset with the load, rad/s per N, beyond which two onsets belong to different ranges of speed."""
 WIDTH = 20.0
 """Width of a bar measured at one load, N: well within the step of the sweeps."""
 
@@ -117,7 +119,9 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
     loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
     # a gap after each pair
-    pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in branches(speeds)]
+    steps = STEEPEST * np.diff(loads)
+    links = [(i, one, two) for i, one, two in branches(speeds) if abs(one - two) < steps[i]]
+    pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in links]
     alone = [[(speed, load), (np.nan, np.nan)] for load, found in zip(loads, speeds, strict=True) for speed in found]
     ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
 

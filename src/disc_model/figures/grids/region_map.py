@@ -32,6 +32,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     axes = figure.subplots(2, len(norms), sharex=True, sharey=True, squeeze=False)
     lines: list[Artist] = []
     hatched = False
+    gaps: set[str] = set()
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         edges, words = cells.edges_of(one, plot.x, plot.y), cells.words_of(one, "outcome", plot.x, plot.y)
@@ -41,6 +42,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
         )
         hatched |= bool(fine.any())
         cells.growth_cells(axes[1, column], one, plot.x, plot.y)
+        gaps |= {*cells.cycles_of(one, plot.x, plot.y).flat} - {"alone"}
         for row in range(2):
             ax = axes[row, column]
             parts.letter(ax, "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
@@ -51,7 +53,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     above += {line.get_label(): line for line in lines}.values()
     legend_below_head(figure, study, plot, [*above, *finish(axes, study, plot)])
     cells.growth_bar(figure, list(axes[1]))
-    below: list[Artist] = list(cells.cycle_patches(set(flag_names(study["cycle"]).flat)))
+    below: list[Artist] = list(cells.cycle_patches(gaps))
     below.append(Line2D([], [], linestyle="", label="\n".join(_said(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
     return figure

@@ -200,6 +200,9 @@ def response(
     with parts.blank_if_missing(panels["whole"]):
         _whole_run(panels["whole"], case, variable, marked, until)
     for i, (name, start) in enumerate(zooms):
+        if i:
+            panels[f"zoom{i}"].sharey(panels["zoom0"])
+            panels[f"zoom{i}"].tick_params(labelleft=False)
         with parts.blank_if_missing(panels[f"zoom{i}"]):
             _closer(panels[f"zoom{i}"], dataset.samples(case, name), variable, start, first=i == 0)
             parts.letter(panels[f"zoom{i}"], "cd"[i])
