@@ -482,14 +482,14 @@ class LyapunovOptions(Options):
     transient : s, left out
     duration : s, averaging time of the rates
     exponents : number of exponents, 1 to 7
-    interval : s, between orthonormalisations
+    interval : s, between orthonormalisations; exponents below -400/s need a shorter one
     """
 
     tol: Tolerance = 1e-10
     transient: Seconds
     duration: Seconds
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = 0.01
+    interval: Seconds = 0.05
 
 
 class BasinsOptions(Options):
