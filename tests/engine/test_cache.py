@@ -33,6 +33,20 @@ def outer(x):
     return inner(x) + 1.0
 print(inner(1.0), outer(1.0))
 """
+HELPED = """
+import numpy as np
+from disc_model.engine.compile import kernel
+from disc_model.engine.merging import HelperCompiler
+from disc_model.engine.polynomial import set_powers
+compiled = []
+compile_pipelines = HelperCompiler.define_pipelines
+HelperCompiler.define_pipelines = lambda self: compiled.append(self.state.func_id) or compile_pipelines(self)
+@kernel
+def eighth(powers):
+    set_powers(powers, 2.0)
+    return powers[3]
+print(eighth(np.zeros(16)), len(compiled))
+"""
 pytestmark = pytest.mark.compiled
 
 
@@ -94,6 +108,21 @@ def test_a_kernel_is_compiled_against_one_from_the_cache(tmp_path: Path) -> None
     # the last has the kernel that was compiled against the other one from the cache as well
     said += [ask_for_a_kernel(tmp_path, code=OUTER).stdout for _ in range(2)]
     assert said == ["6.875 7.875\n"] * 3
+
+
+def test_a_kernel_is_linked_with_the_helpers_of_earlier_ones(tmp_path: Path) -> None:
+    """The machine code is the same as if they were compiled again, which they are if their file is damaged."""
+    made = [ask_for_a_kernel(tmp_path, code=HELPED).stdout]
+    kernel = only(tmp_path / "cache")
+    (helpers,) = kernel.parent.glob("*.helpers")
+    codes = [cache.read(kernel)[0][2][0]]
+    for damage in (b"", b"?"):
+        kernel.unlink()
+        helpers.write_bytes(helpers.read_bytes() + damage)
+        made.append(ask_for_a_kernel(tmp_path, code=HELPED).stdout)
+        codes.append(cache.read(kernel)[0][2][0])
+    assert made == ["8.0 1\n", "8.0 0\n", "8.0 1\n"]
+    assert codes[1:] == codes[:1] * 2
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:

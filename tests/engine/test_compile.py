@@ -57,6 +57,29 @@ def test_kernels_read_every_entry_of_a_packed_tuple_and_write_into_its_arrays() 
 
 
 @helper
+def _total(outer):  # type: ignore[no-untyped-def]
+    return outer.inner.factor + outer.sizes[1]
+
+
+@helper
+def _longer(outer):  # type: ignore[no-untyped-def]
+    return _total(outer) + len(outer.none)
+
+
+@kernel
+def _with_lengths(outer):  # type: ignore[no-untyped-def]
+    return _longer(outer)
+
+
+@pytest.mark.compiled
+def test_a_helper_is_compiled_once_for_all_lengths_of_tuples_that_it_does_not_read() -> None:
+    inner = Inner(np.zeros(1), 0.5)
+    outer = Outer(np.zeros((2, 3)), np.zeros(3, int), 4, -7, True, 1.0, (), (1.5, 2.5), (8, 9), inner)
+    assert [_with_lengths(outer._replace(none=(1.0,) * n)) for n in range(3)] == [9.5, 10.5, 11.5]
+    assert (len(_total.overloads), len(_longer.overloads)) == (1, 3)  # type: ignore[attr-defined]
+
+
+@helper
 def _third(x):  # type: ignore[no-untyped-def]
     return x / 3.0
 

@@ -44,6 +44,8 @@ TARGETS = {"x86-64-v4": ("x86-64-v4", "-prefer-256-bit"), "x86-64-v3": ("x86-64-
 # Errors raised by a part of numba that is missing or has changed.
 MISSING = (ImportError, AttributeError, TypeError)
 SUFFIX = ".kernel"
+HELPERS = ".helpers"
+"""Suffix of files with the helpers that were first compiled for a kernel, for kernels that are compiled later."""
 _DIGEST = hashlib.sha256().digest_size
 _SETTINGS: Any = numba.config
 
@@ -145,9 +147,13 @@ class KernelCache:
 
     def save_overload(self, signature: Any, compiled: Any) -> None:
         """Save compiled code if possible: a full or read-only disk costs time, not the result."""
-        path = folder() / self._file(signature, _processor(compiled.codegen))
+        processor = _processor(compiled.codegen)
+        path = folder() / self._file(signature, processor)
+        helpers = compiled.library.new_helpers() if hasattr(compiled.library, "new_helpers") else {}
         try:
             write(path, compiled._reduce())
+            if helpers:
+                write(path.with_suffix(f".{_hash(processor)}{HELPERS}"), helpers)
         except OSError as error:
             warn_once(
                 f"{path.parent}: compiled kernels cannot be kept there ({error.strerror}); "
@@ -155,8 +161,24 @@ class KernelCache:
             )
 
     def _file(self, signature: Any, processor: object) -> str:
-        key = repr((signature, processor, versions()))
-        return f"{self._name}.{hashlib.sha256(key.encode()).hexdigest()[:16]}{SUFFIX}"
+        return f"{self._name}.{_hash(signature, processor)}{SUFFIX}"
+
+
+def _hash(*of: object) -> str:
+    return hashlib.sha256(repr((*of, versions())).encode()).hexdigest()[:16]
+
+
+def stored_helpers(codegen: Any) -> dict[str, bytes]:
+    """The helpers that were compiled for earlier kernels."""
+    return _stored_helpers(folder(), _hash(_processor(codegen)))
+
+
+@functools.cache
+def _stored_helpers(place: Path, processor: str) -> dict[str, bytes]:
+    found: dict[str, bytes] = {}
+    for path in sorted(place.glob(f"*.{processor}{HELPERS}")):
+        found |= read(path) or {}
+    return found
 
 
 def write(path: Path, contents: object) -> None:

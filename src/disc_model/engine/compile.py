@@ -9,7 +9,9 @@ of each kernel that calls it.  An ``inlined`` helper is merged into its caller.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
@@ -20,7 +22,7 @@ from .cache import MISSING, keep, warn_once
 RULES: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
 _MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
 try:
-    from .merging import HelperCompiler, KernelCompiler
+    from .merging import HelperCache, HelperCompiler, KernelCompiler
 except MISSING as error:
     warn_once(f"numba {numba.__version__} compiles in another way than expected ({error}): it takes four times as long")
 else:
@@ -54,15 +56,36 @@ def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _make_part(part: Any, kernel: Any) -> None:
-    """Let Python call a separate kernel instead of a helper, and do not specialise on constants."""
+    """Let Python call a separate kernel instead of a helper, and specialise on no more of the types than it uses."""
     template = part.get_call_template
 
     def add_overload(compiled: Any) -> None:
         part.overloads[tuple(compiled.signature.args)] = compiled
 
+    def narrowed(kind: Any) -> Any:
+        kind = numba.types.unliteral(kind)
+        return kind.narrowed(_names(part.py_func)) if hasattr(kind, "narrowed") else kind
+
     part._compile_for_args = lambda *_, **__: kernel
     part.add_overload = add_overload
-    part.get_call_template = lambda args, kws: template(tuple(map(numba.types.unliteral, args)), kws)
+    part.get_call_template = lambda args, kws: template(tuple(map(narrowed, args)), kws)
+    if "pipeline_class" in _MERGED:
+        part._cache = HelperCache(part.py_func)
+
+
+@functools.cache
+def _names(function: FunctionType) -> frozenset[str]:
+    """All names in the code of a function and of those that it calls."""
+    names, found, left = set[str](), {function}, [function]
+    while left:
+        one = left.pop()
+        here, known = one.__code__.co_names, one.__globals__
+        modules = (vars(known[name]) for name in here if isinstance(known.get(name), ModuleType))
+        called = {getattr(place.get(name), "py_func", function) for place in (known, *modules) for name in here}
+        names.update(here)
+        left += called - found
+        found |= called
+    return frozenset(names)
 
 
 def compiled_for(function: Callable[..., Any], arguments: tuple[object, ...]) -> Callable[..., Any]:

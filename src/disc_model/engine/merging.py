@@ -3,17 +3,25 @@
 Numba optimises every function and generates its machine code before it links it into its callers.  Most of ours are
 called only by others.  Here a helper stays unoptimised until its kernel is complete, which is then optimised and turned
 into machine code as a whole.
+
+The unoptimised code of helpers is stored beside the kernel that first needed them (``cache.HELPERS``), and linked into
+kernels that other processes compile later.
 """
 
 from __future__ import annotations
 
 import gc
+import pickle
+from typing import ClassVar
 
 import llvmlite.binding as llvm
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler import CompilerBase, DefaultPassBuilder, compile_result
+from numba.core.serialize import dumps
 from numba.core.typed_passes import InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
+
+from .cache import stored_helpers
 
 # Passes for constructs that no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed
 # tuples.
@@ -50,9 +58,84 @@ class HelperLibrary(JITCodeLibrary):
     def get_pointer_to_function(self, name):
         return 0
 
+    known: ClassVar[dict] = {}
+    """Libraries by their keys, the function and the types of its arguments, or by their code."""
+    key = None
+
+    def stored(self):
+        """Its code as bytes.  Helpers that it calls are named; other code that it calls is included."""
+        links = [(each.name, _key_of(each) or _code(each)) for each in dict.fromkeys(self._linking_libraries)]
+        return dumps((self.name, self._final_module.as_bitcode(), links, self.result))
+
+    @classmethod
+    def of_code(cls, codegen, name, code):
+        """A library of stored code; the same one for the same code."""
+        if code not in cls.known:
+            cls.known[code] = cls(codegen, name)
+            cls.known[code]._final_module, cls.known[code]._finalized = llvm.parse_bitcode(code), True
+        return cls.known[code]
+
+    @classmethod
+    def restored(cls, codegen, key):
+        """The library with a key, from files if need be.  Raises KeyError."""
+        if key not in cls.known:
+            name, code, links, result = pickle.loads(stored_helpers(codegen)[key])
+            self = cls.of_code(codegen, name, code)
+            for called, link in links:
+                stored = isinstance(link, str)
+                part = cls.restored(codegen, link) if stored else cls.of_code(codegen, called, link)
+                self._linking_libraries.append(part)
+            self.key, self.result = key, result
+            cls.known[key] = self
+        return cls.known[key]
+
+
+class HelperCache:
+    """The helpers of kernels compiled before; numba's dispatcher requests and offers them as for a kernel."""
+
+    cache_path = None
+
+    def __init__(self, function):
+        self._name = f"{function.__module__}.{function.__qualname__}"
+
+    def load_overload(self, signature, target):
+        """The helper for a signature, or None if it has to be compiled."""
+        try:
+            library = HelperLibrary.restored(target.codegen(), f"{self._name}{signature}")
+        except KeyError:
+            return None
+        typed, descriptor = library.result
+        return compile_result(
+            target_context=target, typing_context=target.typing_context, library=library, entry_point=object(),
+            fndesc=descriptor, signature=typed, objectmode=False,
+        )  # fmt: skip
+
+    def save_overload(self, signature, compiled):
+        """Prepare a helper for being stored with its kernel."""
+        library, descriptor = compiled.library, compiled.fndesc
+        descriptor.typemap = descriptor.calltypes = None  # not needed any more, and large
+        library.key, library.result = f"{self._name}{signature}", (compiled.signature, descriptor)
+        library.known[library.key] = library
+
+
+def _key_of(library):
+    return library.key if isinstance(library, HelperLibrary) else None
+
+
+def _code(library):
+    return library._get_module_for_linking().as_bitcode()
+
 
 class KernelLibrary(JITCodeLibrary):
     """A kernel with all its helpers."""
+
+    def new_helpers(self):
+        """The helpers that are in no file yet, by their keys, as bytes."""
+        stored = stored_helpers(self._codegen)
+        keys = {_key_of(each): each for each in self._linking_libraries}
+        new = {key: each.stored() for key, each in keys.items() if key and key not in stored}
+        stored |= new
+        return new
 
     def _optimize_functions(self, ll_module):
         ll_module.data_layout = self._codegen._data_layout
@@ -97,6 +180,11 @@ class _Compiler(CompilerBase):
 
 class HelperCompiler(_Compiler):
     library = HelperLibrary
+
+    def define_pipelines(self):
+        # usually a number that counts compilations: callers from files know helpers by their names
+        self.state.func_id.unique_id = 0
+        return super().define_pipelines()
 
 
 class KernelCompiler(_Compiler):

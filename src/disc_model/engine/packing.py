@@ -3,6 +3,9 @@
 Numba would pass a tuple of arrays between kernels entry by entry: a model is 147 numbers to LLVM, a series 135. A
 ``packed`` tuple is a block of memory with its numbers and, for each array, the address and the lengths.  Entries are
 read on use and never written. LLVM is told so, and need not read them again.
+
+The lengths of tuples of numbers are part of the type.  A helper that reads none of them is compiled once for all
+lengths: it receives a `PackedType.narrowed` one.
 """
 
 from __future__ import annotations
@@ -28,10 +31,12 @@ else:
     from llvmlite import ir
     from numba import types
     from numba.core import cgutils
+    from numba.core.typeconv import Conversion
     from numba.core.typing.templates import AttributeTemplate
     from numba.extending import (
         NativeValue,
         infer_getattr,
+        lower_cast,
         lower_getattr_generic,
         models,
         register_model,
@@ -40,31 +45,48 @@ else:
     )
 
     _WORD, _BIT = ir.IntType(64), ir.IntType(1)
+    # Words of a tuple of numbers, whatever its length: what follows it then has the same place in all types.
+    _ROOM = 4
 
     class PackedType(types.Type):
         """Numba type of a packed named tuple.
 
-        fields : names and types of its entries; an array is followed by as many lengths as it has dimensions
+        fields : type of each entry, and the words of memory before it; an array is followed by its lengths
         """
 
         def __init__(self, name, fields):
-            self.fields = fields
-            self.kind = f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}"
-            super().__init__(name=self.kind)
+            self.of, self.fields = name, fields
+            super().__init__(name=f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}")
 
-        def place(self, name):
-            """Type of an entry, and the words of memory before it."""
-            before = 0
-            for each, kind in self.fields:
-                if each == name:
-                    return kind, before
-                before += _words(kind)
-            raise AttributeError(name)
+        def narrowed(self, used):
+            """The type without the tuples whose names are not in ``used``."""
+            fields = self.fields.items()
+            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
+            return PackedType(self.of, left)
+
+        def can_convert_to(self, typingctx, other):
+            """A narrowed type is the same memory."""
+            return Conversion.safe if isinstance(other, PackedType) and other.of == self.of else None
+
+    def _is_tuple(kind):
+        return isinstance(kind, types.UniTuple)
 
     def _words(kind):
         if isinstance(kind, types.Array):
             return 1 + kind.ndim
-        return kind.count if isinstance(kind, types.UniTuple) else 1
+        return max(_ROOM, kind.count) if _is_tuple(kind) else 1
+
+    def _placed(fields):
+        """``PackedType.fields`` from pairs of names and types."""
+        placed, before = {}, 0
+        for name, kind in fields:
+            placed[name] = kind, before
+            before += _words(kind)
+        return placed
+
+    @lower_cast(PackedType, PackedType)
+    def _cast(context, builder, of, to, value):
+        return value
 
     class _Packed:
         """Additions of a packed class to its named tuple."""
@@ -72,7 +94,7 @@ else:
         @functools.cached_property
         def numba_type(self):
             """See `PackedType`."""
-            return PackedType(type(self).__name__, tuple(zip(self._fields, map(_kind, self), strict=True)))
+            return PackedType(type(self).__name__, _placed(zip(self._fields, map(_kind, self), strict=True)))
 
         @functools.cached_property
         def _memory(self):
@@ -96,7 +118,7 @@ else:
             return value.ctypes.data, *value.shape
         if isinstance(value, _Packed):
             return (value.address,)
-        return value if isinstance(value, tuple) else (value,)
+        return (*value, *(0,) * (_ROOM - len(value))) if isinstance(value, tuple) else (value,)
 
     def packed(cls: T) -> T:
         """Let kernels receive a class of named tuples as one pointer."""
@@ -127,11 +149,11 @@ else:
         key = PackedType
 
         def generic_resolve(self, kind, name):
-            return dict(kind.fields).get(name)
+            return kind.fields.get(name, (None,))[0]
 
     @lower_getattr_generic(PackedType)
     def _read(context, builder, kind, value, name):
-        entry, place = kind.place(name)
+        entry, place = kind.fields[name]
 
         def word(i, of=_WORD):
             at = builder.gep(value, [_WORD(place + i)])
