@@ -60,9 +60,7 @@ else:
 
         def narrowed(self, used):
             """The type without the tuples whose names are not in ``used``."""
-            fields = self.fields.items()
-            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
-            return PackedType(self.of, left)
+            return _narrowed(self, used)
 
         def can_convert_to(self, typingctx, other):
             """A narrowed type is the same memory."""
@@ -76,13 +74,20 @@ else:
             return 1 + kind.ndim
         return max(_ROOM, kind.count) if _is_tuple(kind) else 1
 
-    def _placed(fields):
-        """``PackedType.fields`` from pairs of names and types."""
+    @functools.cache
+    def _narrowed(whole, used):
+        fields = whole.fields.items()
+        left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
+        return PackedType(whole.of, left)
+
+    @functools.cache
+    def _packed_type(of, fields):
+        """The type of a named tuple from the names and types of its entries."""
         placed, before = {}, 0
         for name, kind in fields:
             placed[name] = kind, before
             before += _words(kind)
-        return placed
+        return PackedType(of, placed)
 
     @lower_cast(PackedType, PackedType)
     def _cast(context, builder, of, to, value):
@@ -94,7 +99,7 @@ else:
         @functools.cached_property
         def numba_type(self):
             """See `PackedType`."""
-            return PackedType(type(self).__name__, _placed(zip(self._fields, map(_kind, self), strict=True)))
+            return _packed_type(type(self).__name__, tuple(zip(self._fields, map(_kind, self), strict=True)))
 
         @functools.cached_property
         def _memory(self):
