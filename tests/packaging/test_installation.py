@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 from tests import needs
 
@@ -20,6 +22,9 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
+LOCKS = ("requirements.lock", "requirements-bench.lock")
+UV = Path(sys.prefix, "bin", "uv")
+needs_uv = pytest.mark.skipif(not UV.exists(), reason="uv is not installed")
 PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
 
 
@@ -178,3 +183,35 @@ def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path
     said = plain.run("python", "-I", "-c", re.sub(r"^r\.plot\(\).*\n", drawn, shown, flags=re.MULTILINE))
     assert "pip install 'disc_model[workflow]'" in said
     assert (tmp_path / "run.nc").stat().st_size > 0
+
+
+# ---- the lock file
+
+
+def names(text: str) -> set[str]:
+    lines = [line.split("#")[0].strip() for line in text.splitlines()]
+    return {canonicalize_name(Requirement(line).name) for line in lines if line and not line.startswith("-")}
+
+
+def check_lock(lock: str, wanted: str) -> None:
+    """Everything wanted is pinned, every pin has hashes, and nothing says where the files came from."""
+    pins = {canonicalize_name(name) for name, _ in PIN.findall(lock)}
+    assert names(wanted) <= pins
+    assert not re.search(r"://|--(extra-)?index-url|--find-links|--trusted-host| @ ", lock)
+    for block in re.split(r"^(?=[A-Za-z0-9])", lock, flags=re.MULTILINE)[1:]:
+        assert PIN.match(block), block
+        assert "--hash=sha256:" in block, block
+
+
+@pytest.mark.parametrize("lock", LOCKS)
+def test_the_lock_names_versions_and_hashes_only(lock: str) -> None:
+    file = ROOT / lock
+    check_lock(file.read_text(), file.with_suffix(".in").read_text())
+
+
+@needs_uv
+@pytest.mark.parametrize("version", VERSIONS)
+def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_path: Path) -> None:
+    """Each pin has a file for that version, and nothing that a pin then requires is missing."""
+    options = ("--quiet", "--dry-run", "--require-hashes", "--target", tmp_path, "-r", ROOT / "requirements.lock")
+    run(UV, "pip", "install", "--python-version", version, *options, cwd=tmp_path)

@@ -3,9 +3,11 @@
 import importlib
 import json
 import os
+import pickle
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,6 +16,7 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window
+from disc_model.cli import main
 from disc_model.data.dataset import load
 from disc_model.simulation import api
 from disc_model.simulation.api import run_case, simulate
@@ -219,6 +222,15 @@ class TestNotTrusted:
             same(simulate(P, 54.8, **run), undisturbed)
             assert "ignored" in caplog.text
 
+    @pytest.mark.parametrize(
+        "content", [b"", b"\0" * 10_000, b"discArys" * 1000, b"discCkpt" * 1000, pickle.dumps(list(range(1000)))]
+    )
+    def test_something_else(self, run: Options, file: Path, content: bytes) -> None:
+        file.write_bytes(content)
+        interrupt(2, P, 55, **run)
+        same(simulate(P, 55, **run), simulate(P, 55, **run | {"checkpoint": None}))
+        assert not file.exists()
+
 
 class TestArguments:
     def test_all_faults_in_one_error(self, tmp_path: Path) -> None:
@@ -259,6 +271,20 @@ class TestArguments:
 
 @pytest.mark.compiled
 class TestCommands:
+    def test_run(self, file: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
+        interrupt(2, P, 2.0, checkpoint=file)
+        command = ["run", "--N", "385", "--Omega", "15.1", "--t-end", "2"]
+        with pytest.raises(SystemExit) as ended:
+            main([*command, "--checkpoint", str(file)])
+        assert not ended.value.code
+        assert f"from checkpoint {file}" in caplog.text
+        assert not file.exists()
+        resumed = capsys.readouterr().out.splitlines()
+        with pytest.raises(SystemExit):
+            main(command)
+        undisturbed = capsys.readouterr().out.splitlines()
+        assert [line for line in resumed if "wall" not in line] == [line for line in undisturbed if "wall" not in line]
+
     def test_a_case_of_the_workflow(self, tmp_path: Path) -> None:
         window = Window(start=0, stop=5, rate=50, envelope=10)
         spec = CaseSpec(parameters=P, t_end=5.0, windows=(("history", window),), events=(0.0, 5.0))
@@ -272,6 +298,45 @@ class TestCommands:
 
 # ----------------------------------------------------------------------------------------------------
 # Long runs
+
+HOUR = """
+import logging, pickle, sys
+from disc_model import Parameters, Poincare, Record, Window
+from disc_model.simulation.api import simulate
+logging.basicConfig(level=logging.INFO)
+windows = Window(start=0, stop=3600, rate=200, envelope=100), Window(start=3000, stop=3001, rate=1e4)
+record = Record(windows=windows, poincare=Poincare(start=1000))
+result = simulate(Parameters(N=385, Omega=15.1), 3600, record=record, checkpoint=sys.argv[2], checkpoint_every=0.3)
+pickle.dump(result, open(sys.argv[1], "wb"))
+"""
+
+
+@pytest.mark.slow
+def test_an_hour_killed_several_times(tmp_path: Path) -> None:
+    """SIGKILL, at any moment, leaves no chance to tidy up."""
+    file, log = tmp_path / "checkpoint", tmp_path / "log"
+
+    def start(name: str, checkpoint: Path) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-c", HOUR, str(tmp_path / name), str(checkpoint)]
+        return subprocess.Popen(command, stderr=log.open("a"))
+
+    for delay in (0.4, 0.05, 0.01, 0.2):
+        size = file.stat().st_size if file.exists() else 0
+        process = start("resumed", file)
+        while not (file.exists() and file.stat().st_size > size):
+            assert process.poll() is None, log.read_text()
+            time.sleep(0.001)
+        time.sleep(delay)
+        process.kill()
+        assert process.wait() < 0, "it was done before it could be killed"
+    assert start("resumed", file).wait() == 0
+    assert start("undisturbed", tmp_path / "other").wait() == 0
+    assert log.read_text().count("continues at t = ") == 4
+    resumed, undisturbed = (pickle.loads((tmp_path / name).read_bytes()) for name in ("resumed", "undisturbed"))
+    same(resumed, undisturbed)
+    assert undisturbed.statistics["events"] > 1e6
+    assert {path.name for path in tmp_path.iterdir()} == {"resumed", "undisturbed", "log"}
+
 
 TWO_HOURS = """
 import json, resource

@@ -44,6 +44,18 @@ def test_a_run_killed_at_random(run: int, project: Project, finished: Project) -
     assert_recovered(project, finished)
 
 
+def test_two_workflows_without_lock(project: Project, finished: Project) -> None:
+    """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
+    forget(project)
+    both = [project.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
+    for process in both:
+        process.wait(timeout=900)
+    wanted = finished.products()
+    assert all(content == wanted[name] for name, content in project.products().items() if name.endswith(".nc"))
+    project.complete("-j2")
+    assert_recovered(project, finished)
+
+
 @pytest.mark.parametrize(
     ("patterns", "count"), [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)]
 )
@@ -94,6 +106,17 @@ def test_lost_records(project: Project, finished: Project) -> None:
     project.edit(SMALL, "Omega: 15.2", "Omega: 15.1")
     project.complete("-j2")
     assert_recovered(project, finished)
+
+
+def test_clock_set_back_between_two_runs(project: Project, finished: Project) -> None:
+    """A case computed anew by an earlier clock looks older than what was made of its former self."""
+    case = project.folder / "results" / "small" / "cases" / "F13.nc"
+    for old, new, days in (("15.1", "15.2", -2), ("15.2", "15.1", -4)):
+        project.edit(SMALL, f"Omega: {old}", f"Omega: {new}")
+        project.complete("-j2", "--until", "simulate_case")
+        set_times([case], days)
+        project.complete("-j2")
+        assert (project.products() == finished.products()) == (new == "15.1")
 
 
 def set_times(paths: list[Path], days: float) -> None:

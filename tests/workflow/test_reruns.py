@@ -1,12 +1,14 @@
 """What runs again after a change, and what does not: real Snakemake, real files."""
 
+import os
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
 import xarray as xr
 
-from tests.workflow.conftest import MAP, SMALL, Project
+from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -74,6 +76,57 @@ def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: P
 def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str, new: str, jobs: Jobs) -> None:
     project.edit(file, old, new)
     assert project.planned() == jobs(project)
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "count"),
+    [
+        (MAP, "N: [100, 200.0, 300]", "N: [250, 100, 200, 300]", 1),
+        (MAP, "Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}", 3),
+        (SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:", 1),
+    ],
+    ids=["a value", "a block", "a value laid over"],
+)
+def test_what_is_added_runs_its_own_batches(project: Project, file: str, old: str, new: str, count: int) -> None:
+    before = batches(project, "small_map")
+    project.edit(file, old, new)
+    jobs = project.planned()
+    assert jobs > MAP_TAIL
+    assert len(jobs - MAP_TAIL) == count
+    assert not jobs & before
+
+
+def test_finer_resolution_keeps_what_is_there(project: Project) -> None:
+    jobs = project.planned("--config", "resolution=2")
+    assert jobs > GROWTH_TAIL
+    assert len(jobs - GROWTH_TAIL) == 3
+    assert not jobs & batches(project, "small_growth")
+
+
+def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
+    project.edit(SMALL, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
+    project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 300]")
+    assert project.planned() == TABLES | MAP_TAIL
+    project.complete("-j2")
+    assert list(dataset(project, "small/cases.nc")["case"].values) == ["F11", "F13"]
+    assert list(dataset(project, "small_map/small_map.nc")["N"].values) == [100, 300]
+    project.edit(MAP, "N: [100, 300]", "N: [100, 200, 300]")
+    assert project.planned() == MAP_TAIL
+
+
+def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None:
+    cases = STUDIES[SMALL].replace("N: 385, Omega: 15}", "Omega: 1.50e+1, N: 385.0}")
+    listed = re.findall(r"  [FX]\w*: .*\n", cases)
+    (project.folder / SMALL).write_text(cases.replace("".join(listed), "".join(listed[::-1])))
+    project.edit(MAP, "[100, 200.0, 300]", "[3.0e+2, 100, '200', 100.00]")
+    project.edit(MAP, "[10, 15, 20, 25]", "[25, 20, 15, 10]")
+    for path in [*(project.folder / "src").rglob("*.py"), *(project.folder / "workflow/scripts").glob("*.py")]:
+        path.write_text(path.read_text() + "\n# a comment\n")
+    api = "src/disc_model/simulation/api.py"
+    project.edit(api, "def simulate(", '"""Of what follows."""\n\n\ndef simulate(')
+    for path in (project.folder / "config").glob("*"):
+        os.utime(path)
+    assert project.planned() == set()
 
 
 @pytest.mark.parametrize(

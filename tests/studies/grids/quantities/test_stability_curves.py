@@ -32,6 +32,20 @@ def test_curves_are_stored_point_by_point(plane: xr.Dataset) -> None:
 
 
 @pytest.mark.compiled
+def test_the_fold_of_the_paper_is_found_once_and_named() -> None:
+    one = computed(**CURVES).isel(normalization=0)
+    assert flag_names(one["status"]) == "ok"
+    folds = np.flatnonzero(flag_names(one["kind"]) == "fold")
+    at = [
+        np.interp(385.0, *np.sort(one[["y", "x"]].isel(curve=i).dropna("curve_point").to_array().values)) for i in folds
+    ]
+    near = [i for i, speed in zip(folds, at, strict=True) if abs(speed - 15.0949) < 5e-3]
+    assert len(near) == 1
+    drawn = [curve for curve in curves_of(one) if curve.kind == "fold"]
+    assert "2 f_s = 135.42 Hz" in [curve.label for curve in drawn]
+
+
+@pytest.mark.compiled
 def test_other_parameters_may_span_the_plane() -> None:
     options = {"x": "N", "y": "c_p", "x_range": [50, 120], "y_lines": {"start": 0.01, "stop": 0.02, "count": 2}}
     raw = CURVES | {"options": options | {"points": 4, "max_points": 4}, "base": {"Omega": 20}}
