@@ -117,4 +117,4 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
                 place, 0.02, "0", color=SEPARATED, fontsize=7, ha="center", va="bottom",
                 transform=ax.get_xaxis_transform(),
             )  # fmt: skip
-    parts.legend_above(ax, columnspacing=0.9)
+    parts.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
