@@ -234,16 +234,16 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
 
 
 Rows = Iterator[tuple[str, ...]]
-State = Callable[[str], str]
+StateOf = Callable[[str], str]
 
 
-def _studies(chosen: Study, grids: Grids, state: State) -> Rows:
+def _studies(chosen: Study, grids: Grids, state: StateOf) -> Rows:
     for name, grid in grids.items():
         made = state(f"results/{name}/{name}.nc")
         yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title, made
 
 
-def _figures(chosen: Study, grids: Grids, state: State) -> Rows:
+def _figures(chosen: Study, grids: Grids, state: StateOf) -> Rows:
     from disc_model.figures.paper.catalogue import CATALOGUE
 
     found = [(chosen.name, name, "paper", CATALOGUE[name].title) for name in chosen.figures]
@@ -254,7 +254,7 @@ def _figures(chosen: Study, grids: Grids, state: State) -> Rows:
         yield name, kind, title, state(f"results/{study_name}/figures/{name}.png")
 
 
-def _cases(chosen: Study, grids: Grids, state: State) -> Rows:
+def _cases(chosen: Study, grids: Grids, state: StateOf) -> Rows:
     from disc_model.figures.paper.catalogue import said_parameters
 
     for name, case in chosen.cases.items():

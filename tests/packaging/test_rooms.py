@@ -1,0 +1,48 @@
+"""Who follows a study file from its text to its batches looks into few modules."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from types import FrameType
+
+import pytest
+
+import disc_model
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = f"{Path(disc_model.__file__).resolve().parent}/"
+STUDY = ROOT / "config" / "studies" / "test" / "test_grid.yaml"
+ENTERED: dict[str, None] = {}
+
+
+def look(frame: FrameType, event: str, _: object) -> None:
+    """Note the module of a function that is called, unless a module or a class is just being made."""
+    file, around = frame.f_code.co_filename, frame
+    if event != "call" or not file.startswith(PACKAGE) or not frame.f_code.co_flags & 1:  # CO_OPTIMIZED: a function
+        return
+    while around.f_back and not (around.f_code.co_name == "<module>" and around.f_code.co_filename.startswith(PACKAGE)):
+        around = around.f_back
+    if around.f_back is None or around.f_code.co_name != "<module>" or not around.f_code.co_filename.startswith(PACKAGE):
+        ENTERED[file.removeprefix(PACKAGE)] = None
+
+
+@pytest.mark.compiled
+def test_a_study_file_enters_five_modules_on_its_way_to_batches() -> None:
+    """In a process of its own: what is remembered from before would not be entered again."""
+    command = [sys.executable, "-m", "tests.packaging.test_rooms"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    entered = json.loads(done.stdout.splitlines()[-1])
+    assert {"studies/document.py", "studies/study.py"} <= set(entered)
+    assert len(entered) <= 5, entered
+
+
+if __name__ == "__main__":
+    from disc_model.studies.study import load_study
+
+    sys.setprofile(look)
+    grids, _ = load_study(STUDY).grids([STUDY.parent])
+    assert dict(grids["test_grid"].batches)
+    sys.setprofile(None)
+    print(json.dumps(list(ENTERED)))
