@@ -132,8 +132,8 @@ def test_module_runs_as_a_program() -> None:
 
 
 def test_warm_says_that_it_is_done(command: Command) -> None:
-    said = command.out("compile")
-    assert [line.partition(":")[0] for line in said.splitlines()] == [
+    phrase = command.out("compile")
+    assert [line.partition(":")[0] for line in phrase.splitlines()] == [
         "simulate-rigid_vertical",
         "floquet-rigid_vertical",
         "kernels compiled and cached",

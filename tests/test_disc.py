@@ -128,8 +128,8 @@ def test_the_slider_on_a_given_disc_runs_where_the_plate_ends(tmp_path: Path) ->
     """A radius above the plate's b = 0.12 m was refused, and so was another b."""
     assert dm.Parameters(N=1, Omega=1, disc=dm.Disc(**THREE), r_0=0.13).r_0 == 0.13
     (tmp_path / "disc.csv").write_text(disc_table(P))
-    for said in ("base: {disc: disc.csv, r_0: 0.13, N: 1}", "base: {r_0: 0.13, N: 1}\naxes: {disc: [disc.csv]}"):
-        (tmp_path / "study.yaml").write_text(f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{said}\n")
+    for phrase in ("base: {disc: disc.csv, r_0: 0.13, N: 1}", "base: {r_0: 0.13, N: 1}\naxes: {disc: [disc.csv]}"):
+        (tmp_path / "study.yaml").write_text(f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{phrase}\n")
         load_study(tmp_path / "study.yaml")
 
 

@@ -74,7 +74,7 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "phrase"),
     [
         ({"slider": (0.0999, 0.005)}, "slider=(0.0999, 0.005): must be a node of the mesh"),
         ({"slider": 0.1}, "slider=0.1: must be two numbers, r and z"),
@@ -86,17 +86,17 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
         ({"clamped": lambda x: False}, "clamped=0: must hold nodes"),
     ],
 )
-def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> None:
+def test_what_cannot_be_found_is_said(change: dict[str, object], phrase: str) -> None:
     given: dict[str, object] = (
         IRON | {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0} | change
     )
     with pytest.raises(dm.ParameterError) as error:
         disc_of_section(section(RING, 0.01), **given)
-    assert said in str(error.value)
+    assert phrase in str(error.value)
 
 
 @pytest.mark.parametrize(
-    ("rectangles", "size", "said"),
+    ("rectangles", "size", "phrase"),
     [
         ([(0.1, 0.06, 0, 1)], 0.01, "rectangles.0"),
         ([], 0.01, "rectangles.0=(): must be (r from"),
@@ -110,10 +110,10 @@ def test_what_cannot_be_found_is_said(change: dict[str, object], said: str) -> N
         (RING, "x", "size='x': must be > 0"),
     ],
 )
-def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: object, said: str) -> None:
+def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: object, phrase: str) -> None:
     with pytest.raises(dm.ParameterError) as error:
         section(rectangles, size)  # type: ignore[arg-type]
-    assert said in str(error.value)
+    assert phrase in str(error.value)
 
 
 def test_units_by_a_thousand_or_more_off_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -137,10 +137,10 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     table, first, drawing, _ = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
     monkeypatch.chdir(tmp_path)
     Path("disc.csv").write_text(table)
-    said: dict[str, object] = {}
+    phrase: dict[str, object] = {}
     of_table = dm.read_disc("disc.csv")
-    exec(first + drawing, said)
-    disc = said["disc"]
+    exec(first + drawing, phrase)
+    disc = phrase["disc"]
     assert isinstance(disc, dm.Disc)
     assert dm.read_disc("disc.csv") == disc
     np.testing.assert_allclose(disc.omega[:3], of_table.omega, rtol=0.01)

@@ -114,8 +114,8 @@ def test_the_record_holds_what_was_compared(measured: Measured) -> None:
     }
 
 
-def one_case(**said: Any) -> CaseSpec:
-    parameters = {"N": 385, "n_diameters": "auto", **said}
+def one_case(**text: Any) -> CaseSpec:
+    parameters = {"N": 385, "n_diameters": "auto", **text}
     cases = {"A": {"title": "A", "t_end": 0.01, "parameters": parameters}}
     return parse_study({"study": "s", "base": {"Omega": 15.1}, "cases": cases}).specs["A"]
 

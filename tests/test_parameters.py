@@ -97,8 +97,8 @@ def test_help_says_meaning_unit_range_and_default(name: str) -> None:
         f"{SIGNS[sign]} {getattr(rule, sign):g}" for rule in field.metadata for sign in SIGNS if hasattr(rule, sign)
     ]
     words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str) and word != RESIDUAL)
-    said = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
-    assert f" {name} : {field.description} ({said}) " in " ".join(inspect.getdoc(Parameters).split())
+    phrase = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
+    assert f" {name} : {field.description} ({phrase}) " in " ".join(inspect.getdoc(Parameters).split())
 
 
 @pytest.mark.parametrize("kind", [Parameters, Record, Window, Ramp])

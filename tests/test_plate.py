@@ -255,7 +255,7 @@ def test_overflow_of_the_published_normalisation_is_an_error(monkeypatch: pytest
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "text"),
     [
         # used to end in scipy's LinAlgError, or in warnings and nan
         ({"E": 3.38e-164}, "m=0.1, k=50000.*must be within"),
@@ -272,9 +272,9 @@ def test_overflow_of_the_published_normalisation_is_an_error(monkeypatch: pytest
         ({"E": 1.5e-3}, "m=0.1, k=50000"),
     ],
 )
-def test_extremes_are_one_clear_error(changes: dict[str, float], said: str, normalization: str) -> None:
+def test_extremes_are_one_clear_error(changes: dict[str, float], text: str, normalization: str) -> None:
     p = P.replace(normalization=normalization, **changes)
-    with pytest.raises(ModeError, match=said):
+    with pytest.raises(ModeError, match=text):
         _ = residual_flexibility(p), coupled_natural_frequencies(p)
 
 

@@ -171,7 +171,7 @@ def test_a_wrong_argument_is_named(function, given, name, right, tmp_path, monke
         try:
             function(**given | {name: value})
         except ParameterError as error:
-            said = error.faults
+            text = error.faults
         else:
-            said = ("nothing",)
-        assert any(name in re.findall(r"\w+", fault) for fault in said), (label, said)
+            text = ("nothing",)
+        assert any(name in re.findall(r"\w+", fault) for fault in text), (label, text)

@@ -88,8 +88,8 @@ def test_numbers_of_figures_have_the_units_of_their_axes() -> None:
         "map": {"kind": "stability_map", "x": "Omega", "y": "h", "marks": marks},
         "cut": {"kind": "curve", "variable": "P_max", "x": "Omega", "at": {"h": "1 mm"}},
     }
-    said = {"study": "s", "quantity": "outcome", "options": {"horizon": 5}, "base": {"N": 200}, "figures": figures}
-    plots = parse_grid(said | {"axes": axes}).plots
+    phrase = {"study": "s", "quantity": "outcome", "options": {"horizon": 5}, "base": {"N": 200}, "figures": figures}
+    plots = parse_grid(phrase | {"axes": axes}).plots
     assert plots["map"].marks["A"].y == 2e-3  # type: ignore[attr-defined]
     assert plots["cut"].at == {"h": 1e-3}  # type: ignore[attr-defined]
     spectrum = {"kind": "spectrogram", "case": "A", "window": "w", "highest": "0.5 kHz"}

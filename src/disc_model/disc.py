@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.errors import Fault, ParameterError, shown, suggestion
+from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.plate import Array, modal_damping, mode_arrays, modes_of_table
 
@@ -94,7 +94,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
     static, modal = disc.static_compliance, modes_of_table(disc).flexibility
     if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
-        raise ParameterError(Fault((STATIC_COMPLIANCE,), shown(static), rule))
+        raise ParameterError(Fault((STATIC_COMPLIANCE,), as_text(static), rule))
     return disc
 
 
@@ -111,7 +111,7 @@ def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str]
         return fault
     i = int(fault.path[1])
     unit = " rad/s" if names[at] == "frequency_Hz" and "within" in fault.rule else ""
-    return Fault((names[at],), shown(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
+    return Fault((names[at],), as_text(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -160,7 +160,7 @@ def _static_compliance(lines: list[str], path: object) -> float | None:
     try:
         return float(found[0]) if found else None
     except ValueError:
-        raise _fault(path, f"{STATIC_COMPLIANCE}={shown(found[0])}: must be a number") from None
+        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(found[0])}: must be a number") from None
 
 
 def _column_faults(names: list[str]) -> list[Fault]:
@@ -169,8 +169,8 @@ def _column_faults(names: list[str]) -> list[Fault]:
     for name in names:
         if name not in COLUMNS and not SHAPE.fullmatch(name):
             if ";" in name or "\t" in name:
-                return [Fault(("columns",), shown(name), "must be separated by commas, with points in numbers")]
-            faults.append(Fault(("columns",), shown(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
+                return [Fault(("columns",), as_text(name), "must be separated by commas, with points in numbers")]
+            faults.append(Fault(("columns",), as_text(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
     radii = [f"shape_at_{float(match[1])}_m" for name in names if (match := SHAPE.fullmatch(name))]
     given = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
     for target in dict.fromkeys(["diameters", "omega", "amplitude", *given]):
@@ -182,4 +182,4 @@ def _column_faults(names: list[str]) -> list[Fault]:
 
 
 def _fault(path: object, rule: str) -> ParameterError:
-    return ParameterError(Fault((shown(str(path)),), "", rule))
+    return ParameterError(Fault((as_text(str(path)),), "", rule))

@@ -67,7 +67,7 @@ class Fault(str):
     @classmethod
     def of(cls, path: tuple[str, ...], value: Any, rule: str) -> Fault:
         """A fault with the value in the form that messages show."""
-        return cls(path, shown(value), rule)
+        return cls(path, as_text(value), rule)
 
     def inside(self, place: tuple[str, ...]) -> Fault:
         """The same fault, with its path extended by the place of the part in the whole."""
@@ -96,15 +96,15 @@ class ParameterError(DiscModelError, ValueError):
         return (type(self), self.faults)
 
 
-def refuse(faults: Collection[str]) -> None:
+def raise_faults(faults: Collection[str]) -> None:
     """Raise one `ParameterError` that lists all faults, if there are any."""
     if faults:
         raise ParameterError(*faults)
 
 
-def broken(*rules: tuple[object, str, object, str]) -> list[str]:
+def violations(*rules: tuple[object, str, object, str]) -> list[str]:
     """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold; dots join a path."""
-    return [Fault(tuple(name.split(".")), shown(value), rule) for holds, name, value, rule in rules if not holds]
+    return [Fault(tuple(name.split(".")), as_text(value), rule) for holds, name, value, rule in rules if not holds]
 
 
 class ModeError(DiscModelError):
@@ -157,7 +157,7 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             known = list(dict.fromkeys(name for one in models for name in one.model_fields))
             word, rule = (getattr(models[0], name, "") for name in ("_word", "_unknown"))
             more = suggestion(path[-1], known, all_of_them=not (word or rule))
-            yield Fault(path, "" if rule else shown(value), (rule or f"unknown {word or 'key'}") + more)
+            yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
         elif kind in ("union_tag_invalid", "union_tag_not_found") and context["discriminator"] == "'kind'":
             fields = [one.model_fields for one in _models_at(model, item["loc"])]
             tags = [each["kind"].default for each in fields if "kind" in each]
@@ -170,7 +170,7 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
             if kind == "literal_error":
                 rule += renamed(value, re.findall(r"'(\w+)'", context["expected"]))
-            yield Fault(path, _shown_faulty(kind, value), rule)
+            yield Fault(path, _faulty_as_text(kind, value), rule)
 
 
 _BOUNDS = {
@@ -194,19 +194,19 @@ _RULES = _BOUNDS | {
 """Rules by pydantic's kind of fault, in this package's words; pydantic's context of the fault fills the braces."""
 
 
-def _shown_faulty(kind: str, value: Any) -> str:
+def _faulty_as_text(kind: str, value: Any) -> str:
     """The text of a value that breaks a rule; "" for a mapping, whose path says enough."""
     if isinstance(value, Mapping | BaseModel):
         return ""
     if kind not in _BOUNDS or isinstance(value, bool):  # False is a number for pydantic, but not here
-        return shown(value)
+        return as_text(value)
     try:
-        return shown(float(value) + 0.0)  # adding zero turns -0.0 into 0.0
+        return as_text(float(value) + 0.0)  # adding zero turns -0.0 into 0.0
     except OverflowError:  # a whole number beyond the range of floats
-        return shown(math.inf if value > 0 else -math.inf)
+        return as_text(math.inf if value > 0 else -math.inf)
 
 
-def shown(value: Any) -> str:
+def as_text(value: Any) -> str:
     """The text of a value in messages: shortened; a float without a final ".0" and without noise of rounding."""
     if isinstance(value, float):
         return repr(float(f"{value:.15g}")).removesuffix(".0")

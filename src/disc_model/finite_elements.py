@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Disc, Parameters, is_number
 from disc_model.plausibility import ImplausibleValue, warn_of_doubts
 
@@ -55,12 +55,12 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
     for i, one in enumerate(given or [()]):
         if not (len(one) == 4 and 0 < one[0] < one[1] < math.inf and -math.inf < one[2] < one[3] < math.inf):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault(("rectangles", str(i)), shown(one), rule))
-    refuse(broken((is_number(size) and size > 0, "size", size, "must be > 0")))
+            raise ParameterError(Fault(("rectangles", str(i)), as_text(one), rule))
+    raise_faults(violations((is_number(size) and size > 0, "size", size, "must be > 0")))
     inner, outer, low, high = zip(*given, strict=True)
     count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
     rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: size and rectangles are in m"
-    refuse(broken((count <= MOST_ELEMENTS, "size", size, rule)))
+    raise_faults(violations((count <= MOST_ELEMENTS, "size", size, rule)))
     axes = [_divided({edge for one in given for edge in one[at : at + 2]}, size) for at in (0, 2)]
     mesh = mesh_type.init_tensor(*axes)
     r, z = mesh.p[:, mesh.t].mean(axis=1)
@@ -118,8 +118,8 @@ def disc_of_section(
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     place = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
-    refuse(
-        broken(
+    raise_faults(
+        violations(
             (place, "slider", slider, "must be two numbers, r and z"),
             (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
         )
@@ -133,8 +133,8 @@ def disc_of_section(
     places = vertical[[int(np.argmin(apart)), *level[first]]]
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     pieces = _pieces(mesh)
-    refuse(
-        broken(
+    raise_faults(
+        violations(
             (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
             (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
             (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
@@ -152,7 +152,7 @@ def disc_of_section(
     kept = sorted(row for row in found if row[3] > SEEN * largest)
     if not kept:
         raise ParameterError(
-            Fault(("highest_Hz",), shown(highest_Hz), "must be above a mode that moves under the slider")
+            Fault(("highest_Hz",), as_text(highest_Hz), "must be above a mode that moves under the slider")
         )
     names = ("omega", "diameters", "circles", "amplitude", "shapes")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
@@ -191,7 +191,7 @@ def _harmonic(
             most = math.sqrt(squares.max()) / math.tau
             rule = f"must be below the {count} lowest modes of {l} nodal diameters, which end at {most:.3g} Hz: "
             rule += "lengths are in m, E in Pa, rho in kg/m^3"
-            raise ParameterError(Fault(("highest_Hz",), shown(highest / math.tau), rule))
+            raise ParameterError(Fault(("highest_Hz",), as_text(highest / math.tau), rule))
         count *= 2
     order = np.argsort(squares)
     order = order[squares[order] <= highest**2]

@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ModeError, ParameterError, refuse, shown
+from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.plate import mode_arrays
 
@@ -66,7 +66,7 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     ModeError
         If the modes cannot be computed.
     """
-    refuse(foreign_case(p))
+    raise_faults(foreign_case(p))
     kept = _modal_sum(p)
     if p.disc is not None:
         if p.disc.static_compliance is None:
@@ -96,9 +96,9 @@ def contact_compliance(p: Parameters) -> float:
     if not value > 0:
         if p.disc is not None:
             rule = f"must be greater than what its modes give at the slider, {residual_flexibility(p).kept:.6g} m/N"
-            raise ParameterError(Fault(("disc", "static_compliance"), shown(p.disc.static_compliance), rule))
+            raise ParameterError(Fault(("disc", "static_compliance"), as_text(p.disc.static_compliance), rule))
         rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
-        raise ParameterError(Fault(("contact_compliance",), shown(RESIDUAL), rule))
+        raise ParameterError(Fault(("contact_compliance",), as_text(RESIDUAL), rule))
     return value
 
 
@@ -107,7 +107,7 @@ def _modal_sum(p: Parameters) -> float:
     total = mode_arrays(p).flexibility
     if not total < np.inf:
         rule = "static flexibility of the modes must be within the range of numbers"
-        raise ModeError(f"E={shown(p.E)}, h={shown(p.h)}, b={shown(p.b)}: {rule}")
+        raise ModeError(f"E={as_text(p.E)}, h={as_text(p.h)}, b={as_text(p.b)}: {rule}")
     return total
 
 

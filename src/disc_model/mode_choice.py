@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from disc_model.errors import DiscModelError, broken, refuse
+from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
@@ -83,12 +83,12 @@ def choose_modes(
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", CHOSEN_BY.get(quantity, 1.0) if tolerance is None else tolerance)
     counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
-    others = broken(
+    others = violations(
         (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
         (counts, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
         (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
     )
-    refuse([*faults, *more, *others])
+    raise_faults([*faults, *more, *others])
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})

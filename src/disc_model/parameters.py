@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeG
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from disc_model.errors import Fault, ParameterError, faults_of, shown
+from disc_model.errors import Fault, ParameterError, as_text, faults_of
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -158,7 +158,7 @@ def limits_rule(limits: tuple[float, float]) -> str:
 def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
     """Faults of an argument that must be a number within limits."""
     good = is_number(value) and limits[0] <= value <= limits[1]
-    return [] if good else [Fault((name,), shown(value), limits_rule(limits))]
+    return [] if good else [Fault((name,), as_text(value), limits_rule(limits))]
 
 
 def _within(limits: tuple[float, float]) -> AfterValidator:
@@ -203,7 +203,7 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
         for name, value in data.items():
             if not isinstance(name, str):
                 comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-                yield Fault((*path, repr(name)), shown(value), f"a name must be text{comma}")
+                yield Fault((*path, repr(name)), as_text(value), f"a name must be text{comma}")
             yield from faults_of_names(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for i, value in enumerate(data):
@@ -281,7 +281,7 @@ class Checked(Strict, metaclass=_OwnNames):
     def __init__(self, /, *unnamed: Any, **data: Any) -> None:
         if unnamed:
             name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
-            example = ", ".join(f"{key}={shown(value)}" for key, value in named)
+            example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
             raise ParameterError(f"{name} takes named values: {name}({example})")
         data = each_in_si(data, _units_of(type(self)))
         faults: list[str] = list(faults_of_names(data))
@@ -308,7 +308,7 @@ class Checked(Strict, metaclass=_OwnNames):
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
-        raise ParameterError(Fault((cls.__name__.lower(),), shown(obj), "must be a mapping of names to values"))
+        raise ParameterError(Fault((cls.__name__.lower(),), as_text(obj), "must be a mapping of names to values"))
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
@@ -316,7 +316,7 @@ class Checked(Strict, metaclass=_OwnNames):
         try:
             values = json.loads(json_data)
         except (ValueError, TypeError, RecursionError) as error:
-            raise ParameterError(Fault(("json_data",), shown(json_data), f"must be JSON ({error})")) from None
+            raise ParameterError(Fault(("json_data",), as_text(json_data), f"must be JSON ({error})")) from None
         return cls.model_validate(values)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
@@ -324,7 +324,7 @@ class Checked(Strict, metaclass=_OwnNames):
         return self.replace(**(update or {}))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        change = f"{name}={shown(value)}"
+        change = f"{name}={as_text(value)}"
         raise ParameterError(f"{change}: cannot be set in place, replace({change}) returns a changed copy")
 
     def __dir__(self) -> list[str]:
@@ -432,7 +432,7 @@ def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
         given, rule = given & {"D_star"}, "must be left out where damping_ratio is given"
     else:
         return []
-    return [Fault((name,), shown(data[name]), rule) for name in sorted(given)]
+    return [Fault((name,), as_text(data[name]), rule) for name in sorted(given)]
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -552,7 +552,7 @@ def _shape_faults(radii: Any, shapes: Any) -> list[str]:
         rule = "must be two or more, with a value of the shape of every mode at each"
         faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
     elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
-        faults.append(Fault(("radii",), shown(list(radii)), "must ascend"))
+        faults.append(Fault(("radii",), as_text(list(radii)), "must ascend"))
     return faults
 
 
@@ -574,7 +574,7 @@ def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> l
                     f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
                     f"pair once, by its mean frequency, and what splits it is neglected"
                 )
-            faults.append(Fault(("omega", str(j)), shown(omega[j]), rule))
+            faults.append(Fault(("omega", str(j)), as_text(omega[j]), rule))
     return faults[:3]
 
 
@@ -718,7 +718,7 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
 
 def foreign_case(p: object) -> list[str]:
     """Faults of an argument that must be `Parameters`."""
-    return [] if isinstance(p, Parameters) else [Fault(("p",), shown(p), "must be Parameters")]
+    return [] if isinstance(p, Parameters) else [Fault(("p",), as_text(p), "must be Parameters")]
 
 
 def leaves_modes(values: Mapping[str, Any]) -> bool:
@@ -747,13 +747,13 @@ def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     # a disc that is given by its modes has other radii than the plate
     for low, sign, holds, high in _ORDER if data.get("disc") is None else _ORDER[:1]:
         if low in values and high in values and not holds(values[low], values[high]):
-            faults.append(Fault((low,), shown(values[low]), f"must be {sign} {high}={shown(values[high])}"))
+            faults.append(Fault((low,), as_text(values[low]), f"must be {sign} {high}={as_text(values[high])}"))
     if values.keys() >= {"E", "h", "nu"} and values["E"] > 0 and values["h"] > 0 and abs(values["nu"]) < 1:
         try:
             rigidity = _rigidity(values["E"], values["h"], values["nu"])
         except OverflowError:
             rigidity = math.inf
         if not 0 < rigidity < math.inf:
-            rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {shown(rigidity)}"
-            faults.append(Fault(("h",), shown(values["h"]), rule))
+            rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
+            faults.append(Fault(("h",), as_text(values["h"]), rule))
     return faults

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg, special
 
-from disc_model.errors import Fault, ModeError, ParameterError, refuse, shown
+from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import Disc, Parameters, foreign_case
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     """
     import pandas as pd
 
-    refuse(foreign_case(p))
+    raise_faults(foreign_case(p))
     return pd.DataFrame(vars(mode_arrays(p)))
 
 
@@ -148,20 +148,20 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
     (number of real modes,). Contact is rigid as in the paper, whatever the contact of the case. Raises ParameterError
     if `p` is not a `Parameters`, and ModeError as `plate_modes`.
     """
-    refuse(foreign_case(p))
+    raise_faults(foreign_case(p))
     modes = mode_arrays(p)
     coupled = coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
     return np.sort(np.concatenate([coupled, modes.omega[modes.diameters > 0]]))
 
 
-def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> Array:
+def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, compliance: float = 0.0) -> Array:
     """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending.
 
     Parameters
     ----------
     omega, psi : rad/s and kg^-1/2, shape (n,), as in `plate_modes`
     m, k : kg and N/m, mass and spring of the slider
-    give : m/N, compliance of the contact
+    compliance : m/N, compliance of the contact
 
     Returns
     -------
@@ -172,23 +172,25 @@ def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, give: floa
     ModeError
         If the frequencies differ so much that rounding makes the highest inaccurate.
     """
-    return np.sort(1 / np.sqrt(_inverse_squares(omega, psi, m, k, give, eigvals_only=True)))
+    return np.sort(1 / np.sqrt(_inverse_squares(omega, psi, m, k, compliance, eigvals_only=True)))
 
 
-def coupled_shapes(omega: Array, psi: Array, m: float, k: float, give: float = 0.0) -> tuple[Array, Array]:
+def coupled_shapes(omega: Array, psi: Array, m: float, k: float, compliance: float = 0.0) -> tuple[Array, Array]:
     """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode times its frequency.
 
     On a compliant contact the last row is the slider's.
     """
-    inverse_squares, shapes = _inverse_squares(omega, psi, m, k, give)
+    inverse_squares, shapes = _inverse_squares(omega, psi, m, k, compliance)
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, **how: bool) -> Any:
+def _inverse_squares(omega: Array, psi: Array, m: float, k: float, compliance: float, **how: bool) -> Any:
     """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
     try:
         with np.errstate(all="ignore"):
-            matrices = _coupling(omega, psi, m, k) if give == 0 else _compliant_coupling(omega, psi, m, k, give)
+            matrices = (
+                _coupling(omega, psi, m, k) if compliance == 0 else _compliant_coupling(omega, psi, m, k, compliance)
+            )
         found = linalg.eigh(*matrices, **how)
         values = found if how else found[0]
         resolved = values.size == 0 or values[0] * WIDEST > values[-1]
@@ -196,9 +198,9 @@ def _inverse_squares(omega: Array, psi: Array, m: float, k: float, give: float, 
         resolved = False
     if not resolved:
         raise ModeError(
-            f"disc and slider at rest: m={shown(m)}, k={shown(k)}, a contact compliance of {give:g} m/N and disc modes "
-            f"of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies must be within "
-            f"a factor of {WIDEST:g}"
+            f"disc and slider at rest: m={as_text(m)}, k={as_text(k)}, a contact compliance of {compliance:g} m/N "
+            f"and disc modes of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies "
+            f"must be within a factor of {WIDEST:g}"
         )
     return found
 
@@ -214,11 +216,11 @@ def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Arra
     return mass, stiffness
 
 
-def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, give: float) -> tuple[Array, Array]:
+def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
     """Both matrices on a compliant contact; the last coordinate is u over the square root of its compliance."""
-    stretch = np.append(psi / omega / np.sqrt(give), -1.0)
-    mass = np.diag(np.append(omega**-2, m * give))
-    stiffness = np.diag(np.append(np.ones(omega.size), k * give)) + np.outer(stretch, stretch)
+    stretch = np.append(psi / omega / np.sqrt(compliance), -1.0)
+    mass = np.diag(np.append(omega**-2, m * compliance))
+    stiffness = np.diag(np.append(np.ones(omega.size), k * compliance)) + np.outer(stretch, stretch)
     return mass, stiffness
 
 
@@ -254,7 +256,7 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
         amplitude = shapes.at(r_0 / b, orthonormal)
         psi = np.where(shapes.l > 0, np.sqrt(2), 1.0) * amplitude / np.sqrt(rho * h * np.float64(b) ** 2)
     if not (np.all((omega > 0) & np.isfinite(omega)) and np.all(np.isfinite(psi)) and np.any(psi)):
-        values = ", ".join(f"{name}={shown(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho)))
+        values = ", ".join(f"{name}={as_text(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho)))
         raise ModeError(f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers")
     return Modes(np.repeat(np.arange(n_circles + 1), n_diameters + 1), shapes.l.copy(), omega, psi)
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, broken, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, violations
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters, number
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -159,7 +159,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
     if rest.get("n_diameters") != AUTO:
         rule = f"is used with n_diameters={AUTO!r} only"
-        return rest, None, [Fault((name,), shown(values[name]), rule) for name in CHOOSING if name in values]
+        return rest, None, [Fault((name,), as_text(values[name]), rule) for name in CHOOSING if name in values]
     del rest["n_diameters"]
     quantity, faults = checked_quantity("truncation_quantity", values.get("truncation_quantity", FREQUENCIES))
     given = values.get("truncation_tolerance", CHOSEN_BY.get(quantity, 1.0))
@@ -171,7 +171,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
 def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
     """The quantity by which modes are chosen, "" if it is unknown, and its faults."""
     known = isinstance(value, str) and value in CHOSEN_BY
-    return value if known else "", broken((known, name, value, f"must be one of {', '.join(CHOSEN_BY)}"))
+    return value if known else "", violations((known, name, value, f"must be one of {', '.join(CHOSEN_BY)}"))
 
 
 def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
@@ -179,9 +179,9 @@ def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
     try:
         tolerance = float(number(value))
     except ValueError:
-        return math.nan, [Fault((name,), shown(value), "must be a number")]
+        return math.nan, [Fault((name,), as_text(value), "must be a number")]
     rule = f"must be finite and >= {TRUSTED:g}"
-    return tolerance, broken((TRUSTED <= tolerance < math.inf, name, tolerance, rule))
+    return tolerance, violations((TRUSTED <= tolerance < math.inf, name, tolerance, rule))
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:

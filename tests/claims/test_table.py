@@ -63,15 +63,15 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
 def test_cases_are_those_that_the_texts_speak_of() -> None:
     count = 0
     for claim in CLAIMS:
-        if said := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
-            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.said.cases)}
-            assert tuple(map(float, said.groups())) in found, claim.id
+        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
+            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.phrase.cases)}
+            assert tuple(map(float, phrase.groups())) in found, claim.id
             count += 1
     assert count > 10
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:
-    assert sorted({name for claim in CLAIMS for name in claim.said.scans}) == sorted(SCANS)
+    assert sorted({name for claim in CLAIMS for name in claim.phrase.scans}) == sorted(SCANS)
 
 
 @pytest.mark.compiled
@@ -113,8 +113,8 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"perturbation": {"f": 1.0}}}
     claim = Claim("x", Text(location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
-    said = "case F11 does not begin with the static start in this study"
-    assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {said}"
+    phrase = "case F11 does not begin with the static start in this study"
+    assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {phrase}"
     assert claim.evaluate(views(tree_of(F11=case | {"start": {}}))).verdict == HOLDS
 
 

@@ -183,8 +183,8 @@ def verdicts_of(cases: Mapping[str, CaseView], claims: Iterable[Claim] = CLAIMS)
 def test_damage_ends_no_claim(damage: str, told: xr.DataTree) -> None:
     """This used to end the whole table with a KeyError, IndexError, ValueError or ZeroDivisionError."""
     cases = {name: CaseView(name, damaged(node, DAMAGES[damage])) for name, node in told.children.items()}
-    said = verdicts_of(cases)
-    assert damage not in NOT_HELD or any(NOT_HELD[damage] in verdict and "case " in verdict for verdict in said)
+    phrase = verdicts_of(cases)
+    assert damage not in NOT_HELD or any(NOT_HELD[damage] in verdict and "case " in verdict for verdict in phrase)
 
 
 @pytest.mark.slow
@@ -195,7 +195,7 @@ def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.Dat
     cases = views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
-        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.said.cases])
+        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.phrase.cases])
 
 
 def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree) -> None:
@@ -232,7 +232,7 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
 
 
 @pytest.mark.parametrize(
-    ("claim", "scans", "damage", "verdict", "said"),
+    ("claim", "scans", "damage", "verdict", "phrase"),
     [
         ("S41a", None, {}, f"{NOT_COMPUTED}: study bonded is not among those of this run", ""),
         ("S41a", {"least": np.nan}, {}, f"{NOT_COMPUTED}: study bonded has points that failed", ""),
@@ -267,11 +267,11 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
     ],
 )  # fmt: skip
 def test_a_verdict_by_what_is_there(
-    claim: str, scans: dict[str, Any] | None, damage: dict[str, Any], verdict: str, said: str, told: xr.DataTree
+    claim: str, scans: dict[str, Any] | None, damage: dict[str, Any], verdict: str, phrase: str, told: xr.DataTree
 ) -> None:
     found = judged(claim, told, None if scans is None else made_up.scans(**scans), **damage)
     assert found.verdict == verdict
-    assert said in f"{found.ours}; {found.remark}"
+    assert phrase in f"{found.ours}; {found.remark}"
 
 
 @pytest.mark.parametrize(
@@ -368,9 +368,9 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     assert "no property of the system" not in found["F07"].remark
     shorter = np.tile(repeated[:44], 40)
     monkeypatch.setattr(measures, "release_intervals", lambda case: shorter if case.name == "F07k" else repeated)
-    said = BY_NAME["F07"].evaluate(cases)
-    assert said.verdict == FAILS
-    assert "with k 0.1 % larger it repeats after 44 releases" in said.remark
+    phrase = BY_NAME["F07"].evaluate(cases)
+    assert phrase.verdict == FAILS
+    assert "with k 0.1 % larger it repeats after 44 releases" in phrase.remark
 
 
 @pytest.mark.parametrize("claim", ["F05", "F07", "F22", "F28", "F21q", "F29b"])
@@ -400,7 +400,7 @@ def test_the_number_of_points_may_decide_nothing(signal: made_up.Signal, why: st
 
 def test_a_time_has_the_digits_that_repeats_agree_in(told: xr.DataTree) -> None:
     """F15a said 398.80 s where other tolerances find 381 to 387 s."""
-    for said, *times in (
+    for phrase, *times in (
         ("380 to 400 s: that depends on the tolerance", 398.80, 387.10, 386.67, 380.83),
         ("799.5 to 800.0 s: that depends on the tolerance", 799.64, 799.72, 800.0, 799.52),
         ("479.92 s", 479.9192, 479.9193),
@@ -408,7 +408,7 @@ def test_a_time_has_the_digits_that_repeats_agree_in(told: xr.DataTree) -> None:
     ):
         roots = [told["F02"].to_dataset().assign(first_separation=time) for time in times]
         cases = (CaseView("X", xr.DataTree(root)) for root in roots)
-        assert measures.first_separation(*cases) == f"first separation at {said}"
+        assert measures.first_separation(*cases) == f"first separation at {phrase}"
 
 
 def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
@@ -420,7 +420,7 @@ def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "look", "said"),
+    ("name", "look", "phrase"),
     [
         ("F11", lambda case: case.samples("zoom"), "did not record zoom"),
         ("F11", lambda case: case.range_of("P", 300, 310), "no history from 300 to 310"),
@@ -432,9 +432,9 @@ def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
     ],
 )  # fmt: skip
 def test_evidence_that_is_not_there_is_named(
-    name: str, look: Callable[[CaseView], object], said: str, told: xr.DataTree
+    name: str, look: Callable[[CaseView], object], phrase: str, told: xr.DataTree
 ) -> None:
-    with pytest.raises(Missing, match=said):
+    with pytest.raises(Missing, match=phrase):
         look(views(told)[name])
 
 
@@ -478,9 +478,9 @@ def test_the_two_normalisations_side_by_side(
     assert list(instead["Case"]) == ["X30"]
     assert set(changed["As published"]) <= {HOLDS, REMARK, FAILS, UNDECIDED}
     assert any(text.startswith("F13:") for text in changed["Statement"])
-    said = found.sections[1][1]
-    assert "F17, F18" in said.partition("No longer: ")[2].partition(".")[0]
-    assert said.endswith("Without a result: F20.")
+    phrase = found.sections[1][1]
+    assert "F17, F18" in phrase.partition("No longer: ")[2].partition(".")[0]
+    assert phrase.endswith("Without a result: F20.")
     text, page = found.markdown(), found.html()
     for heading, _, table in found.sections:
         assert f"## {heading}" in text

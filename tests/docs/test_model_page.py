@@ -25,8 +25,8 @@ def test_attached_frequencies_on_the_page(normalization):
     p = Parameters(N=200, Omega=20, normalization=normalization)
     digits = max(len(number.strip().split(".")[1]) for number in row.split(","))
     modes = mode_arrays(p)
-    own, said = coupled_frequencies(modes.omega, modes.psi, p.m, p.k), [float(number) for number in row.split(",")]
-    np.testing.assert_allclose(own, said, rtol=0, atol=0.51 * 10**-digits)
+    own, text = coupled_frequencies(modes.omega, modes.psi, p.m, p.k), [float(number) for number in row.split(",")]
+    np.testing.assert_allclose(own, text, rtol=0, atol=0.51 * 10**-digits)
 
 
 def symbols():

@@ -102,12 +102,12 @@ def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
 
 def test_a_kernel_is_compiled_against_one_from_the_cache(tmp_path: Path) -> None:
     """As when one of two was compiled before an interruption: the file held a stub, and calling it crashed."""
-    said = [ask_for_a_kernel(tmp_path, code=OUTER).stdout]
+    phrase = [ask_for_a_kernel(tmp_path, code=OUTER).stdout]
     for path in (tmp_path / "cache").rglob("*outer*.kernel"):
         path.unlink()
     # the last has the kernel that was compiled against the other one from the cache as well
-    said += [ask_for_a_kernel(tmp_path, code=OUTER).stdout for _ in range(2)]
-    assert said == ["6.875 7.875\n"] * 3
+    phrase += [ask_for_a_kernel(tmp_path, code=OUTER).stdout for _ in range(2)]
+    assert phrase == ["6.875 7.875\n"] * 3
 
 
 def test_a_kernel_is_linked_with_the_helpers_of_earlier_ones(tmp_path: Path) -> None:

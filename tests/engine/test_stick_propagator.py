@@ -22,9 +22,9 @@ VARIANTS = {
 COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
 
-def _coast(model: layout.Model, s: layout.Series, state: layout.EngineState, x: float) -> float:
-    length = stick_propagator.coast_length(model, s, state)
-    stick_propagator.coast_to(model, s, x, state)
+def _propagate(model: layout.Model, s: layout.Series, state: layout.EngineState, x: float) -> float:
+    length = stick_propagator.closed_form_length(model, s, state)
+    stick_propagator.propagate_stick(model, s, x, state)
     return float(length)
 
 
@@ -48,7 +48,7 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     """
     model = engine_case(Parameters(N=385, Omega=15.1, **VARIANTS.get(variant, COMPLIANT))).model
     closed, taylor = _lively(model), _lively(model)
-    _coast(model, layout.build_series(model, ORDER), closed, x)
+    _propagate(model, layout.build_series(model, ORDER), closed, x)
     s = layout.build_series(model, ORDER)
     dense_output.load_state(model, s, taylor)
     expand = contact_series.compliant_stick_series if variant == "compliant" else series.stick_series
@@ -63,13 +63,13 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
         assert closed.x[layout.U_VELOCITY] == pytest.approx(taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit)
 
 
-def test_coasts_compose() -> None:
-    """Two coasts are one coast of their sum, however far: 300 units are 48 turns of the fastest mode."""
+def test_advances_compose() -> None:
+    """Two advances in closed form are one of their sum, however far: 300 units are 48 turns of the fastest mode."""
     model = engine_case(Parameters(N=385, Omega=1.0, **VARIANTS["dampers"])).model
     s, once, twice = layout.build_series(model, ORDER), _lively(model), _lively(model)
-    _coast(model, s, once, 300.3)
-    _coast(model, s, twice, 123.1)
-    _coast(model, s, twice, 300.3 - 123.1)
+    _propagate(model, s, once, 300.3)
+    _propagate(model, s, twice, 123.1)
+    _propagate(model, s, twice, 300.3 - 123.1)
     np.testing.assert_allclose(twice.disc, once.disc, rtol=0, atol=1e-13 * np.abs(once.disc).max())
 
 
@@ -82,11 +82,11 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
     model = engine_case(p).model
     s, state = layout.build_series(model, ORDER), _lively(model, seed)
-    length = _coast(model, s, state, 0.0)
-    assert stick_propagator.SHORTEST_COAST <= length < stick_modes.LONGEST_COAST
+    length = _propagate(model, s, state, 0.0)
+    assert stick_propagator.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
     swing, lowest = 0.0, np.inf
     for x in np.linspace(0.0, length, 500):
-        stick_propagator.coast_to(model, s, x, state)
+        stick_propagator.propagate_stick(model, s, x, state)
         P = stick_force(model, state)
         pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
         lowest = min(lowest, p.mu_s * P - abs(pull))
@@ -112,23 +112,23 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
     s, pulled, shaken = layout.build_series(model, ORDER), _lively(model), _lively(model)
     pulled.x[layout.PSI] = 0.1
     shaken.e[:] *= 1e4
-    assert _coast(model, s, pulled, 0.0) == _coast(model, s, shaken, 0.0) == 0.0
+    assert _propagate(model, s, pulled, 0.0) == _propagate(model, s, shaken, 0.0) == 0.0
 
 
 def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     """At rest under the preload P stays: stick lasts until the spring, now at 0.9 of the limit, is at all of it."""
     p = Parameters(N=385, Omega=15.1)
     limit, unit = p.mu_s * p.N / p.r_0, engine_case(p).model.unit
-    # from no pull at all that would take as long as a coast may last
-    model = engine_case(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_COAST))).model
+    # from no pull at all that would take as long as one advance may last
+    model = engine_case(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_STICK))).model
     s, state = layout.build_series(model, ORDER), layout.build_state(model)
     state.x[layout.PSI] = 0.9 * limit / p.k_p
     # 0.1 of it, right to the rounding of forces of which nine tenths cancel
-    assert _coast(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_COAST, rel=1e-12)
+    assert _propagate(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_STICK, rel=1e-12)
 
 
 def test_events_are_those_of_the_series() -> None:
-    """Slow drive: stick is nearly all of the motion and coasts are long."""
+    """Slow drive: stick is nearly all of the motion and advances in closed form are long."""
     p = Parameters(N=385, Omega=1.0)
     closed = simulate(p, 0.6, tol=1e-14)
     stepped = simulate(p, 0.6, tol=1e-14, ramps=by_series(p))
@@ -139,8 +139,8 @@ def test_events_are_those_of_the_series() -> None:
 
 
 @pytest.mark.compiled
-def test_samples_and_audit_within_a_coast() -> None:
-    """Samples that fall into a coast, and its energy balance, are as good as those of steps."""
+def test_samples_and_audit_within_an_advance() -> None:
+    """Samples that fall into one advance, and its energy balance, are as good as those of steps."""
     p = Parameters(N=385, Omega=1.0, c=1.0, D_star=1e-3)
     record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), audit_every_step=True)
     closed = simulate(p, 0.3, tol=1e-14, record=record)
@@ -150,14 +150,14 @@ def test_samples_and_audit_within_a_coast() -> None:
         # the series leave 1e-14 of the static deflection at each step, which a small velocity feels
         size = max(np.abs(values).max(), 1e-3 * (name == "u_velocity"))
         np.testing.assert_allclose(closed.samples[0][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
-    # the quadrature of a step is good to rounding, so is that of a coast
+    # the quadrature of a step is good to rounding, so is that of an advance in closed form
     assert closed.statistics["energy_residual_transverse"] < 1e-13
     assert closed.statistics["energy_residual_inplane"] < 1e-13
 
 
 @pytest.mark.compiled
-def test_samples_of_a_coast_fit_their_buffer() -> None:
-    """The engine writes a whole coast before it pauses; numba would not say if it wrote beyond the end."""
+def test_samples_of_an_advance_fit_their_buffer() -> None:
+    """The engine writes a whole advance before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
     run = _Run(_Request(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,))))
     room, width = run.collector.rows.shape
@@ -167,5 +167,5 @@ def test_samples_of_a_coast_fit_their_buffer() -> None:
         pauses += 1
     assert pauses >= 1
     assert np.isnan(run.collector.rows[room:]).all()
-    # the longest coast has begun just before the pause: else this test shows nothing
+    # the longest advance has begun just before the pause: else this test shows nothing
     assert np.isfinite(run.collector.rows[run.collector.capacity + 5000, 1])

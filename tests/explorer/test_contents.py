@@ -37,8 +37,8 @@ def test_numbers_flags_and_messages_come_through(contents):
     assert (told["growth_rate"]["unit"], told["growth_rate"]["title"]) == ("s-1", "growth rate")
     words = np.array(told["outcome"]["flags"])[numbers(told["outcome"], "u1")]
     assert words.tolist() == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
-    said = np.array(contents["messages"]["words"])[numbers(contents["messages"], "<u2")].reshape(3, 4, 2)
-    assert (said[tuple(made_up.FAILED.values())], (said != "").sum()) == (made_up.MESSAGE, 1)
+    text = np.array(contents["messages"]["words"])[numbers(contents["messages"], "<u2")].reshape(3, 4, 2)
+    assert (text[tuple(made_up.FAILED.values())], (text != "").sum()) == (made_up.MESSAGE, 1)
     spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
     assert contents["fixed"] == [spring]
 

@@ -136,7 +136,7 @@ def test_every_choice_draws_something(shown: Page) -> None:
     assert {("plane", "Omega", "N", "releases"), ("line", "N_Omega", "", "period")} <= drawn
     assert ("plane", "Omega", "normalization", "releases") not in drawn
     choose(shown, "Study", "line")
-    assert text(shown, "motion-said").startswith("Of this quantity")
+    assert text(shown, "motion-note").startswith("Of this quantity")
 
 
 def test_pointing_says_the_value_of_what_is_chosen(shown: Page) -> None:
@@ -147,12 +147,12 @@ def test_pointing_says_the_value_of_what_is_chosen(shown: Page) -> None:
         for i, j in ((0, 0), (3, 1)):
             shown.point(*centre(shown, i, j))
             value = float(study["growth_rate"].isel(Omega=i, N=j, normalization=norm))
-            said = text(shown, "hovered")
-            assert f"Omega = {study['Omega'].values[i]:g} rad s⁻¹" in said
-            assert f"growth_rate {value:.5g} s⁻¹".replace("-", "−") in said
+            phrase = text(shown, "hovered")
+            assert f"Omega = {study['Omega'].values[i]:g} rad s⁻¹" in phrase
+            assert f"growth_rate {value:.5g} s⁻¹".replace("-", "−") in phrase
     assert "orthonormal" in text(shown, "map-title")
     assert len(seen) == 2
-    assert text(shown, "motion-said").startswith("No motion is stored")
+    assert text(shown, "motion-note").startswith("No motion is stored")
     choose(shown, "Variable", "outcome")
     assert colour(shown, 0, 0) == WORDS["quiet"].lower()
     shown.run("document.getElementById('fixed').parentElement.open = true")
@@ -206,7 +206,7 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
         return np.array(shown.run("return motionDrawn && [...motionDrawn.histories[0]]"))
 
     shown.point(*centre(shown, 0, 0), click=True)
-    assert text(shown, "motion-said") == "At this point. After the transient."
+    assert text(shown, "motion-note") == "At this point. After the transient."
     expected = made_up.force(100.0)
     # half a step of 16 bits, and rounding to float
     np.testing.assert_allclose(history(), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
@@ -218,7 +218,7 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
         (3, 0, "quiet", 100, 5),
     ):
         shown.point(*centre(shown, i, j), click=True)
-        assert text(shown, "motion-said").startswith(
+        assert text(shown, "motion-note").startswith(
             f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Omega = {Omega} rad s⁻¹, "
             "as_published (ring in the map)."
         )

@@ -17,7 +17,7 @@ from disc_model.data.dataset import Missing, events_dataset
 from disc_model.data.variables import PERTURBATIONS, SHOWN
 from disc_model.figures import parts
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
-from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of, said_parameters
+from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of, parameters_text
 from disc_model.figures.paper.disc import film, motion_of
 from disc_model.figures.parts import COLUMN, PAGE, save
 from tests.claims.made_up import DAMAGES, EACH_DAMAGE, damaged
@@ -147,8 +147,8 @@ def test_two_angles_are_both_named() -> None:
 # ---- kinds that a file may ask for
 
 
-def asked(kind: str, case: xr.DataTree | None = None, **said: Any) -> Figure:
-    plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **said})
+def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
+    plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **phrase})
     return parts.draw(plot, {"A": whole_case() if case is None else case})
 
 
@@ -191,12 +191,12 @@ def test_the_title_of_a_section_lay_over_its_legend(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", CASE_PLOTS)
 def test_what_a_case_lacks_is_said(kind: str) -> None:
     """A case that stops at its first separation ended the job of a history in an IndexError."""
-    said = {} if kind == "poincare" else {"window": "orbit"}
+    phrase = {} if kind == "poincare" else {"window": "orbit"}
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
-    assert any("did not record" in text for text in said_in(asked(kind, empty, **said)))
+    assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":
         early = damaged(whole_case(), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
-        assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **said)))
+        assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase)))
 
 
 # ---- the catalogue
@@ -220,8 +220,8 @@ def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
 def test_parameters_that_are_words_are_said_as_words() -> None:
     """A case with another law of contact ended the whole study: words have no format of numbers."""
     p = Parameters(N=200, Omega=20, contact_compliance="residual", contact_force="normal")
-    assert said_parameters(p) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
-    assert said_parameters(p.replace(contact_compliance=1e-7, contact_force="vertical")).endswith("= 1e-07 m/N")
+    assert parameters_text(p) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
+    assert parameters_text(p.replace(contact_compliance=1e-7, contact_force="vertical")).endswith("= 1e-07 m/N")
 
 
 def test_every_number_that_varies_has_a_symbol() -> None:
@@ -239,13 +239,13 @@ def test_captions_say_times_and_angles_of_the_windows() -> None:
         "poincare": Poincare(theta=-0.25),
     }
 
-    def said(name: str) -> str:
+    def phrase(name: str) -> str:
         return caption(name, {"F02": p, "F04": p}, {"F02": windows, "F04": windows | {"history": windows["zoom"]}})
 
-    assert "(b) 50 ms of it" in said("fig02")
-    assert "r_0 and θ = -0.25." in said("fig05")
-    assert "r_0 and θ = 0.5 and 1, with" in said("fig10")
-    assert "drive point, 7.5 to 9 s, coloured by phase" in said("figA2")
+    assert "(b) 50 ms of it" in phrase("fig02")
+    assert "r_0 and θ = -0.25." in phrase("fig05")
+    assert "r_0 and θ = 0.5 and 1, with" in phrase("fig10")
+    assert "drive point, 7.5 to 9 s, coloured by phase" in phrase("figA2")
     # without a section, as if nothing had been said of it
     assert "r_0 and a fixed θ." in caption("fig05", {"F02": p, "F04": p}, {"F02": {"poincare": None}})
 

@@ -10,7 +10,7 @@ from disc_model.figures.kinds import Campbell
 
 
 @pytest.mark.parametrize(
-    ("base", "said"),
+    ("base", "text"),
     [
         ({"N": 385.0, "Omega": 15.1, "mu_s": 0.4}, "N = 385 N, Ω = 15.1 rad/s"),
         ({"N": 385.0, "c_p": 1.0}, "N = 385 N, $c_p$ = 1 N s/m"),
@@ -20,11 +20,11 @@ from disc_model.figures.kinds import Campbell
         ({"N": 200.0, "contact": "bonded"}, "N = 200 N, bonded contact"),
     ],
 )
-def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], said: str) -> None:
+def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: str) -> None:
     study = xr.Dataset(coords={"k": [1.0, 2.0]}, attrs={"title": "Made up", "base": json.dumps(base)})
     figure = parts.new_figure(parts.COLUMN, 2)
     parts.head(figure, study, Campbell())
-    assert figure.get_suptitle() == f"Made up\n{said}"
+    assert figure.get_suptitle() == f"Made up\n{text}"
 
 
 def test_a_figure_with_a_caption_has_no_heading() -> None:

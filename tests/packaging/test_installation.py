@@ -146,8 +146,8 @@ print(json.dumps({"status": result.status.value, "steps": int(result.statistics[
 def test_it_works_without_the_sources(installed: Installed) -> None:
     """A run, a dataset, and every module with the data it reads."""
     optional = [f"disc_model.benchmarks.methods.{name}" for name in ("cvode", "taylor_heyoka")]
-    said = installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE.replace("*OPTIONAL", f"*{optional}"))
-    result = json.loads(said.splitlines()[-1])
+    phrase = installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE.replace("*OPTIONAL", f"*{optional}"))
+    result = json.loads(phrase.splitlines()[-1])
     assert result["status"] == "ok"
     assert result["steps"] > 0
     assert not [name for name in result["files"] if Path(name).is_relative_to(ROOT)]
@@ -157,8 +157,8 @@ def test_it_works_without_the_sources(installed: Installed) -> None:
 @pytest.mark.parametrize("start", [("disc-model",), ("python", "-I", "-m", "disc_model")], ids=["script", "module"])
 def test_the_command_line(installed: Installed, start: tuple[str, ...]) -> None:
     picture = installed.work / f"{start[0]}.png"
-    said = installed.run(*start, "run", "--N", "385", "--Omega", "15.1", "--t-end", "2", "--plot", picture)
-    assert "ok" in said
+    phrase = installed.run(*start, "run", "--N", "385", "--Omega", "15.1", "--t-end", "2", "--plot", picture)
+    assert "ok" in phrase
     assert picture.read_bytes().startswith(b"\x89PNG")
     assert picture.stat().st_size > 10_000
     assert "psi" in installed.run(*start, "modes", "--normalization", "orthonormal")
@@ -180,8 +180,8 @@ def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path
     plain.run("python", "-m", "pip", "install", "-c", "pins.txt", wheel)
     [shown] = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(), re.DOTALL | re.MULTILINE)
     drawn = "try:\n    r.plot()\nexcept ImportError as error:\n    print(error)\n"
-    said = plain.run("python", "-I", "-c", re.sub(r"^r\.plot\(\).*\n", drawn, shown, flags=re.MULTILINE))
-    assert "pip install 'disc_model[workflow]'" in said
+    phrase = plain.run("python", "-I", "-c", re.sub(r"^r\.plot\(\).*\n", drawn, shown, flags=re.MULTILINE))
+    assert "pip install 'disc_model[workflow]'" in phrase
     assert (tmp_path / "run.nc").stat().st_size > 0
 
 

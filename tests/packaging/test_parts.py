@@ -9,8 +9,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def test_every_file_of_quick_tests_is_in_one_part() -> None:
     """Those of the workflow are not quick."""
-    said = subprocess.run(["make", "-n", "test-parts"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    parts = [ROOT / path for line in re.findall(r"pytest .*", said) for path in re.findall(r"tests/\S*", line)]
+    phrase = subprocess.run(["make", "-n", "test-parts"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    parts = [ROOT / path for line in re.findall(r"pytest .*", phrase) for path in re.findall(r"tests/\S*", line)]
     files = {path for path in (ROOT / "tests").rglob("test_*.py") if "workflow" not in path.parts}
     assert len(files) > 50
     assert all(part.exists() for part in parts)

@@ -23,7 +23,11 @@ def look(frame: FrameType, event: str, _: object) -> None:
         return
     while around.f_back and not (around.f_code.co_name == "<module>" and around.f_code.co_filename.startswith(PACKAGE)):
         around = around.f_back
-    if around.f_back is None or around.f_code.co_name != "<module>" or not around.f_code.co_filename.startswith(PACKAGE):
+    if (
+        around.f_back is None
+        or around.f_code.co_name != "<module>"
+        or not around.f_code.co_filename.startswith(PACKAGE)
+    ):
         ENTERED[file.removeprefix(PACKAGE)] = None
 
 

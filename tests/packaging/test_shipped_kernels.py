@@ -75,7 +75,7 @@ def _damaged(copy: Copy) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "environment", "said"),
+    ("change", "environment", "phrase"),
     [
         (None, {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": "+avx2,+fma"}, "no kernels came with the package"),
         (_of_another_numba, {}, "these kernels are of"),
@@ -84,7 +84,7 @@ def _damaged(copy: Copy) -> None:
     ids=["another processor", "another numba", "damaged"],
 )
 def test_what_does_not_fit_is_compiled_and_it_is_said_in_one_line(
-    copy: Copy, change: Callable[[Copy], None] | None, environment: dict[str, str], said: str, tmp_path: Path
+    copy: Copy, change: Callable[[Copy], None] | None, environment: dict[str, str], phrase: str, tmp_path: Path
 ) -> None:
     before = {path: path.read_bytes() for path in copy.kernels.iterdir()}
     if change:
@@ -92,6 +92,6 @@ def test_what_does_not_fit_is_compiled_and_it_is_said_in_one_line(
     done = copy.run(SETTING + CALL, str(tmp_path), **environment)
     for path, content in before.items():
         path.write_bytes(content)
-    assert done.stderr.count(said) == done.stderr.count("RuntimeWarning") == 1
+    assert done.stderr.count(phrase) == done.stderr.count("RuntimeWarning") == 1
     assert len(list(tmp_path.rglob("*.kernel"))) == 1
     assert done.stdout.split()[1] == "13"

@@ -191,10 +191,10 @@ class TestNotTrusted:
         p, t_end, options = OTHERS[name]
         options = {key: value(run[key]) if callable(value) else value for key, value in options.items()}
         found = simulate(p, t_end, **run | options)
-        said = re.search(r"checkpoint (.*) ignored: of another run \(other (.*)\)", caplog.text)
-        assert said is not None
-        assert said[1] == str(run["checkpoint"])
-        assert name in said[2].split(", ")
+        phrase = re.search(r"checkpoint (.*) ignored: of another run \(other (.*)\)", caplog.text)
+        assert phrase is not None
+        assert phrase[1] == str(run["checkpoint"])
+        assert name in phrase[2].split(", ")
         same(found, simulate(p, t_end, **run | options | {"checkpoint": None}))
 
     @pytest.mark.parametrize(("function", "name"), [("source_hash", "sources"), ("versions", "versions")])

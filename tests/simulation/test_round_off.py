@@ -74,10 +74,10 @@ def test_values_are_shown_in_a_line() -> None:
     assert repr(result) == (
         f"Result(N=200 N, Omega=50 rad/s: ok at 0.05 s, no separation, {result.statistics['events']} events, 0 windows)"
     )
-    said = repr(result.final_state)
-    assert said.startswith("State(time=0.05 s, ")
-    assert said.endswith("2 modes)")
-    assert len(said) < 140
+    text = repr(result.final_state)
+    assert text.startswith("State(time=0.05 s, ")
+    assert text.endswith("2 modes)")
+    assert len(text) < 140
 
 
 def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:

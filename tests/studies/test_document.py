@@ -32,9 +32,9 @@ def test_what_is_shipped_is_made_from_the_models() -> None:
 @pytest.mark.parametrize("path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem)
 def test_a_shipped_file_is_right(path: Path) -> None:
     """It fits the schema that it names, bears the name of its study, and says nothing implausible."""
-    said = path.read_text(encoding="utf-8")
-    assert [error.message for error in CHECK.iter_errors(yaml.safe_load(said))] == []
-    named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", said)
+    phrase = path.read_text(encoding="utf-8")
+    assert [error.message for error in CHECK.iter_errors(yaml.safe_load(phrase))] == []
+    named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", phrase)
     assert named
     assert (path.parent / named[1]).resolve() == SHIPPED
     study = load_study(path)
@@ -54,8 +54,8 @@ def test_editors_show_meanings_and_units() -> None:
 
 
 def grid(**changes: Any) -> dict[str, Any]:
-    said = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
-    return said | changes
+    phrase = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
+    return phrase | changes
 
 
 def cases(**changes: Any) -> dict[str, Any]:

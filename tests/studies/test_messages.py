@@ -145,11 +145,11 @@ def _written() -> None:
 
 def _line(entry: dict[str, Any]) -> str:
     """An entry on two lines, or as many as it has texts, so that differences are seen."""
-    said, faults = (json.dumps(value, ensure_ascii=False) for value in entry.values())
+    phrase, faults = (json.dumps(value, ensure_ascii=False) for value in entry.values())
     if isinstance(entry.get("faults"), dict):
         faults = json.dumps(entry["faults"], ensure_ascii=False, indent=1)
     first, second = entry
-    return f'{{"{first}": {said},\n "{second}": {faults}}}'
+    return f'{{"{first}": {phrase},\n "{second}": {faults}}}'
 
 
 if __name__ == "__main__":

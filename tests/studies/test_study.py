@@ -136,7 +136,7 @@ def test_keys_given_twice(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "said"),
+    ("content", "phrase"),
     [
         (b"a: [1", r"broken\.yaml"),
         (b"a: b: c", r"broken\.yaml"),
@@ -144,11 +144,11 @@ def test_keys_given_twice(tmp_path: Path) -> None:
         (None, "cannot be read"),
     ],
 )
-def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, said: str) -> None:
+def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, phrase: str) -> None:
     path = tmp_path / "broken.yaml"
     if content is not None:
         path.write_bytes(content)
-    with pytest.raises(StudyError, match=said):
+    with pytest.raises(StudyError, match=phrase):
         load_study(path)
 
 

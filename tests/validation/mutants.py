@@ -320,9 +320,9 @@ class Trials:
             elif isinstance(found, functools._lru_cache_wrapper):
                 caches.append(found)
         gc.freeze()
-        code, said = self._fork(session.items, lambda: None)
-        assert code == 0, f"fails without any change: {said}"
-        spent = json.loads(said)
+        code, text = self._fork(session.items, lambda: None)
+        assert code == 0, f"fails without any change: {text}"
+        spent = json.loads(text)
         session.items.sort(key=lambda item: spent[item.nodeid])
         for module in self.modules:
             here = [item for item in session.items if item.nodeid.split("::")[0] in MODULES[module]]
@@ -364,8 +364,8 @@ class Trials:
             os._exit(0)
         os.close(self._pipe)
         with os.fdopen(read) as pipe:
-            said = pipe.read()
-        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), said
+            text = pipe.read()
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), text
 
 
 def try_all(modules: Iterable[str]) -> Trials:
@@ -374,10 +374,10 @@ def try_all(modules: Iterable[str]) -> Trials:
     tests = sorted({file for module in trials.modules for file in MODULES[module]})
     # numba compiles CVODE's callbacks in any case, and then finds functions that are not compiled
     options = ("-qq", "-p", "no:cacheprovider", "-m", "not slow and not compiled", "-k", "not CVODE")
-    with contextlib.redirect_stdout(io.StringIO()) as said:
+    with contextlib.redirect_stdout(io.StringIO()) as text:
         code = pytest.main([*options, *tests], plugins=[trials])
     if code != pytest.ExitCode.OK:
-        raise SystemExit(said.getvalue())
+        raise SystemExit(text.getvalue())
     return trials
 
 

@@ -196,16 +196,16 @@ class Simulated(Exception):
 def test_any_command_line(arguments: list[str]) -> None:
     """It ends with a result, with help, or with code 2 and what is wrong on stderr."""
     count("command lines")
-    said = io.StringIO()
+    phrase = io.StringIO()
     module = sys.modules["disc_model.simulation.api"]
     with (
         mock.patch.object(module, "simulate", side_effect=Simulated),
         contextlib.redirect_stdout(io.StringIO()),
-        contextlib.redirect_stderr(said),
+        contextlib.redirect_stderr(phrase),
         pytest.raises((SystemExit, Simulated)) as stop,
     ):
         main(arguments)
     if isinstance(stop.value, SystemExit):
         assert stop.value.code in (0, 2)
-        assert "Traceback" not in said.getvalue()
-        assert bool(said.getvalue().strip()) == (stop.value.code == 2)
+        assert "Traceback" not in phrase.getvalue()
+        assert bool(phrase.getvalue().strip()) == (stop.value.code == 2)

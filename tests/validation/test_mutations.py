@@ -33,7 +33,7 @@ def test_all_mutants_are_killed(capfd: pytest.CaptureFixture[str]) -> None:
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     command = [sys.executable, "-m", "tests.validation.mutants", *modules]
     done = subprocess.run(command, env=os.environ | threads | {"NUMBA_DISABLE_JIT": "1"}, check=False)
-    said = capfd.readouterr()
-    assert done.returncode == 0, said.out + said.err
+    text = capfd.readouterr()
+    assert done.returncode == 0, text.out + text.err
     with capfd.disabled():
-        print(f"\nmutants killed: {said.out.strip()}; {len(EQUIVALENT)} more make no difference")
+        print(f"\nmutants killed: {text.out.strip()}; {len(EQUIVALENT)} more make no difference")

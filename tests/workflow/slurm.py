@@ -121,8 +121,8 @@ class Cluster:
                     return
             if self.daemons[daemon].poll() is not None or time.monotonic() > until:
                 logs = [self.folder / f"{daemon}.out", self.folder / f"{daemon}.log"]
-                said = [line for log in logs if log.exists() for line in log.read_text(errors="replace").splitlines()]
-                raise Unavailable(f"{daemon} does not start: " + " | ".join(said[-5:]))
+                phrase = [line for log in logs if log.exists() for line in log.read_text(errors="replace").splitlines()]
+                raise Unavailable(f"{daemon} does not start: " + " | ".join(phrase[-5:]))
             time.sleep(0.2)
 
 
@@ -177,8 +177,8 @@ def _configure(folder: Path) -> None:
 def _version() -> tuple[int, ...]:
     program = needs.program("slurmd")
     assert program, needs.SLURM.reason
-    said = subprocess.run([program, "-V"], capture_output=True, text=True, timeout=60, check=True).stdout
-    return tuple(int(number) for number in re.findall(r"\d+", said)[:2])
+    phrase = subprocess.run([program, "-V"], capture_output=True, text=True, timeout=60, check=True).stdout
+    return tuple(int(number) for number in re.findall(r"\d+", phrase)[:2])
 
 
 def _free_ports() -> tuple[int, int]:

@@ -68,9 +68,9 @@ def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
 
 def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:
     (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
-    said = disc_model(elsewhere, "study", "mine.yaml").stderr.splitlines()
-    closing = said.index("mine: 2 figures in results/mine/figures")
-    assert said[closing + 1 : closing + 4] == [
+    phrase = disc_model(elsewhere, "study", "mine.yaml").stderr.splitlines()
+    closing = phrase.index("mine: 2 figures in results/mine/figures")
+    assert phrase[closing + 1 : closing + 4] == [
         "4 of 4 points have a result",
         "The same command with the target `explorer` makes a page of every point: results/mine/explorer.html",
         "(disc-model study ... --target explorer, or snakemake ... explorer)",
@@ -90,9 +90,9 @@ def test_a_dry_run_is_a_few_lines(elsewhere: Path) -> None:
 def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
     """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
     for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):
-        said = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
-        assert "Nothing to be done" in said
-        assert "KeyError" not in said
+        phrase = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
+        assert "Nothing to be done" in phrase
+        assert "KeyError" not in phrase
 
 
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
@@ -102,8 +102,8 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
         assert re.search(r"^draw_plot +1$", snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"), re.M)
     disc_model(tmp_path, "init", "own")
     assert re.search(r"^compute_batch +1$", snakemake(tmp_path / "own", "-n"), re.M)
-    said = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
-    assert re.search(r"^simulate_case +1$", said, re.M), "the paper's study, if none is given"
+    phrase = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
+    assert re.search(r"^simulate_case +1$", phrase, re.M), "the paper's study, if none is given"
 
 
 def test_what_is_stale_is_listed(elsewhere: Path) -> None:
@@ -138,7 +138,7 @@ def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> 
     ],
 )
 def test_what_there_is_not_is_told_with_what_there_is(elsewhere: Path, target: str, message: str) -> None:
-    said = snakemake(elsewhere, "-n", "-s", SNAKEFILE, target, "--configfile", "mine.yaml", fails=True)
-    assert message in said
-    assert "KeyError" not in said
-    assert "Traceback" not in said
+    phrase = snakemake(elsewhere, "-n", "-s", SNAKEFILE, target, "--configfile", "mine.yaml", fails=True)
+    assert message in phrase
+    assert "KeyError" not in phrase
+    assert "Traceback" not in phrase

@@ -64,8 +64,8 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
             terminal.wait_for(moments.choice(["study file: mine.yaml", "rule compute_batch:"]))
             terminal.read(moments.uniform(0.0, 4.0))
             terminal.type("\x03")
-            said = terminal.wait_for(PROMPT)
-            assert not list((tmp_path / ".snakemake").glob("locks/*")), said
+            phrase = terminal.wait_for(PROMPT)
+            assert not list((tmp_path / ".snakemake").glob("locks/*")), phrase
             terminal.type("echo ended with $?\n")
             terminal.wait_for("ended with 130")
             terminal.wait_for(PROMPT)

@@ -54,9 +54,9 @@ def test_a_study_is_computed_by_the_cluster(cluster: Cluster, project: Project, 
     (project.folder / "src" / "sitecustomize.py").write_text(HANG)
     project.edit(f"{PROFILE}/config.yaml", "runtime: 30 * attempt", "runtime: 1 * attempt")
     process = project.start("--workflow-profile", PROFILE, prepare=slurm.die_with_parent)
-    code, said = process.wait(timeout=1800), (project.folder / "run.log").read_text()
-    assert code == 0, said
-    submitted = dict(re.findall(r"SLURM jobid (\d+) \(log: \S*/rule_(\w+)/", said))
+    code, text = process.wait(timeout=1800), (project.folder / "run.log").read_text()
+    assert code == 0, text
+    submitted = dict(re.findall(r"SLURM jobid (\d+) \(log: \S*/rule_(\w+)/", text))
     ends = Counter(
         (rule == "compute_batch", cluster.finished()[job]["JobState"], cluster.finished()[job]["TimeLimit"])
         for job, rule in submitted.items()
@@ -64,7 +64,7 @@ def test_a_study_is_computed_by_the_cluster(cluster: Cluster, project: Project, 
     batches = len(list(project.folder.glob("results/*/batches/*.nc")))
     others = ends.pop((False, "COMPLETED", "10"))
     assert ends == {(True, "TIMEOUT", "1"): 1, (True, "COMPLETED", "2"): 1, (True, "COMPLETED", "1"): batches - 1}
-    [announced] = re.findall(r"^total +(\d+)$", said, re.MULTILINE)[:1]
-    beside = len(re.findall(r"^localrule \w+:", said, re.MULTILINE))
+    [announced] = re.findall(r"^total +(\d+)$", text, re.MULTILINE)[:1]
+    beside = len(re.findall(r"^localrule \w+:", text, re.MULTILINE))
     assert others + batches + beside == int(announced)
     assert project.products() == finished.products()

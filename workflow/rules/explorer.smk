@@ -58,7 +58,7 @@ rule build_explorer:
                         "name": study,
                         "data": grid_file(study),
                         "motions": next(iter(motions_of(study)), ""),
-                        "said": QUANTITIES[GRIDS[study].quantity].motion,
+                        "text": QUANTITIES[GRIDS[study].quantity].motion,
                     }
                     for study in EXPLORED
                 ],

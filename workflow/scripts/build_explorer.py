@@ -1,7 +1,7 @@
 """Write the explorer page with grid studies, motions and figures.
 
 Its contents are read from standard input as JSON: ``title``; ``studies``, each with ``name``, ``data``, ``motions``
-(netCDF files; the latter may be "") and their description ``said``; ``pictures``, each with ``heading``, ``title``,
+(netCDF files; the latter may be "") and their description ``phrase``; ``pictures``, each with ``heading``, ``title``,
 ``caption`` and ``file`` (PNG).
 """
 
@@ -23,7 +23,7 @@ def main(output: str) -> None:
     for study in plan["studies"]:
         given = [Path(study[role]) for role in ("data", "motions") if study[role]]
         data, *motions = (tree.to_dataset() for tree in load_inputs(given))
-        studies.append(study_contents(study["name"], data, next(iter(motions), None), study["said"]))
+        studies.append(study_contents(study["name"], data, next(iter(motions), None), study["text"]))
     pictures = [Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]]
     text = page(plan["title"], studies, pictures)
     Path(output).write_text(text, encoding="utf-8")

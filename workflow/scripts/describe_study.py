@@ -11,10 +11,10 @@ from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import load_inputs
 from disc_model.data.variables import STATUSES
 from disc_model.errors import script
-from disc_model.figures.paper.catalogue import said_parameters
+from disc_model.figures.paper.catalogue import parameters_text
 from disc_model.parameters import Parameters
 
-SAID = (
+WORDS = (
     "The full specification of every case has a hash, and so have the sources that made the results: a result and the "
     "code it comes from can be told to belong together."
 )
@@ -22,11 +22,11 @@ SAID = (
 
 def sources(tree: xr.DataTree) -> pd.DataFrame:
     """Commit, hash of the solver's sources, and versions."""
-    said = {"commit": tree.attrs.get("git_commit", ""), "hash of the solver": tree.attrs.get("source_hash", "")}
+    text = {"commit": tree.attrs.get("git_commit", ""), "hash of the solver": tree.attrs.get("source_hash", "")}
     versions = tree.attrs.get("versions", "{}")
     listed = json.loads(versions)
-    said |= listed if isinstance(listed, dict) else {"versions": versions}
-    return pd.DataFrame(list(said.items()), columns=["What", "Value"])
+    text |= listed if isinstance(listed, dict) else {"versions": versions}
+    return pd.DataFrame(list(text.items()), columns=["What", "Value"])
 
 
 def rows(tree: xr.DataTree) -> pd.DataFrame:
@@ -41,7 +41,7 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
                 "Case": name,
                 "Title": str(row["title"].item()),
                 "Place in the paper": str(row["reference"].item()),
-                "Parameters": f"{said_parameters(p)}, {p.contact}, {p.normalization}",
+                "Parameters": f"{parameters_text(p)}, {p.contact}, {p.normalization}",
                 "Length (s)": float(row["time_reached"]),
                 "First separation (s)": float(row["first_separation"]),
                 "Separations": int(row["n_separations"]),
@@ -56,4 +56,4 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
 def main(title: str, cases: str, output: str) -> None:
     (tree,) = load_inputs([Path(cases)])
     parts = (f"<h2>Sources</h2>{table_html(sources(tree))}", f"<h2>Cases</h2>{table_html(rows(tree))}")
-    Path(output).write_text(page(title or "Provenance", f"<p>{escape(SAID)}</p>", *parts), encoding="utf-8")
+    Path(output).write_text(page(title or "Provenance", f"<p>{escape(WORDS)}</p>", *parts), encoding="utf-8")

@@ -200,5 +200,5 @@ def _upper(case: str) -> str:
 
 def text(study: xr.Dataset) -> str:
     """All texts as one page: the table beside the figures of ``make bench``."""
-    known = {name.removeprefix("truncation_"): said.strip("\n") for name, said in passages(summary(study)).items()}
+    known = {name.removeprefix("truncation_"): phrase.strip("\n") for name, phrase in passages(summary(study)).items()}
     return TEXTS["truncation_page"].fill(**known)

@@ -14,7 +14,7 @@ from disc_model.claims.measures import CaseView
 from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, Claim
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
-from disc_model.figures.paper.catalogue import said_parameters
+from disc_model.figures.paper.catalogue import parameters_text
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, plate_modes
 
@@ -47,9 +47,9 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        (found, turned), said = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.said
-        texts = (claim.id, said.location, claim.text, said.paper, found.ours, claim.tolerance, said.reason)
-        rows.append((*texts, found.verdict, found.remark, said.apart, turned))
+        (found, turned), phrase = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.phrase
+        texts = (claim.id, phrase.location, claim.text, phrase.paper, found.ours, claim.tolerance, phrase.reason)
+        rows.append((*texts, found.verdict, found.remark, phrase.apart, turned))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -131,7 +131,7 @@ def _modes() -> pd.DataFrame:
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
-    table = {"Case": [case.name for case in cases], "Parameters": [_said(case) for case in cases]}
+    table = {"Case": [case.name for case in cases], "Parameters": [_format(case) for case in cases]}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
     table |= {f"Growth{which} (1/s)": [_growth(case) for case in those] for which, those in pairs.items()}
     table[f"P in the end{[*pairs][-1]} (N)"] = [_late(case) for case in new or cases]
@@ -154,9 +154,9 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
     )
 
 
-def _said(case: CaseView) -> str:
+def _format(case: CaseView) -> str:
     p = case.parameters
-    return said_parameters(p) + (", separation ignored" if p.contact == "bonded" else "")
+    return parameters_text(p) + (", separation ignored" if p.contact == "bonded" else "")
 
 
 def _first(case: CaseView) -> str:
@@ -169,7 +169,7 @@ def _first(case: CaseView) -> str:
 
 
 def _growth(case: CaseView) -> str:
-    return measures.said_rate(measures.growth_or_nan(case.parameters), without="–")
+    return measures.rate_text(measures.growth_or_nan(case.parameters), without="–")
 
 
 def _late(case: CaseView) -> str:

@@ -98,7 +98,7 @@ class CaseView:
     def growth(self) -> str:
         """Growth rate of small disturbances of its cycle, in words."""
         rate = growth_or_nan(self.parameters)
-        return "no stick-slip cycle" if math.isnan(rate) else f"growth {said_rate(rate)}/s"
+        return "no stick-slip cycle" if math.isnan(rate) else f"growth {rate_text(rate)}/s"
 
     @property
     def onset(self) -> str:
@@ -299,8 +299,8 @@ def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
 
 def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
     """Change of a periodic motion where a spring is 0.1 % stiffer; empty if its period stays."""
-    said = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
-    return [{"with": said}] if motion.period not in (0, other.period) else []
+    text = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
+    return [{"with": text}] if motion.period not in (0, other.period) else []
 
 
 def _by_separations(case: CaseView) -> str:
@@ -479,6 +479,6 @@ def sliding_growth(p: Parameters) -> float:
     return steady_sliding(p).growth_rate
 
 
-def said_rate(rate: float, unit: str = "", without: str = "no cycle") -> str:
+def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
     """A growth rate as text, or a text if there is no cycle."""
     return or_none(rate, "+.4f", unit, without)

@@ -59,8 +59,10 @@ def _counts(table: pd.DataFrame) -> str:
     """Counts of the verdicts, and of the rows that these leave out."""
     counted = table["apart"] == ""
     count = table.loc[counted, "verdict"].str.partition(":")[0].value_counts()
-    said = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
-    return said if counted.all() else f"{said}; not counted, for they repeat others or are misprints: {sum(~counted)}"
+    phrase = ", ".join(f"{verdict}: {number}" for verdict, number in count.items())
+    return (
+        phrase if counted.all() else f"{phrase}; not counted, for they repeat others or are misprints: {sum(~counted)}"
+    )
 
 
 def _claim(row: Mapping[Any, Any]) -> list[str]:

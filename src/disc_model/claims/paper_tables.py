@@ -70,7 +70,7 @@ def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
 
 def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) -> pd.DataFrame:
     table = pd.DataFrame({"symbol": list(TABLE_2), "paper_Hz": LISTED})
-    return table.assign(**ours, paper_says=[said for _, said in TABLE_2.values()])
+    return table.assign(**ours, paper_says=[text for _, text in TABLE_2.values()])
 
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:

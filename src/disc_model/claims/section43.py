@@ -24,8 +24,8 @@ from disc_model.claims.measures import (
     first_separation,
     growth_or_nan,
     is_kind,
+    rate_text,
     rows,
-    said_rate,
     sliding_growth,
 )
 from disc_model.claims.model import CHECKS, Answer
@@ -174,17 +174,17 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
         min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
         for group in ((undamped, slow[0]), damped)
     ]
-    said = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
-    return Answer(lowest[0] < lowest[1], runs=said)
+    text = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
+    return Answer(lowest[0] < lowest[1], runs=text)
 
 
 @CHECKS("S43d")
 def disc_damping(*cases: CaseView, factor: float) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
-    said = [f"{speed:g}: {said_rate(rate)}" for speed, rate in rates.items()]
+    text = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
     stable = [not case.separates and not _grew(case, factor) for case in cases]
     holds = all(stable) if len({*stable}) == 1 else None
-    return Answer(holds, "speed", rates=said)
+    return Answer(holds, "speed", rates=text)
 
 
 @CHECKS("F19")
@@ -195,14 +195,14 @@ def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answ
 
 @CHECKS("F19d")
 def disc_repeats(case: CaseView, *, within: float) -> Answer:
-    motion, said = measures.late_motion(case)
+    motion, text = measures.late_motion(case)
     released = measures.switches(case, "stick_to_slip")
     period = max(motion.period, 1)
     units = {"u": abs(case["u_0"]), "u_velocity": abs(case["u_0"]) * case["Omega"]}
     apart = max(closure(released[name].values, period) / unit for name, unit in units.items())
     return Answer(
         motion.period > 0 and apart <= within,
-        said=said.removeprefix("periodic: "),
+        text=text.removeprefix("periodic: "),
         apart=apart,
         points=distinct_points(measures.late_section(case, 150)),
     )
@@ -284,8 +284,8 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
             raise Missing(f"case {case.name} keeps no separation")
         if velocity.size:
             shares[case.name] = float(np.mean(velocity > 0))
-    said = [f"{name}: {100 * found:.0f} %" for name, found in shares.items()]
-    return Answer(min(shares.values(), default=0.0) >= share, shares=said or ["none that separates"])
+    text = [f"{name}: {100 * found:.0f} %" for name, found in shares.items()]
+    return Answer(min(shares.values(), default=0.0) >= share, shares=text or ["none that separates"])
 
 
 @CHECKS("C4N")
@@ -321,11 +321,11 @@ def not_monotonous(*evidence: Any) -> Answer:
     *cases, study = evidence
     loads, _, apart = _separations(study)
     changes = {"newly": apart & ~apart[:, :1], "spared": ~apart & apart[:, :1]}
-    rates, said = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
+    rates, text = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
     counts = {name: [f"{N:g}" for N in loads[at.any(axis=1)]] or ["none"] for name, at in changes.items()}
     both = all(at.any() for at in changes.values())
-    return Answer(between_only(cases) and both and {-1, 1} <= signs, loads=rows(cases), rates=said, **counts)
+    return Answer(between_only(cases) and both and {-1, 1} <= signs, loads=rows(cases), rates=text, **counts)
 
 
 @CHECKS("C4")
@@ -344,7 +344,7 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
 def stiffer_disc(*cases: CaseView) -> Answer:
     by_speed = {speed: _stiffened(cases[0].parameters.replace(Omega=speed, E=BASE.E), "E") for speed in (11, 20)}
     falls = [bool(np.all(np.diff(rates) < 0)) for rates, _ in by_speed.values()]
-    rates = [{"Omega": speed, "said": said} for speed, (_, said) in by_speed.items()]
+    rates = [{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()]
     return Answer(all(falls), discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=rates)
 
 
@@ -352,7 +352,7 @@ def stiffer_disc(*cases: CaseView) -> Answer:
 def stiffer_spring(case: CaseView) -> Answer:
     by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), "k") for speed in (20, 50)}
     falls = [not np.any(np.diff(rates[np.isfinite(rates)]) >= 0) for rates, _ in by_speed.values()]
-    return Answer(all(falls), rates=[{"Omega": speed, "said": said} for speed, (_, said) in by_speed.items()])
+    return Answer(all(falls), rates=[{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()])
 
 
 @CHECKS("C4E")
@@ -411,25 +411,25 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
 @CHECKS("S43b")
 def bounded(*cases: CaseView, factor: float) -> Answer:
     widths = {case.name: case.last_quarters("w_point") for case in cases}
-    said = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
-    return Answer(all(late <= factor * before for late, before in widths.values()), ranges=said)
+    text = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
+    return Answer(all(late <= factor * before for late, before in widths.values()), ranges=text)
 
 
 @CHECKS("C3")
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     shares = [measures.phase_share(case, "stick") for case in cases[:5]]
-    said = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
+    text = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
     another = measures.another_motion(*zip((*cases[:2], cases[4]), cases[5:], strict=True))
-    return Answer(min(shares) <= share, shares="; ".join(said), another=another)
+    return Answer(min(shares) <= share, shares="; ".join(text), another=another)
 
 
 @CHECKS("C1")
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
-    said = [{"case": case, "rate": said_rate(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
+    text = [{"case": case, "rate": rate_text(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
     stable = [rate < growth for rate in smooth]
-    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=said)
+    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=text)
 
 
 def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[str, Any]:
@@ -470,5 +470,5 @@ def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:
     """Growth rates for the values of `STIFFENED`, 1/s, also in words."""
     unit, symbol, values = STIFFENED[name]
     rates = np.array([growth_or_nan(p.replace(**{name: unit * value})) for value in values])
-    said = ", ".join(map(said_rate, rates))
-    return rates, f"{said} per second for {', '.join(map(str, values))} {symbol}"
+    text = ", ".join(map(rate_text, rates))
+    return rates, f"{text} per second for {', '.join(map(str, values))} {symbol}"

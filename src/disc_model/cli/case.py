@@ -16,7 +16,7 @@ import typer
 from rich.table import Column, Table
 
 from disc_model.disc import read_disc
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import Parameters, in_si
 from disc_model.parameters import number as number_of
 from disc_model.plausibility import warn_of_doubts
@@ -166,8 +166,8 @@ def number(
     try:
         value = float(number_of(in_si(text, unit)))
     except ValueError as error:
-        faults.append(Fault((name,), shown(text), str(error)))
+        faults.append(Fault((name,), as_text(text), str(error)))
         return math.nan
     if not holds(value):
-        faults.append(Fault((name,), shown(value), rule))
+        faults.append(Fault((name,), as_text(value), rule))
     return value

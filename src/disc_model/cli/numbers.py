@@ -19,7 +19,7 @@ from disc_model.cli.case import (
     with_case_options,
 )
 from disc_model.disc import damping_ratios, disc_table
-from disc_model.errors import Fault, refuse, shown, suggestion
+from disc_model.errors import Fault, as_text, raise_faults, suggestion
 from disc_model.kernels import KINDS, compile_kernels
 from disc_model.parameters import CYCLE_TOLERANCES, limits_rule
 
@@ -38,7 +38,7 @@ def modes(
 
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
-    refuse(faults)
+    raise_faults(faults)
     if csv:
         typer.echo(disc_table(parameters), nl=False)
         return
@@ -73,7 +73,7 @@ def floquet(
     parameters, choice = parameters_of(case, faults)
     rule = limits_rule(CYCLE_TOLERANCES)
     tolerance = number("tol", tol, lambda x: CYCLE_TOLERANCES[0] <= x <= CYCLE_TOLERANCES[1], rule, faults)
-    refuse(faults)
+    raise_faults(faults)
     from disc_model.stability.cycle import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of
 
@@ -105,7 +105,9 @@ def compile_(
 ) -> None:
     """Compile kernels into the cache, so that jobs started in parallel find them there."""
     unknown = [kind for kind in kinds or () if kind not in KINDS]
-    refuse([Fault(("kinds",), shown(kind), f"must be a kind of kernel{suggestion(kind, KINDS)}") for kind in unknown])
+    raise_faults(
+        [Fault(("kinds",), as_text(kind), f"must be a kind of kernel{suggestion(kind, KINDS)}") for kind in unknown]
+    )
     for kind in kinds or ("simulate-rigid_vertical", "floquet-rigid_vertical"):
         typer.echo(f"{kind}: {compile_kernels(kind):.1f} s")
     typer.echo("kernels compiled and cached")

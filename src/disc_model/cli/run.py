@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from disc_model.cli.case import case_lines, number, parameters_of, print_rows, with_case_options
-from disc_model.errors import Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import TOLERANCES, Parameters, limits_rule
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def run(
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)
     faults += _file_faults(plot, save, checkpoint)
-    refuse(faults)  # all faults at once, before kernels load
+    raise_faults(faults)  # all faults at once, before kernels load
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Record
 
@@ -99,7 +99,7 @@ def run(
 def _how(tol: str, stop_at: str | None, max_steps: str | None, faults: list[str]) -> dict[str, Any]:
     """Options of a simulation: its end and accuracy; faults are appended to `faults`."""
     tolerance = number("tol", tol, lambda x: TOLERANCES[0] <= x <= TOLERANCES[1], limits_rule(TOLERANCES), faults)
-    faults += broken((stop_at in (None, *STOPS), "stop_at", stop_at, "must be 'first_separation'"))
+    faults += violations((stop_at in (None, *STOPS), "stop_at", stop_at, "must be 'first_separation'"))
     steps = None
     if max_steps is not None:
         rule = "must be a whole number >= 1"
@@ -115,10 +115,10 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
 
     found: list[Ramp] = []
     for i, text in enumerate(texts):
-        name, named, said = text.partition(":")
-        pairs = [pair.partition("=") for pair in said.split(",")]
+        name, named, given = text.partition(":")
+        pairs = [pair.partition("=") for pair in given.split(",")]
         if not named or not all(sign for _, sign, _ in pairs):
-            faults.append(Fault(("ramp",), shown(text), "must be PARAMETER:KEY=VALUE,..."))
+            faults.append(Fault(("ramp",), as_text(text), "must be PARAMETER:KEY=VALUE,..."))
             continue
         try:
             found.append(Ramp(parameter=name, **{key.strip(): value for key, _, value in pairs}))  # type: ignore[arg-type]
@@ -136,17 +136,17 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
 
     found: dict[str, Window] = {}
     for i, text in enumerate(texts):
-        name, named, said = text.rpartition(":")
+        name, named, given = text.rpartition(":")
         name = name if named else f"sample_{i}"
-        pairs = [pair.partition("=") for pair in said.split(",")]
+        pairs = [pair.partition("=") for pair in given.split(",")]
         if not name.isidentifier() or name in {*found, *BESIDE_WINDOWS} or not all(sign for _, sign, _ in pairs):
             rule = "must be NAME:KEY=VALUE,... with a name of its own, not that of a variable or of events"
-            faults.append(Fault(("window",), shown(text), rule))
+            faults.append(Fault(("window",), as_text(text), rule))
             continue
         try:
             found[name] = Window(**{key.strip(): value for key, _, value in pairs})
             if math.isfinite(end) and (stop := found[name].resolved(0.0, end).stop) > end:
-                rule = f"must be within the run: stop={shown(stop)} <= t_end={shown(end)}"
+                rule = f"must be within the run: stop={as_text(stop)} <= t_end={as_text(end)}"
                 faults.append(Fault(("window", name), "", rule))
         except ParameterError as error:
             faults += (fault.inside(("window", name)) for fault in error.faults)

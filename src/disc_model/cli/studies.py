@@ -255,11 +255,11 @@ def _figures(chosen: Study, grids: Grids, state: StateOf) -> Rows:
 
 
 def _cases(chosen: Study, grids: Grids, state: StateOf) -> Rows:
-    from disc_model.figures.paper.catalogue import said_parameters
+    from disc_model.figures.paper.catalogue import parameters_text
 
     for name, case in chosen.cases.items():
         made = state(f"results/{chosen.name}/cases/{name}.nc")
-        yield name, case.title, said_parameters(chosen.specs[name].parameters), f"{case.t_end:g}", made
+        yield name, case.title, parameters_text(chosen.specs[name].parameters), f"{case.t_end:g}", made
 
 
 LISTS = {

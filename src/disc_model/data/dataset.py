@@ -25,7 +25,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
-from disc_model.errors import DiscModelError, Fault, ParameterError, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
 from disc_model.parameters import RESIDUAL, Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -121,7 +121,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
         If the file cannot be written, for example because the disk is full.
     """
     if not isinstance(tree, xr.DataTree):
-        raise ParameterError(Fault(("tree",), shown(tree), "must be an xarray.DataTree"))
+        raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
     file, groups = _file(path), {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
     encoding = {
         place: {str(name): _encode(variable) for name, variable in group.variables.items()}
@@ -155,7 +155,7 @@ def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes that say what made datasets; a value that differs between them becomes the list of all, as text."""
     names = ("source_hash", "git_commit", "versions")
     found = {name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names}
-    return {name: min(said) if len(said) == 1 else json_attribute(sorted(said)) for name, said in found.items() if said}
+    return {name: min(text) if len(text) == 1 else json_attribute(sorted(text)) for name, text in found.items() if text}
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
@@ -203,7 +203,7 @@ def may_be_file(path: object) -> bool:
 def _file(path: str | Path) -> Path:
     """A path that is allowed for a file; raises `ParameterError` otherwise."""
     if not may_be_file(path):
-        raise ParameterError(Fault(("path",), shown(str(path)), NAME_RULE))
+        raise ParameterError(Fault(("path",), as_text(str(path)), NAME_RULE))
     return Path(path)
 
 

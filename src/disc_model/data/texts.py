@@ -44,8 +44,8 @@ class Sentences(string.Formatter):
         if key not in self.parts:
             return value
         part, rows = self.parts[str(key)], value if isinstance(value, list) else [value]
-        said = part.between.join(self.vformat(part.each, (), {**kwargs, **row}) for row in rows)
-        return part.around.format(said) if rows else part.empty
+        phrase = part.between.join(self.vformat(part.each, (), {**kwargs, **row}) for row in rows)
+        return part.around.format(phrase) if rows else part.empty
 
     def format_field(self, value: Any, spec: str) -> str:
         if isinstance(value, list | np.ndarray):

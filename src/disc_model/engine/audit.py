@@ -21,7 +21,7 @@ from .transitions import disc_point, inplane_force_per_radius, slider_motion
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
 
-# Time units that the nodes resolve; only a coast is longer.
+# Time units that the nodes resolve; only stick in closed form is longer.
 _PANEL = 8.0
 
 # Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy

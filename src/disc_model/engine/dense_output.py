@@ -24,11 +24,11 @@ from .layout import (
 from .polynomial import value, value_by_halves
 from .series import lane_count
 from .simd import WIDTH, fma, load, splat, store
-from .stick_propagator import coast_to
+from .stick_propagator import propagate_stick
 from .transitions import force_in_stick, stick_force
 
 # In place of a series' order where stick has a closed form instead.
-COAST = 0
+CLOSED_FORM = 0
 
 
 @inlined
@@ -71,8 +71,8 @@ def state_at(model, s, order, x, phase, state):
 @inlined
 def move_to(model, s, order, x, phase, state):
     """Fill ``state`` with the dense output at x (time units): the series of this order, or the closed form of stick."""
-    if order == COAST:
-        coast_to(model, s, x, state)
+    if order == CLOSED_FORM:
+        propagate_stick(model, s, x, state)
     else:
         state_at(model, s, order, x, phase, state)
 
@@ -80,7 +80,7 @@ def move_to(model, s, order, x, phase, state):
 @inlined
 def force_at(model, s, order, x, phase, state):
     """Contact force at x, where ``move_to`` has put ``state``."""
-    if order == COAST:
+    if order == CLOSED_FORM:
         return stick_force(model, state)
     if phase == SEPARATION:
         return 0.0

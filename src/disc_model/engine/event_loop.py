@@ -13,11 +13,11 @@ import numpy as np
 from . import layout, transitions
 from .audit import audit_impact, audit_step, transverse_energy
 from .compile import inlined, kernel
-from .dense_output import COAST, move_to
+from .dense_output import CLOSED_FORM, move_to
 from .exit_codes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .sampling import sample_step
 from .stepping import advance_time, expand, first_event, set_course, step_size
-from .stick_propagator import LONGEST_COAST, coast_length
+from .stick_propagator import LONGEST_STICK, closed_form_length
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -108,8 +108,8 @@ def _apply_event(model, state, cause, at_once, buffers):
 
 @inlined
 def _move(model, s, state, probe, order, x_end, audit_every, buffers):
-    """Advance the state and the clock over a step, or over stick in closed form (order ``COAST``), with audits and
-    samples.
+    """Advance the state and the clock over a step, or over stick in closed form (order ``CLOSED_FORM``), with audits
+    and samples.
     """
     x, phase, counters = state.x, state.x[layout.PHASE], buffers.counters
     counters[STEPS] += 1
@@ -131,7 +131,7 @@ def _move(model, s, state, probe, order, x_end, audit_every, buffers):
             counters[SAMPLE_ROWS],
         )
     move_to(model, s, order, x_end, phase, state)
-    x[layout.KNOWN], x[layout.FORCE], x[layout.COASTED] = 0.0, 0.0, 1.0 if x_end < LONGEST_COAST else 0.0
+    x[layout.KNOWN], x[layout.FORCE], x[layout.PROPAGATED] = 0.0, 0.0, 1.0 if x_end < LONGEST_STICK else 0.0
     advance_time(x, x_end * model.unit)
     set_course(model, state)
     buffers.phase_times[int(phase)] += x_end * model.unit
@@ -157,10 +157,10 @@ def run(model, s, state, probe, limits, buffers):
         if _full(buffers) or counters[STEPS] >= pause:
             return PAUSED
         left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
-        if x[layout.PHASE] == layout.STICK and x[layout.COASTED] == 0.0:
-            x_end = min(coast_length(model, s, state), left)
+        if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
+            x_end = min(closed_form_length(model, s, state), left)
             if x_end > 0.0:
-                _move(model, s, state, probe, COAST, x_end, limits.audit_every, buffers)
+                _move(model, s, state, probe, CLOSED_FORM, x_end, limits.audit_every, buffers)
                 if x_end >= left:
                     return TIME_OVER
                 continue

@@ -188,7 +188,7 @@ class EngineState(NamedTuple):
 # Indices into State.x.  KNOWN: multiplicity of the event function's known root at present; COASTED: 1 if stick has
 # already used its closed form as far as possible. The time is TIME + TIME_LOW, summed with compensation so that event
 # times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
-TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, COASTED, DRIVE, LOAD, SCALARS = range(14)
+TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, PROPAGATED, DRIVE, LOAD, SCALARS = range(14)
 
 
 def lanes_for(n_pairs):

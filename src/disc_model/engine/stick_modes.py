@@ -20,12 +20,12 @@ from .packing import packed
 from .simd import WIDTH, aligned
 
 # exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
-# with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_COAST bounds the table, and the samples that
-# fall into one coast.  (Time units.)
+# with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table, and the samples that
+# fall into one advance in closed form.  (Time units.)
 QUANTUM = 0.25
-LONGEST_COAST = 512.0
+LONGEST_STICK = 512.0
 DEGREE = 12
-POWERS = 12  # 2**POWERS quanta exceed LONGEST_COAST
+POWERS = 12  # 2**POWERS quanta exceed LONGEST_STICK
 LARGEST_RATE = 1.5
 # The matrices are dense: with more modes than this the series are as fast.
 MOST_MODES = 64

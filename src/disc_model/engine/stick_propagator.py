@@ -2,7 +2,7 @@
 
 In the modes of ``stick_modes`` the contact force stays within |P - N| <= sum gain_i |q_i|.  The growing spring force
 reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).  Until then the state follows
-without steps; the code calls this *coasting*.  The series then find the release.
+without steps, in closed form.  The series then find the release.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import math
 from .compile import helper, inlined
 from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U, is_compliant
 from .simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
-from .stick_modes import DEGREE, LONGEST_COAST, QUANTUM
+from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
 
 # The closed form saves time from about the length of a usual step (time units).
-SHORTEST_COAST = 5.0
+SHORTEST_STICK = 5.0
 
 
 @helper
@@ -67,8 +67,8 @@ def _leave_modes(modes, amplitudes, x, disc):
 
 
 @inlined
-def coast_length(model, s, state):
-    """Time (time units) for which stick surely lasts, 0 if too short to be worth it; ``coast_to`` may then follow."""
+def closed_form_length(model, s, state):
+    """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be worth it."""
     if len(model.modes.gain) == 0:
         return 0.0
     states = 2 * (len(model.shift) + len(model.mode_amplitude0))
@@ -83,15 +83,15 @@ def coast_length(model, s, state):
     if not abs(spring) < friction:
         return 0.0
     growth = model.k_p * model.Omega * model.unit
-    if growth * LONGEST_COAST <= friction - spring:
-        return LONGEST_COAST
+    if growth * LONGEST_STICK <= friction - spring:
+        return LONGEST_STICK
     x = (friction - spring) / growth
-    return x if x >= SHORTEST_COAST else 0.0
+    return x if x >= SHORTEST_STICK else 0.0
 
 
 @inlined
-def coast_to(model, s, x, state):
-    """Fill ``state`` with stick at x (time units) after the state of the call of ``coast_length``."""
+def propagate_stick(model, s, x, state):
+    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
     _leave_modes(model.modes, s.amplitudes, x, state.disc)
     if is_compliant(model):
         states = 2 * (len(model.shift) + len(model.mode_amplitude0))

@@ -7,11 +7,11 @@ from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION
 from .laws import Instant
 from .layout import (
-    COASTED,
     DIRECTION,
     FORCE,
     KNOWN,
     PHASE,
+    PROPAGATED,
     PSI,
     SEPARATION,
     SLIP,
@@ -207,7 +207,7 @@ def _enter_stick(state, P):
     state.x[PHASE] = STICK
     state.x[DIRECTION] = 0.0
     state.x[KNOWN] = 0
-    state.x[COASTED] = 0.0
+    state.x[PROPAGATED] = 0.0
     state.x[FORCE] = P
 
 

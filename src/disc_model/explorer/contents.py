@@ -27,14 +27,14 @@ BITS = 17
 """Number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown."""
 
 
-def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, said: str = "") -> dict[str, Any]:
+def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = "") -> dict[str, Any]:
     """Contents of a merged study.
 
     Parameters
     ----------
     study : as from `disc_model.studies.grids.merge.merge_batches`
     motions : as from `disc_model.studies.grids.motions.run_motions`
-    said : description of the motions
+    text : description of the motions
 
     Returns
     -------
@@ -52,18 +52,18 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
             _variable(found) for found in study.data_vars.values() if found.ndim and found.dtype.kind in "biuf"
         ],
         "messages": None if message is None else _messages(message),
-        "motions": None if motions is None else motion_contents(motions, said),
+        "motions": None if motions is None else motion_contents(motions, text),
     }
 
 
-def motion_contents(motions: xr.Dataset, said: str = "") -> dict[str, Any]:
+def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
     """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are left out."""
     there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in there.coords if there[name].dims == ("point",)]
     places = zip(*(_plain(there[name].values) for name in names), strict=True)
     lengths, phases = there["length"].values.tolist(), there["phase"].values
     return {
-        "said": said,
+        "text": text,
         "names": names,
         "samples": there.sizes["sample"],
         "phases": there["phase"].attrs["flag_meanings"].split(),
@@ -124,7 +124,7 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
         return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
     along = {str(name): _plain(study[name].values) for name in study.coords if study[name].dims == (dim,)}
     columns = along or {dim: list(range(study.sizes[dim]))}
-    words = [", ".join(f"{name} = {_said(value)}" for name, value in zip(columns, row, strict=True))
+    words = [", ".join(f"{name} = {_format(value)}" for name, value in zip(columns, row, strict=True))
              for row in zip(*columns.values(), strict=True)]  # fmt: skip
     return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
 
@@ -149,5 +149,5 @@ def _plain(values: NDArray[Any]) -> list[Any]:
     return values.astype(str).tolist() if values.dtype.kind in "OUS" else values.tolist()
 
 
-def _said(value: Any) -> str:
+def _format(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:g}"

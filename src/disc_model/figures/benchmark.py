@@ -24,7 +24,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import NullFormatter, NullLocator
 
-from disc_model.data.variables import said_values
+from disc_model.data.variables import values_text
 from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, new_figure
 
@@ -272,8 +272,8 @@ def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, 
         best = np.flatnonzero(right)[np.argmin(seconds[right])]
         face = colors(norm(seconds[best]))
         ink = "white" if seconds[best] > 3.0 else BLACK
-        said = SETTINGS[str(part["varies"].values[best])][1].format(_power(setting[best]))
-        texts = [(_seconds(seconds[best]), 6.5, ink), (said, 6.0, ink)]
+        phrase = SETTINGS[str(part["varies"].values[best])][1].format(_power(setting[best]))
+        texts = [(_seconds(seconds[best]), 6.5, ink), (phrase, 6.0, ink)]
         if wrong.any():
             texts.append((f"wrong at {wrong.sum()}", 6.0, _RED))
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
@@ -428,7 +428,7 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     cases = json.loads(dataset.attrs["cases"])
     shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
-    labels = [f"{case['normalization'].replace('_', ' ')}, {said_values(case)}" for case in shown]
+    labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
     gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
     handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
     figure.legend(handles=handles, loc="outside lower center", ncols=3)

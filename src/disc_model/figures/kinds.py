@@ -95,20 +95,20 @@ class Plot(Kind):
 
     @model_validator(mode="before")
     @classmethod
-    def _in_units(cls, said: Any) -> Any:
+    def _in_units(cls, given: Any) -> Any:
         """Convert values along its dimensions to SI units."""
-        if not isinstance(said, dict):
-            return said
-        units = {axis: Parameters.unit(str(said.get(axis))) for axis in ("x", "y")}
-        marks, at = said.get("marks"), said.get("at")
+        if not isinstance(given, dict):
+            return given
+        units = {axis: Parameters.unit(str(given.get(axis))) for axis in ("x", "y")}
+        marks, at = given.get("marks"), given.get("at")
         places = {
             "marks": {name: each_in_si(mark, units) for name, mark in marks.items()}
             if isinstance(marks, dict)
             else marks,
             "at": each_in_si(at, {name: Parameters.unit(name) for name in Parameters.model_fields}),
-            "paper_cases": in_si(said.get("paper_cases"), units["x"]),
+            "paper_cases": in_si(given.get("paper_cases"), units["x"]),
         }
-        return said | {name: place for name, place in places.items() if name in said}
+        return given | {name: place for name, place in places.items() if name in given}
 
     @property
     def axes(self) -> dict[str, str]:
@@ -427,8 +427,8 @@ def _same(one: Any, other: Any) -> bool:
 
 def _listed(values: Sequence[Any]) -> str:
     """A few values as messages show them."""
-    said = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
-    return ", ".join(said if len(said) <= 12 else [*said[:6], "...", said[-1]])
+    given = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
+    return ", ".join(given if len(given) <= 12 else [*given[:6], "...", given[-1]])
 
 
 class HeatMap(General):

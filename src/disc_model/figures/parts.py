@@ -20,7 +20,7 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, said_values, typeset
+from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, typeset, values_text
 from disc_model.figures import STYLE
 from disc_model.figures.kinds import CasePlot, Kind, OwnFigure, Plot
 
@@ -122,8 +122,8 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
         for ax in axes:
             ax.cla()
             ax.set_axis_off()
-            said = fill(f"not shown: the case {reason}", 24)
-            ax.text(0.5, 0.5, said, ha="center", va="center", transform=ax.transAxes, in_layout=False)
+            phrase = fill(f"not shown: the case {reason}", 24)
+            ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
@@ -141,7 +141,7 @@ FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"
 """Title of a panel by the direction of the contact force."""
 MODELS = {"normal": FORCES["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
 """Words for models other than the paper's."""
-SAID = {**MODES, **FORCES}
+WORDS = {**MODES, **FORCES}
 """Words of parameters in panel titles, those of the paper first."""
 
 
@@ -156,8 +156,8 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
         return axis_of(str(variable.name))
     words = str(variable.attrs.get("long_name", variable.name))
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
-    said = fill(words[0].upper() + words[1:], 48)
-    return (f"{said} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else said), 1.0
+    phrase = fill(words[0].upper() + words[1:], 48)
+    return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0
 
 
 def flags_of(variable: xr.DataArray) -> list[str]:
@@ -194,30 +194,30 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
     return {name: there for name, there in each.items() if there.any()}
 
 
-def fixed(study: xr.Dataset, modes_said: bool = False) -> str:
+def fixed(study: xr.Dataset, modes_in_panels: bool = False) -> str:
     """Values that did not vary in a study of a grid: N, Omega, and those that differ from Table 1."""
     values = json.loads(study.attrs.get("base", "{}"))
     # 0 stands for N or Omega if the quantity varies it by itself
     idle = {name for name in ("N", "Omega") if not values.get(name)}
-    said = what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_said)
-    modes = [] if modes_said or "normalization" not in study.coords else normalizations(study)
-    return ", ".join(filter(None, [said, MODES[modes[0]] if len(modes) == 1 else ""]))
+    phrase = what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_in_panels)
+    modes = [] if modes_in_panels or "normalization" not in study.coords else normalizations(study)
+    return ", ".join(filter(None, [phrase, MODES[modes[0]] if len(modes) == 1 else ""]))
 
 
-def what_case(values: Mapping[str, Any], modes_said: bool = False) -> str:
+def what_case(values: Mapping[str, Any], modes_in_panels: bool = False) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1.
 
     modes_said : whether the normalization is said elsewhere
     """
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
-    if values.get("normalization") == "orthonormal" and not modes_said:
+    if values.get("normalization") == "orthonormal" and not modes_in_panels:
         words.append(MODES["orthonormal"])
-    numbers = said_values({name: value for name, value in values.items() if not isinstance(value, str)})
+    numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)})
     return ", ".join(filter(None, [numbers, *words]))
 
 
 def head(
-    figure: Figure, study: xr.Dataset, plot: Plot, shown: xr.DataArray | None = None, modes_said: bool = False
+    figure: Figure, study: xr.Dataset, plot: Plot, shown: xr.DataArray | None = None, modes_in_panels: bool = False
 ) -> None:
     """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary.
 
@@ -225,18 +225,18 @@ def head(
     modes_said : whether the figure's panels say the normalization
     """
     values = [
-        value_said(shown, str(name))
+        coordinate_text(shown, str(name))
         for name, size in study.sizes.items()
         if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
     ]
-    said = ", ".join(filter(None, [*values, fixed(study, modes_said)]))
-    entitle(figure, plot, study.attrs.get("title", ""), said)
+    phrase = ", ".join(filter(None, [*values, fixed(study, modes_in_panels)]))
+    entitle(figure, plot, study.attrs.get("title", ""), phrase)
 
 
 def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
     """Write a figure's title, or else another one, and the values of parameters above it; a caption says both."""
-    if said := headline(figure, plot, title, values):
-        figure.suptitle(said, fontsize=8)
+    if phrase := headline(figure, plot, title, values):
+        figure.suptitle(phrase, fontsize=8)
 
 
 def headline(figure: Figure, plot: Kind, title: str, values: str) -> str:
@@ -258,28 +258,28 @@ def note(figure: Figure, plot: Kind, text: str) -> None:
 def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
     """Label and values of each slice along a dimension; one slice without a dimension.
 
-    A slice of a zip is labelled by its parameters.  Words are ordered as in `SAID`, not alphabetically as in datasets.
+    A slice of a zip is labelled by its parameters.  Words are ordered as in `WORDS`, not alphabetically as in datasets.
     """
     if by is None:
         return [("", found)]
     along = [str(name) for name, values in found.coords.items() if values.dims == (by,)]
     each = [found.isel({by: i}) for i in range(found.sizes[by])]
     each.sort(key=lambda one: [_rank(one[name].item()) for name in along])
-    return [(", ".join(value_said(one, name) for name in along), one) for one in each]
+    return [(", ".join(coordinate_text(one, name) for name in along), one) for one in each]
 
 
 def _rank(value: float | str) -> float:
-    """Rank of a value among others of its parameter; words that are not in `SAID` keep their order."""
+    """Rank of a value among others of its parameter; words that are not in `WORDS` keep their order."""
     if isinstance(value, str):
-        return [*SAID].index(value) if value in SAID else 0
+        return [*WORDS].index(value) if value in WORDS else 0
     return value
 
 
-def value_said(one: xr.DataArray, by: str) -> str:
+def coordinate_text(one: xr.DataArray, by: str) -> str:
     """Label of a panel or a line."""
     value = one[by].item()
     if isinstance(value, str):
-        return SAID.get(value, value)
+        return WORDS.get(value, value)
     label, factor = label_of(one[by])
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
@@ -372,14 +372,14 @@ def say_beside(ax: Axes, height: float, text: str) -> None:
     say(ax, text, (1, height), (2, 0), xycoords=("axes fraction", "data"), fontsize=6, color=GREY)
 
 
-def letter(ax: Axes, text: str, said: str = "", **look: Any) -> None:
+def letter(ax: Axes, text: str, phrase: str = "", **look: Any) -> None:
     """Write a panel's letter above its upper left corner, and its subject."""
-    ax.set_title(f"({text}) {said}".strip(), loc="left", **look)
+    ax.set_title(f"({text}) {phrase}".strip(), loc="left", **look)
 
 
-def letters(axes: Sequence[Axes], said: Sequence[str], **look: Any) -> None:
+def letters(axes: Sequence[Axes], phrase: Sequence[str], **look: Any) -> None:
     """Write the subject of each panel after its letter; a single panel has no letter."""
-    for ax, text, one in zip(axes, "abcdef", said, strict=False):
+    for ax, text, one in zip(axes, "abcdef", phrase, strict=False):
         ax.set_title(f"({text}) {one}" if len(axes) > 1 else one, loc="left", **look)
 
 

@@ -19,7 +19,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
-from disc_model.errors import DiscModelError, Fault, ParameterError, Status, broken, refuse, shown
+from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, violations
 from disc_model.parameters import (
     TOLERANCES,
     Parameters,
@@ -126,7 +126,7 @@ def simulate(
         p, in_si(t_end, "s"), tol, initial_state, record, stop_at, max_steps,
         progress, checkpoint, checkpoint_every, ramps,
     )  # fmt: skip
-    refuse(asked.faults())
+    raise_faults(asked.faults())
     start, t_end, steps = asked.start, float(asked.t_end), None if max_steps is None else int(max_steps)
     record = record.resolved(start, t_end)
     # numbers of other types would make the engine compile again, and would round differently
@@ -181,9 +181,9 @@ class _Request:
         time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
         timed = is_finite(time)
         start = time if timed else 0.0
-        rule = f"must be finite and > {shown(start)} (the time of the initial state)"
+        rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
         rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
-        found = foreign_case(self.p) + broken(
+        found = foreign_case(self.p) + violations(
             (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
             (stated, "initial_state", self.initial_state, "must be a State"),
             (timed, "initial_state.time", time, "must be finite"),
@@ -192,7 +192,7 @@ class _Request:
         stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
         counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
         shows = progress is None or isinstance(progress, bool) or callable(progress)
-        found += limits_faults("tol", self.tol, TOLERANCES) + broken(
+        found += limits_faults("tol", self.tol, TOLERANCES) + violations(
             (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
             (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
             (shows, "progress", progress, "must be a function of the time, or False"),
@@ -221,7 +221,7 @@ class _Run:
         anew = False
         if asked.initial_state is not None:
             anew = write_state(case, asked.initial_state, self.state, self.key)
-        longest_step = event_loop.LONGEST_COAST * model.unit
+        longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         limit = _step_limit(model, asked.t_end - start) if asked.max_steps is None else asked.max_steps
@@ -249,7 +249,7 @@ class _Run:
         low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
         kept = kept._replace(samplers=kept.samplers[:0], sampled=kept.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), kept)
-        state.x[layout.TIME_LOW], state.x[layout.COASTED] = low, 0.0
+        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED] = low, 0.0
         for counted in (self.workspace.counters, self.workspace.phase_times, self.workspace.sums):
             counted.fill(0)
 
@@ -428,7 +428,7 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
             place = ("start", "prerun", "parameters")
             rule = "must be that of the case, {}"
             raise ParameterError(
-                *(Fault((*place, n), shown(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
+                *(Fault((*place, n), as_text(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
             )
         state = transfer_state(p, _end_of(other, start.prerun.time, tol))
     return perturb(p, static_start(p) if state is None else state, **kick) if kick else state

@@ -16,7 +16,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import (
     AUTO,
     Checked,
@@ -57,9 +57,9 @@ class Span(Checked):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.start < self.stop:
-            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
+            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < stop={as_text(self.stop)}"))
         if self.last is not None and (self.start > 0 or self.stop < math.inf):
-            raise ParameterError(Fault(("last",), shown(self.last), "must not be given beside start or stop"))
+            raise ParameterError(Fault(("last",), as_text(self.last), "must not be given beside start or stop"))
         return self
 
     @model_serializer(mode="wrap")
@@ -82,7 +82,7 @@ class Span(Checked):
             return self
         first = self.start if self.last is None else max(t_end - self.last, start)
         if not first < t_end:
-            raise ParameterError(Fault(("start",), shown(first), f"must be < t_end={shown(t_end)}"))
+            raise ParameterError(Fault(("start",), as_text(first), f"must be < t_end={as_text(t_end)}"))
         return self.replace(start=first, stop=self._end(first, t_end), last=None)
 
     def _end(self, first: float, t_end: float) -> float:
@@ -137,7 +137,7 @@ class Poincare(Checked):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.start < self.stop:
-            raise ParameterError(Fault(("start",), shown(self.start), f"must be < stop={shown(self.stop)}"))
+            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < stop={as_text(self.stop)}"))
         return self
 
 

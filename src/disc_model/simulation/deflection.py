@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.errors import Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case, is_number
 from disc_model.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.simulation.api import simulate, static_start
@@ -48,11 +48,11 @@ def snapshots(
     """
     given = _numbers(times)
     ascend = given is not None and not np.any(np.diff(given) < 0)
-    refuse(_foreign(p, initial_state) + broken((ascend, "times", times, "must be finite and ascend")))
+    raise_faults(_foreign(p, initial_state) + violations((ascend, "times", times, "must be finite and ascend")))
     wanted: list[float] = [] if given is None else given.tolist()
     state = static_start(p) if initial_state is None else initial_state
-    rule = f"must be >= {shown(state.time)} (the time of the initial state)"
-    refuse(broken(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
+    rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
+    raise_faults(violations(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
     found = []
     for time in wanted:
         if time > state.time:
@@ -102,19 +102,19 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 
 def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
-    refuse(_foreign(p, None))
+    raise_faults(_foreign(p, None))
     given: list[Any] = list(states) if np.iterable(states) else [states]
     psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
     within = radii is not None and np.all((radii >= low) & (radii <= high))
-    limits = f"a={shown(low)} and b={shown(high)}" if p.disc is None else f"{shown(low)} and {shown(high)}"
-    faults = broken(
+    limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
+    faults = violations(
         (within, "r", r, f"must be within {limits}"),
         (angles is not None, "theta", theta, "must be finite"),
     )
     for i, state in enumerate(given):
         if not isinstance(state, State):
-            faults += broken((False, f"states.{i}", state, "must be a State"))
+            faults += violations((False, f"states.{i}", state, "must be a State"))
         elif len(state.a) != len(psi):
             rule = f"must have {len(psi)} modes, as the case, and not {len(state.a)}"
             faults.append(Fault(("states", str(i)), "", rule))
@@ -128,7 +128,7 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
 def _foreign(p: object, initial_state: object) -> list[str]:
     """Faults of arguments of another type."""
     state = initial_state is None or isinstance(initial_state, State)
-    return foreign_case(p) + broken((state, "initial_state", initial_state, "must be a State"))
+    return foreign_case(p) + violations((state, "initial_state", initial_state, "must be a State"))
 
 
 def _numbers(values: ArrayLike) -> Array | None:

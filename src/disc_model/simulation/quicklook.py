@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from disc_model.data.variables import axis_of, said_values, typeset
+from disc_model.data.variables import axis_of, typeset, values_text
 from disc_model.errors import Fault, ParameterError
 
 PANELS = ("P", "w")
@@ -65,7 +65,7 @@ def quicklook(result: Sampled) -> Figure:
         _mark_separation(axes[:, column], window["time"], result.first_separation)
         axes[-1, column].set_xlabel("Time (s)")
     p = result.parameters
-    figure.suptitle(typeset(f"{said_values(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}"))
+    figure.suptitle(typeset(f"{values_text(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}"))
     return figure
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
-from disc_model.errors import Fault, ParameterError, shown
+from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import Checked, Parameters, Positive, Real, Seconds, Unit, each_in_si
 
 Ramped = Literal["Omega", "N"]
@@ -43,7 +43,7 @@ class Ramp(Checked):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         if not self.start < self.end:
-            raise ParameterError(Fault(("start",), shown(self.start), f"must be < end={shown(self.end)}"))
+            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < end={as_text(self.end)}"))
         return self
 
 
@@ -69,18 +69,18 @@ class Piece(NamedTuple):
 def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
     """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
     if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
-        yield Fault(("ramps",), shown(ramps), "must be a Ramp or a tuple of them")
+        yield Fault(("ramps",), as_text(ramps), "must be a Ramp or a tuple of them")
         return
     for name in RAMPED if ramps else ():
         if not getattr(p, name) > 0:
-            yield Fault((name,), shown(getattr(p, name)), "must be > 0 where there are ramps")
+            yield Fault((name,), as_text(getattr(p, name)), "must be > 0 where there are ramps")
     for name in RAMPED:
         own = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
         own.sort(key=lambda entry: entry[1].start)
         for (_, before), (i, ramp) in pairwise(own):
             if ramp.start < before.end:
-                rule = f"must be >= {shown(before.end)}, where the ramp of {name} before it ends"
-                yield Fault(("ramps", str(i), "start"), shown(ramp.start), rule)
+                rule = f"must be >= {as_text(before.end)}, where the ramp of {name} before it ends"
+                yield Fault(("ramps", str(i), "start"), as_text(ramp.start), rule)
     if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
         yield Fault(
             ("record", "poincare"), "", "must not be asked for on ramps of Omega: the drive has no period there"

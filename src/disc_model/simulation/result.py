@@ -21,7 +21,7 @@ from disc_model.engine import layout
 from disc_model.engine.audit import N_SUMS
 from disc_model.engine.event_loop import EVENT_ROW, N_COUNTERS
 from disc_model.engine.transitions import TOUCHING
-from disc_model.errors import Fault, ParameterError, Status, broken, refuse, shown
+from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, violations
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters, is_number
 from disc_model.plate import modal_damping, mode_arrays
@@ -138,7 +138,7 @@ class State:
         found = dataset.load(path).to_dataset()
         wanted = (*_MODAL, *_PLAIN, "direction", "known")
         if "phase" not in found.attrs or not {*wanted} <= found.data_vars.keys():
-            raise ParameterError(Fault(("path",), shown(str(path)), "must be a file written by State.save"))
+            raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
         held: dict[str, Any] = {name: found[name].values for name in _MODAL}
         held |= {name: float(found[name]) for name in _PLAIN}
         held |= {name: int(found[name]) for name in ("direction", "known")}
@@ -211,7 +211,7 @@ class Result:
         known = isinstance(name, str) and name in RAMPED
         finite = is_finite_array(times, flat=False)
         rule = f"must be one of {', '.join(RAMPED)}"
-        refuse(broken((known, "name", name, rule), (finite, "times", times, "must be finite numbers")))
+        raise_faults(violations((known, "name", name, rule), (finite, "times", times, "must be finite numbers")))
         return values_at(self.parameters, self.ramps, name, times)
 
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
@@ -244,7 +244,7 @@ class Result:
         """
         groups = self._groups()
         if not isinstance(group, str) or group not in groups:
-            raise ParameterError(f"group={shown(group)}: must be one of {', '.join(map(repr, groups))}")
+            raise ParameterError(f"group={as_text(group)}: must be one of {', '.join(map(repr, groups))}")
         return groups[group]
 
     def _groups(self, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
@@ -337,7 +337,7 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
     if not good or not len(given) == len(result.samples) == len(set(given) - set(BESIDE_WINDOWS)):
         rule = f"must be {len(result.samples)} different names, one a window, of at most 60 printable characters, "
         rule += "a letter, digit or _ first, no / and no space last, none of them that of a variable"
-        raise ParameterError(Fault(("names",), shown(names), rule))
+        raise ParameterError(Fault(("names",), as_text(names), rule))
     return given
 
 
@@ -545,7 +545,7 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
     # the cheap comparison with w itself nearly always suffices
     if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
         rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
-        raise ParameterError(Fault(("initial_state", "u"), shown(u), rule))
+        raise ParameterError(Fault(("initial_state", "u"), as_text(u), rule))
 
 
 def _faults(given: State, case: EngineCase) -> list[str]:
@@ -571,7 +571,7 @@ def _faults(given: State, case: EngineCase) -> list[str]:
         (not against, "f", f"must have the sign of direction={given.direction}"),
     )
     faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
-    return faults + broken(
+    return faults + violations(
         *((holds, f"initial_state.{name}", getattr(given, name), rule) for holds, name, rule in rules)
     )
 
@@ -587,7 +587,7 @@ def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) ->
     other = np.abs(own - amplitudes) > SAME_AMPLITUDE * np.max(np.abs(amplitudes), initial=0.0)
     rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
     return [
-        Fault((*place, str(i)), shown(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
+        Fault((*place, str(i)), as_text(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
     ]
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import SERIES, Variable
-from disc_model.errors import Status, broken, refuse
+from disc_model.errors import Status, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case, is_number, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate, transfer_state
@@ -122,7 +122,7 @@ def _check(
     counts = is_whole(samples) and 1 <= samples <= MOST_SAMPLES
     lasts = is_number(transient) and 0 <= transient < math.inf
     starts = initial_state is None or isinstance(initial_state, State)
-    wrong += broken(
+    wrong += violations(
         (real, "name", name, "must be a parameter that is a real number"),
         (numbers, "values", values, "must be finite numbers, one or more"),
         (lasts, "transient", transient, "must be finite and >= 0"),
@@ -131,4 +131,4 @@ def _check(
         (starts, "initial_state", initial_state, "must be a State"),
         (min(speeds) > 0, "Omega", min(speeds), "must be > 0, because samples are taken once a turn"),
     )
-    refuse(wrong)
+    raise_faults(wrong)

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError, broken, refuse
+from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_number, is_whole, limits_faults
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
@@ -228,13 +228,13 @@ def check(
     if free and count > 1:
         pairs = [bounds.get(name) if isinstance(bounds, Mapping) else None for name in given]
     within = all(is_finite_array(pair, 2) and pair[0] < pair[1] for pair in pairs)
-    wrong = broken(
+    wrong = violations(
         (free, "name" if count == 1 else "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
         (within, "bounds", bounds, "must be two ascending finite numbers" + ", by name" * (count > 1)),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),  # type: ignore[arg-type]
     )
-    refuse([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
+    raise_faults([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
@@ -306,8 +306,8 @@ class StepControl:
         lengths = {name: getattr(self, name) for name in ("step", "longest", "shortest")}
         lengths |= {} if self.scale is None else {"scale": self.scale}
         counts = is_whole(self.max_points) and self.max_points >= 1
-        refuse(
-            broken(
+        raise_faults(
+            violations(
                 *(
                     (is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0")
                     for name, x in lengths.items()

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from disc_model.errors import ParameterError, broken
+from disc_model.errors import ParameterError, violations
 from disc_model.parameters import Parameters
 from disc_model.progress import compiling
 from disc_model.simulation.result import State
@@ -189,7 +189,9 @@ def continue_border(
     ParameterError
         If an argument breaks a rule, no cycle is found to start from, or no curve of this kind is near it.
     """
-    known = broken((isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'"))
+    known = violations(
+        (isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'")
+    )
     check(
         p, 2, names, bounds, tol, direction=direction, steps=steps, more=[*known, *guess_faults(guess, 1, points=True)]
     )

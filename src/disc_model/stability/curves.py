@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError, broken
+from disc_model.errors import ParameterError, violations
 from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
@@ -96,7 +96,7 @@ def stability_curves(
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
-    other = broken(
+    other = violations(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (
             is_whole(points) and 2 <= points <= MOST_POINTS,

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, StatusBase, broken, refuse
+from disc_model.errors import DiscModelError, StatusBase, raise_faults, violations
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, is_whole, limits_faults
 from disc_model.progress import compiling
 from disc_model.simulation.result import State, is_finite_array
@@ -149,7 +149,9 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     ParameterError
         If an argument breaks a rule; the message names the argument, its value and the rule.
     """
-    refuse([*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)])
+    raise_faults(
+        [*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)]
+    )
     return find_cycle(p, tol) if guess is None else find_cycle_near(p, guess, releases, tol)
 
 
@@ -157,7 +159,7 @@ def guess_faults(guess: object, releases: object, *, points: bool = False) -> li
     """Faults of a guess and of its number of releases; the guess is a state or, if `points`, a point of the section."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     fits = guess is None or isinstance(guess, State) or (points and is_finite_array(guess))
-    return broken(
+    return violations(
         (fits, "guess", guess, "must be a State" + " or a point of the section" * points),
         (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
     )
@@ -173,7 +175,7 @@ def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) ->
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
     point = guess is None or is_finite_array(guess, map_.size)
-    refuse(broken((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
+    raise_faults(violations((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
     found = newton(map_, map_.static if guess is None else np.asarray(guess, float), tol=tol)
     if found is not None:
         return cycle_of(map_, tol, found)

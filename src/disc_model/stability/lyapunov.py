@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import exit_codes, layout, saltation, tangent, variational
-from disc_model.errors import StatusBase, broken, refuse, shown
+from disc_model.errors import StatusBase, as_text, raise_faults, violations
 from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, limits_faults
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
@@ -246,15 +246,15 @@ def _check(
     counts = is_whole(count) and 1 <= count <= most
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
     starts = initial_state is None or isinstance(initial_state, State)
-    faults += broken(
+    faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
         (_is_within(transient, 0), "transient", transient, "must be finite and >= 0"),
         (counts, "count", count, f"must be a whole number from 1 to {most}"),
-        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {shown(shortest)}"),
+        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
         (starts, "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
-    refuse([*faults, *limits_faults("tol", tol, TOLERANCES)])
+    raise_faults([*faults, *limits_faults("tol", tol, TOLERANCES)])
 
 
 def _is_within(value: object, least: float) -> bool:

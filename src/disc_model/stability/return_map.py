@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import exit_codes, layout, transitions, variational
 from disc_model.engine import tangent as columns
-from disc_model.errors import Fault, ParameterError, broken, refuse, shown
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 
@@ -60,7 +60,7 @@ def case_faults(p: object, analysis: str) -> list[str]:
     """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can become unstable."""
     if not isinstance(p, Parameters):
         return foreign_case(p)
-    return broken(
+    return violations(
         (p.n_diameters >= 0, "n_diameters", p.n_diameters, f"must be >= 0: {analysis} needs modes of the disc")
     )
 
@@ -81,7 +81,7 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
     if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
-        raise ParameterError(Fault(("parameter",), shown(name), "must be a parameter that the case has"))
+        raise ParameterError(Fault(("parameter",), as_text(name), "must be a parameter that the case has"))
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     scalars, *modal = np.split(change, columns.N_SCALARS + np.cumsum([0, width, width, n0]))
@@ -150,7 +150,7 @@ class ReturnMap:
     def __init__(
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
-        refuse(case_faults(p, "the return map"))
+        raise_faults(case_faults(p, "the return map"))
         tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)

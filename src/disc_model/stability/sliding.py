@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import laws
-from disc_model.errors import StatusBase, refuse
+from disc_model.errors import StatusBase, raise_faults
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import Modes, modal_damping, mode_arrays
@@ -99,7 +99,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     ParameterError
         If `p` is not a `Parameters`, or has no modes.
     """
-    refuse(case_faults(p, "steady_sliding"))
+    raise_faults(case_faults(p, "steady_sliding"))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):

@@ -108,7 +108,7 @@ StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", STATIC))
 # Values along an axis: lists, linear and logarithmic ranges, and blocks of them
 
 Value = float | int | str
-Said = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
+NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
 """A value as given in the file; its parameter determines its meaning."""
 Blocks = tuple[tuple[Value, ...], ...]
 MOST = 100_000
@@ -184,7 +184,7 @@ class Range(Strict):
 class AxisRange(Range):
     """Evenly spaced values along an axis, and `extra` ones, whose batches leave those of the range unchanged."""
 
-    extra: list[Said] = Field([])
+    extra: list[NumberOrUnit] = Field([])
 
     def blocks(self, resolution: int = 1) -> Blocks:
         return (*super().blocks(resolution), *([tuple(self.extra)] if self.extra else []))
@@ -200,7 +200,7 @@ _NO_AXIS = {
     "custom_error_type": "axis",
     "custom_error_message": "must be a list of values, or a range {start, stop, count or step}",
 }
-Listed = Annotated[list[Said], Field(min_length=1), Tag("a list")]
+Listed = Annotated[list[NumberOrUnit], Field(min_length=1), Tag("a list")]
 Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], Discriminator(_axis_kind, **_NO_AXIS)]
 
 
@@ -233,7 +233,7 @@ class _Columns(Strict):
     _unknown: ClassVar[str] = "cannot be an axis"
 
     @property
-    def said(self) -> dict[str, Any]:
+    def stated(self) -> dict[str, Any]:
         """The given values, in the order of `VARIED`."""
         return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
 
@@ -244,8 +244,8 @@ def _described(name: str) -> dict[str, Any]:
     if name == "disc":
         return {"description": "discs: tables of modes, or names of `discs`"}
     if name in (*PERTURBATIONS, *RATIOS):
-        said = attributes(name)
-        return {"description": said["long_name"], "json_schema_extra": {"unit": said["units"]}}
+        stated = attributes(name)
+        return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
     field = Parameters.model_fields[name]
     return {"description": field.description, "json_schema_extra": field.json_schema_extra}
 
@@ -344,7 +344,7 @@ class Options(Strict):
 
     @model_validator(mode="after")
     def _keep_rules(self) -> Self:
-        if broken := [said for holds, said in self._rules if not holds(self)]:
+        if broken := [stated for holds, stated in self._rules if not holds(self)]:
             raise ValueError(broken[0])
         return self
 
@@ -556,10 +556,10 @@ class StabilityCurvesOptions(Options):
 
     @model_validator(mode="before")
     @classmethod
-    def _in_units(cls, said: Any) -> Any:
+    def _in_units(cls, stated: Any) -> Any:
         plane = {"x_range": "x", "y_lines": "y"}
-        usual = {"x": "Omega", "y": "N"} | (said if isinstance(said, dict) else {})
-        return each_in_si(said, {name: Parameters.unit(str(usual[axis])) for name, axis in plane.items()})
+        usual = {"x": "Omega", "y": "N"} | (stated if isinstance(stated, dict) else {})
+        return each_in_si(stated, {name: Parameters.unit(str(usual[axis])) for name, axis in plane.items()})
 
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
@@ -592,9 +592,9 @@ class BranchesOptions(Options):
 
     @model_validator(mode="before")
     @classmethod
-    def _in_units(cls, said: Any) -> Any:
-        name = said.get("parameter", "Omega") if isinstance(said, dict) else "Omega"
-        return each_in_si(said, {"scan": Parameters.unit(str(name))})
+    def _in_units(cls, stated: Any) -> Any:
+        name = stated.get("parameter", "Omega") if isinstance(stated, dict) else "Omega"
+        return each_in_si(stated, {"scan": Parameters.unit(str(name))})
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
@@ -677,7 +677,7 @@ class Entry(NamedTuple):
     tasks: tuple[str, ...] = ("simulate", "floquet")
 
     @property
-    def said(self) -> type[Strict]:
+    def stated(self) -> type[Strict]:
         """The model of the key ``options`` in a study file."""
         if not self.starts:
             return self.options
@@ -692,10 +692,10 @@ class Entry(NamedTuple):
         """Number of points in a batch if a study does not state it."""
         return max(1, round(WORK / self.seconds(options)))
 
-    def parted(self, said: Strict) -> tuple[Strict, Start]:
+    def parted(self, stated: Strict) -> tuple[Strict, Start]:
         """The options and the start of motions from the key ``options`` of a file."""
-        own = {name: getattr(said, name) for name in self.options.model_fields}
-        start = Start(prerun=said.prerun, perturbation=said.perturbation) if isinstance(said, Start) else Start()
+        own = {name: getattr(stated, name) for name in self.options.model_fields}
+        start = Start(prerun=stated.prerun, perturbation=stated.perturbation) if isinstance(stated, Start) else Start()
         return self.options.model_construct(**own), start
 
 
@@ -852,7 +852,9 @@ class NamedCase(Strict):
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
     ramps: tuple[Ramp, ...] = ()
-    record: Annotated[RecordSpec, BeforeValidator(lambda said: said, json_schema_input_type=SomeRecord)] = RecordSpec()
+    record: Annotated[RecordSpec, BeforeValidator(lambda stated: stated, json_schema_input_type=SomeRecord)] = (
+        RecordSpec()
+    )
 
     def spec(self) -> CaseSpec:
         """The specification to simulate; raises `ParameterError` with places inside the case."""
@@ -862,8 +864,8 @@ class NamedCase(Strict):
         windows = [
             (name, self._within(window, ("record", "windows", name), faults)) for name, window in kept.windows.items()
         ]
-        said = Span() if kept.events is True else kept.events or None
-        events = None if said is None else self._within(said, ("record", "events"), faults)
+        stated = Span() if kept.events is True else kept.events or None
+        events = None if stated is None else self._within(stated, ("record", "events"), faults)
         for fault in ramp_faults(p, self.ramps, poincare=kept.poincare is not None) if self.ramps else ():
             faults.append(fault.inside(("parameters",)) if fault.path[0] in RAMPED else fault)
         if faults:
@@ -982,7 +984,7 @@ class Document(Strict):
     where: Annotated[
         tuple[Annotated[str, AfterValidator(_rule_of_grid)], ...],
         BeforeValidator(
-            lambda said: (said,) if isinstance(said, str) else said, json_schema_input_type=str | list[str]
+            lambda stated: (stated,) if isinstance(stated, str) else stated, json_schema_input_type=str | list[str]
         ),
     ] = ()
     zip: Zip = Columns()
@@ -1001,7 +1003,7 @@ class Document(Strict):
 
 def _of_quantity(name: str, quantity: Entry) -> type[Document]:
     """The document of a grid of one quantity."""
-    options = quantity.said
+    options = quantity.stated
     default = ... if any(field.is_required() for field in options.model_fields.values()) else options()
     fields: dict[str, Any] = {"quantity": (Literal[name], ...), "options": (options, default)}
     return create_model(f"Study_of_{name}", __base__=Document, __doc__=f"A grid of {name}.", **fields)
@@ -1039,8 +1041,8 @@ class _Plain(GenerateJsonSchema):
 
 def json_schema() -> dict[str, Any]:
     """The JSON Schema of study files; it describes the values of each key, but no rules between keys."""
-    said = {name: quantity.said for name, quantity in QUANTITIES.items()}
-    models: tuple[type[BaseModel], ...] = (Document, *said.values())
+    stated = {name: quantity.stated for name, quantity in QUANTITIES.items()}
+    models: tuple[type[BaseModel], ...] = (Document, *stated.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -1052,7 +1054,7 @@ def json_schema() -> dict[str, Any]:
                 "if": {"properties": {"quantity": {"const": name}}, "required": ["quantity"]},
                 "then": {"properties": {"options": refs[model, "validation"]}},
             }
-            for name, model in said.items()
+            for name, model in stated.items()
         ],
         **found,
     }

@@ -28,9 +28,9 @@ from pydantic import ValidationError, create_model
 
 from disc_model.data.variables import PERTURBATIONS, SAMPLE
 from disc_model.disc import read_disc
-from disc_model.errors import DiscModelError, Fault, ParameterError, faults_of, shown, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, faults_of, suggestion
 from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
-from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking, said_parameters
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking, parameters_text
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
@@ -89,8 +89,8 @@ class StudyError(DiscModelError, ValueError):
     """A study file that breaks rules; lists every fault once, as ``path = value: rule``."""
 
     def __init__(self, *faults: str, source: str = "study") -> None:
-        said = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
-        self.faults = tuple(dict.fromkeys(said))
+        stated = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
+        self.faults = tuple(dict.fromkeys(stated))
         self.source = source
         count = f"{len(self.faults)} fault{'s' if len(self.faults) > 1 else ''}"
         super().__init__("\n  ".join([f"{source}: {count}", *self.faults]))
@@ -150,14 +150,14 @@ def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        said = place + ", ".join(part for part in (error.context, error.problem) if part)
+        stated = place + ", ".join(part for part in (error.context, error.problem) if part)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # ValueError: text that looks like a number or date but is none
-        said = " ".join(str(error).split())
+        stated = " ".join(str(error).split())
     except (AttributeError, KeyError, TypeError) as error:
         # raised by a tag such as !!timestamp or !!bool before an invalid value
-        said = f"a value does not fit its tag ({' '.join(str(error).split())})"
-    raise StudyError(said, source=source)
+        stated = f"a value does not fit its tag ({' '.join(str(error).split())})"
+    raise StudyError(stated, source=source)
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
@@ -231,12 +231,12 @@ class Study:
     def figure(self, name: str) -> CaseFigure:
         """A figure of cases or of the paper, by its name."""
         if (plot := self.plots.get(name)) is not None:
-            said = plot.caption or f"{plot.title or name}: {plot.case}"
-            said = f"{said}, {said_parameters(self.specs[plot.case].parameters)}"
-            return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, said)
+            stated = plot.caption or f"{plot.title or name}: {plot.case}"
+            stated = f"{stated}, {parameters_text(self.specs[plot.case].parameters)}"
+            return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, stated)
         entry, specs = CATALOGUE[name], self.specs.items()
-        said = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})
-        return CaseFigure(entry.plot, entry.cases, "Figures of the paper", SECTIONS[entry.section], label(name), said)
+        stated = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})
+        return CaseFigure(entry.plot, entry.cases, "Figures of the paper", SECTIONS[entry.section], label(name), stated)
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -422,8 +422,8 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
             return model.model_validate(whole), faults
     except ValidationError as error:
         found = list(faults_of(error, whole, model))
-    said = {fault.path for fault in found}
-    faults += [there for fault in found if (there := _where_said(fault, raw)) is fault or there.path not in said]
+    stated = {fault.path for fault in found}
+    faults += [there for fault in found if (there := _locate(fault, raw)) is fault or there.path not in stated]
     for fault in found:
         _drop(whole, fault.path)
     if "options" not in whole:
@@ -444,11 +444,11 @@ def _with_inherited(raw: Mapping[str, Any]) -> dict[Any, Any]:
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
     """The values that the file gives for all of its cases."""
-    said = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
-    return {key: value for key, value in said.items() if value is not None}
+    stated = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
+    return {key: value for key, value in stated.items() if value is not None}
 
 
-def _where_said(fault: Fault, raw: Mapping[str, Any]) -> Fault:
+def _locate(fault: Fault, raw: Mapping[str, Any]) -> Fault:
     """A fault of an expanded case, moved to where the file gives the value: in the case, or in what it inherits."""
     if fault.path[0] != "cases" or len(fault.path) < 3 or not isinstance(raw.get("cases"), Mapping):
         return fault
@@ -459,11 +459,11 @@ def _where_said(fault: Fault, raw: Mapping[str, Any]) -> Fault:
     return Fault(("base" if place[0] == "parameters" else place[0], *place[1:]), fault.value, fault.rule)
 
 
-def _depth(said: Any, place: tuple[str, ...]) -> int:
+def _depth(stated: Any, place: tuple[str, ...]) -> int:
     """Number of steps of a path that exist in nested mappings."""
-    if not place or not isinstance(said, Mapping) or place[0] not in said:
+    if not place or not isinstance(stated, Mapping) or place[0] not in stated:
         return 0
-    return 1 + _depth(said[place[0]], place[1:])
+    return 1 + _depth(stated[place[0]], place[1:])
 
 
 def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
@@ -483,7 +483,7 @@ def _specs(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> d
         try:
             specs[name] = case.spec()
         except ParameterError as error:
-            faults += [_where_said(fault.inside(("cases", name)), raw) for fault in error.faults]
+            faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
     return specs
 
 
@@ -666,12 +666,12 @@ class GridStudy:
         for part in parts:
             every = [dict(zip(names, point, strict=True)) for point in part["points"]]
             kept = [point for point in every if not self.where or holds(self.where, {**self.base, **point})]
-            said = {}
+            stated = {}
             for key, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.document.discs)):
                 if key in names:
-                    said[kind] = {name: known[name].model_dump() for name in {str(point[key]) for point in kept}}
+                    stated[kind] = {name: known[name].model_dump() for name in {str(point[key]) for point in kept}}
             if kept:
-                texts.append(canonical_json(shared | said | part | {"points": [[*point.values()] for point in kept]}))
+                texts.append(canonical_json(shared | stated | part | {"points": [[*point.values()] for point in kept]}))
         return {content_key(text): text for text in texts}
 
     @property
@@ -749,7 +749,7 @@ class _Grid:
         return not self.faults
 
     def add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
-        self.faults.append(Fault(path, shown(value[0]) if value else "", rule))
+        self.faults.append(Fault(path, as_text(value[0]) if value else "", rule))
 
     def made(self) -> GridStudy | None:
         """The grid, or None if it has faults."""
@@ -785,8 +785,8 @@ class _Grid:
 
     def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
-        said = self.document.base
-        given = {name: getattr(said, name) for name in type(said).model_fields if name in said.model_fields_set}
+        stated = self.document.base
+        given = {name: getattr(stated, name) for name in type(stated).model_fields if name in stated.model_fields_set}
         if not leaves_modes(given):
             return given, {}
         fixed, asked, more = asked_modes(given)
@@ -801,15 +801,15 @@ class _Grid:
     def _dimensions(self) -> Iterator[Dimension]:
         """The valid dimensions of the file."""
         resolution = self.document.resolution
-        for name, blocks in self._columns(self.document.axes.said, ("axes",), resolution).items():
+        for name, blocks in self._columns(self.document.axes.stated, ("axes",), resolution).items():
             yield Dimension.of((name,), [[(value,) for value in block] for block in blocks])
         for i, group in enumerate(self.document.zips):
             place = ("zip", str(i)) if isinstance(self.document.zip, list) else ("zip",)
-            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group.said, place).items()}
+            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group.stated, place).items()}
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
                 self.add(place, f"must have columns of equal length, not {lengths}")
-            elif columns and len(columns) == len(group.said):
+            elif columns and len(columns) == len(group.stated):
                 yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
 
     def _columns(self, given: Mapping[str, Any], path: tuple[str, ...], resolution: int = 1) -> dict[str, Blocks]:
@@ -973,7 +973,7 @@ class _Grid:
             elif not given.relative and name in varied:
                 self.add((*place, name), "must be relative, since it varies along an axis as well")
             elif given.relative and name not in varied and (not is_number(own) or own == 0):
-                self.add((*place, name), f"must not be relative to {shown(own)}")
+                self.add((*place, name), f"must not be relative to {as_text(own)}")
         if not self.right:
             return
         for fault in first_of_each(self._out_of_reach(options, dims)):

@@ -19,10 +19,10 @@ ON_EACH_SCALE = pytest.mark.parametrize(
 """A parameter that maps show on each, with three values."""
 
 
-def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **said: Any) -> Figure:
+def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **phrase: Any) -> Figure:
     """A figure of a kind, as a file asks for it, with further studies by their roles."""
     shown = {"study": study, **(others or {})}
-    plot = PLOTS[kind].model_validate({"kind": kind, **said})
+    plot = PLOTS[kind].model_validate({"kind": kind, **phrase})
     return parts.draw(plot, {name: xr.DataTree(one) for name, one in shown.items()})
 
 

@@ -35,8 +35,8 @@ def study() -> xr.Dataset:
     )
 
 
-def mapped(study: xr.Dataset, variable: str, **said: Any) -> Figure:
-    return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **said)
+def mapped(study: xr.Dataset, variable: str, **phrase: Any) -> Figure:
+    return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **phrase)
 
 
 def mesh(figure: Figure) -> Any:
@@ -111,12 +111,12 @@ def zipped(study: xr.Dataset) -> xr.Dataset:
 def test_a_zip_has_a_panel_or_a_line_for_each_of_its_points(study: xr.Dataset) -> None:
     """Its dimension has no values to be picked by: such a figure was accepted, and could not be drawn."""
     figure = mapped(zipped(study), "growth_rate", by="both")
-    said = ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
-    assert [" ".join(ax.get_title(loc="left").split())[4:] for ax in figure.axes[:2]] == said
+    phrase = ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
+    assert [" ".join(ax.get_title(loc="left").split())[4:] for ax in figure.axes[:2]] == phrase
     expected = study["growth_rate"].sel(normalization="orthonormal").transpose("mu_k", "c_p").values
     np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
     figure = draw("curve", zipped(study), variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
-    assert list(lines(figure.axes[0]))[:2] == said
+    assert list(lines(figure.axes[0]))[:2] == phrase
 
 
 def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:

@@ -153,8 +153,8 @@ def test_what_did_not_vary_is_said() -> None:
     study = made_up("Omega", [5.0, 10, 20], NORMS[:1]).rename(N="m")
     study.attrs["base"] = json.dumps({"N": 200.0, "c": 0.0, "contact": "separable", "D_star": 2e-5})
     figure = draw("region_map", study, x="Omega", y="m", title="Made up")
-    said = figure.legends[0].get_title().get_text()  # a title of the figure would lie over this legend
-    assert said == "Made up\nN = 200 N, D* = 2e-05 N m s"
+    phrase = figure.legends[0].get_title().get_text()  # a title of the figure would lie over this legend
+    assert phrase == "Made up\nN = 200 N, D* = 2e-05 N m s"
 
 
 def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
@@ -165,8 +165,8 @@ def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> No
         "F2": mark(5, 200, "separation"),  # quiet, and the paper separates
         "F3": mark(20, 100, "separation"),
     }
-    *_, said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
-    assert said.split("\n")[1:] == [
+    *_, phrase = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
+    assert phrase.split("\n")[1:] == [
         "F2: paper: “separation”, static start: quiet.",
         "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
     ]
@@ -196,8 +196,8 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -
     figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
     assert figure.axes[0].get_xscale() == scale
     assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
-    said = {"quiet", "separation", "no cycle found", "paper: quiet", "paper: separation"}
-    assert said <= set(labels(figure))
+    phrase = {"quiet", "separation", "no cycle found", "paper: quiet", "paper: separation"}
+    assert phrase <= set(labels(figure))
 
 
 @pytest.mark.parametrize(("x", "values"), [("n_diameters", [2, 4, 8]), ("n_circles", [0, 1]), ("c", [0.0])])

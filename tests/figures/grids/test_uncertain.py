@@ -35,7 +35,7 @@ def test_instability_against_each_parameter() -> None:
 
 
 @pytest.mark.parametrize(
-    ("distribution", "relative", "numbers", "said"),
+    ("distribution", "relative", "numbers", "phrase"),
     [
         ("uniform", True, {"low": 0.9, "high": 1.1}, "± 10 %"),
         ("normal", True, {"mean": 1, "deviation": 0.1}, "normal, 1 ± 0.1 times its value"),
@@ -43,9 +43,9 @@ def test_instability_against_each_parameter() -> None:
          "40 to 60 kN/m, normal, 50 ± 1 kN/m"),
     ],
 )  # fmt: skip
-def test_distributions_are_said(distribution: str, relative: bool, numbers: dict[str, float], said: str) -> None:
+def test_distributions_are_said(distribution: str, relative: bool, numbers: dict[str, float], phrase: str) -> None:
     how = {"distribution": distribution, "relative": relative, **numbers}
-    assert sensitivity.spreads({"k": how}) == f"k {said}"
+    assert sensitivity.spreads({"k": how}) == f"k {phrase}"
 
 
 def made_up_crossings() -> xr.Dataset:
@@ -81,7 +81,7 @@ def made_up_crossings() -> xr.Dataset:
 def test_a_campbell_diagram_named_a_mode_that_stays_stable() -> None:
     """The mode whose rate rises most is not the one that makes the cycle unstable; two crossings, one peak."""
     found = noted(made_up_crossings())
-    assert [one.said for one in found] == [
+    assert [one.phrase for one in found] == [
         "11.00 rad/s, 2 $f_s$ = 220 Hz, 1 $f_s$ = 100 Hz: 100 Hz mode, 0.01/s",
         "12.95 to 14.05 rad/s: no cycle found",
     ]
@@ -112,13 +112,13 @@ def test_a_campbell_diagram_numbered_small_peaks_and_joined_two_cycles() -> None
     study = made_up_crossings()
     for name in ("growth_rate", "cycle_growth_rate"):
         study[name][65:67] = 43.0
-    assert "14.50 rad/s: 100 Hz mode, 43/s" in [one.said for one in noted(study)]
+    assert "14.50 rad/s: 100 Hz mode, 43/s" in [one.phrase for one in noted(study)]
     line = draw("campbell", study).axes[1].lines[0]
     height = np.asarray(line.get_ydata())
     assert not np.any(np.abs(np.diff(height)) > 1), "broken where the rate jumps"
     assert np.nanmax(height) == 43
     study["cycle_growth_rate"][30, 0] = study["growth_rate"][30] = study["crossing_growth_rate"][1:] = 0.005
-    assert not any("0.005" in one.said for one in noted(study))
+    assert not any("0.005" in one.phrase for one in noted(study))
 
 
 @pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [5.0], [], list(np.zeros(30))])

@@ -54,8 +54,8 @@ def test_the_laws_of_contact_are_those_of_its_points() -> None:
     both = {"contact_compliance": [0, 1e-7], "contact_force": ["vertical", "normal"]}
     axes = {"N": [100], "Omega": [10]}
 
-    def laws(**said: Any) -> list[str]:
-        return [kind.partition("-")[2] for kind in parse_grid(study(**said)).kernels if "simulate" in kind]
+    def laws(**phrase: Any) -> list[str]:
+        return [kind.partition("-")[2] for kind in parse_grid(study(**phrase)).kernels if "simulate" in kind]
 
     assert laws() == ["rigid_vertical"]
     assert laws(base={"contact_compliance": "residual"}) == ["compliant_vertical"]
@@ -168,8 +168,8 @@ def test_the_modes_are_chosen_for_each_point() -> None:
 
 
 def test_what_modes_are_chosen_by_makes_other_batches() -> None:
-    def batches(**said: Any) -> set[str]:
-        return set(parse_grid(study(base={"m": 0.2, "n_diameters": "auto", **said})).batches)
+    def batches(**phrase: Any) -> set[str]:
+        return set(parse_grid(study(base={"m": 0.2, "n_diameters": "auto", **phrase})).batches)
 
     usual = batches()
     assert batches(truncation_quantity="frequencies", truncation_tolerance=1e-3) == usual

@@ -24,8 +24,8 @@ def raw(**changes: Any) -> dict[str, Any]:
     return {"study": "s", "quantity": "floquet", "base": base, "axes": FRICTION, "where": "mu_k <= mu_s"} | changes
 
 
-def points(said: dict[str, Any]) -> list[list[Any]]:
-    return [point for text in parse_grid(said).batches.values() for point in json.loads(text)["points"]]
+def points(phrase: dict[str, Any]) -> list[list[Any]]:
+    return [point for text in parse_grid(phrase).batches.values() for point in json.loads(text)["points"]]
 
 
 def test_points_that_break_the_rule_are_not_computed() -> None:
@@ -39,11 +39,11 @@ def test_points_that_break_the_rule_are_not_computed() -> None:
 
 
 def test_a_rule_that_all_points_keep_changes_no_batch() -> None:
-    said = raw(axes={"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2]})
-    assert parse_grid(said).batches == parse_grid(said | {"where": []}).batches
+    phrase = raw(axes={"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2]})
+    assert parse_grid(phrase).batches == parse_grid(phrase | {"where": []}).batches
     assert (
-        parse_grid(said | {"where": ["mu_k<=mu_s", "mu_k / mu_s < 2", "h == 0.002"]}).batches
-        == parse_grid(said).batches
+        parse_grid(phrase | {"where": ["mu_k<=mu_s", "mu_k / mu_s < 2", "h == 0.002"]}).batches
+        == parse_grid(phrase).batches
     )
 
 

@@ -1,4 +1,4 @@
-// What the page holds: stored numbers, and how they are said in words.
+// What the page holds: stored numbers, and their words.
 
 const contents = JSON.parse(document.getElementById("contents").textContent);
 const element = (id) => document.getElementById(id);

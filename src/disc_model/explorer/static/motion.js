@@ -54,7 +54,7 @@ function drawMotion() {
   element("phases").replaceChildren();
   motionDrawn = null;
   if (!motion) {
-    element("motion-said").textContent = study.motions
+    element("motion-note").textContent = study.motions
       ? "No motion is stored that is computed as this point is."
       : "Of this quantity no motions are stored.";
     return;
@@ -62,7 +62,7 @@ function drawMotion() {
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
   const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
   const far = motion.exact ? "At this point" : `Nearest stored motion ${motion.like}at ${where(motion.places, dims)}${ring}`;
-  element("motion-said").textContent = `${far}. ${study.motions.said}`;
+  element("motion-note").textContent = `${far}. ${study.motions.text}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
   const names = traces.map((trace) => trace.name);

@@ -34,8 +34,8 @@ async function chooseStudy(name) {
 function chooseAxes() {
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
-  const said = (one) => !one.name.endsWith("status");
-  if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(said) ?? fitting[0];
+  const wanted = (one) => !one.name.endsWith("status");
+  if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(wanted) ?? fitting[0];
   const simulated = marks().find(([, variable, word]) => variable.name === "method" && word === "simulation");
   view.mark = simulated ? simulated[0] : NONE;
 }

@@ -39,7 +39,7 @@ COLOURS = {
     "undecided": GREY,
     "failed": BLACK,
 }
-SAID = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
+WORDS = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
 LETTERS = "abcdefghijkl"
@@ -69,8 +69,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     for ax in axes[-2:]:
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])
-    said = SAID | {"undecided": f"undecided after {options['horizon']:g} s"}
-    patches = [Patch(color=COLOURS[class_], label=said.get(class_, class_)) for class_ in classes]
+    phrase = WORDS | {"undecided": f"undecided after {options['horizon']:g} s"}
+    patches = [Patch(color=COLOURS[class_], label=phrase.get(class_, class_)) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot)
     return figure

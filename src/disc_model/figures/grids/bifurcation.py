@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from disc_model.data.variables import flag_names, said_values
+from disc_model.data.variables import flag_names, values_text
 from disc_model.figures import parts
 from disc_model.figures.kinds import Bifurcation
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOURS, new_figure
@@ -108,8 +108,8 @@ def _start(options: Mapping[str, Any]) -> str:
     prerun = options.get("prerun")
     if not prerun:
         return "Each point from the static start; other motions may exist beside."
-    said = said_values(prerun.get("parameters", {}))
-    return f"Each point from the state of {said} after {prerun['time']:g} s; other motions may exist beside."
+    text = values_text(prerun.get("parameters", {}))
+    return f"Each point from the state of {text} after {prerun['time']:g} s; other motions may exist beside."
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:

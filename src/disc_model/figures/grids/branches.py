@@ -37,9 +37,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
     for way, mark in enumerate("^v"):
         _sweep(ax, along, 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0, mark)
     unstable = study["sliding_growth_rate"].values > 0
-    said = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
+    phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
     ax.plot(along, np.full(along.size, LOWEST), color=GREY, linewidth=0.8, linestyle="--" if unstable.all() else "-")
-    parts.say(ax, f"steady sliding: {said}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
+    parts.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
     for case, value in plot.paper_cases.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = -1 if value == min(plot.paper_cases.values()) else 1

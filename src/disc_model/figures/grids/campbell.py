@@ -51,8 +51,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
     _crossings(top, study, met)
     bottom.set_xlabel(parts.axis_of("Omega")[0])
     below.set_axis_off()
-    said = "\n".join([_SAID if met else _NOTHING, *(f"{i}  {one.said}" for i, one in enumerate(met, 1))])
-    below.text(0, 1, said, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
+    phrase = "\n".join([_HEADING if met else _NOTHING, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
+    below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
     parts.head(figure, study, plot)
     return figure
@@ -67,10 +67,10 @@ class Noted(NamedTuple):
 
     Omega: float
     crossings: tuple[int, ...]
-    said: str
+    phrase: str
 
 
-_SAID = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
+_HEADING = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
 _NOTHING = "the cycle's growth rate has no peak at a crossing"
 
 
@@ -111,8 +111,8 @@ def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> N
         line = "$f_s$" if flag_names(one["crossing_line"]) == "stick_slip" else _TURN
         met.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
     own, at = float(study["sliding_frequency"].sel(Omega=peak[0], mode=peak[1])), f"{peak[0]:.2f} rad/s"
-    said = f"{', '.join([at, *met])}: {own:.0f} Hz mode, {_rate_at(study, peak):.2g}/s"
-    return Noted(peak[0], tuple(crossings), said)
+    phrase = f"{', '.join([at, *met])}: {own:.0f} Hz mode, {_rate_at(study, peak):.2g}/s"
+    return Noted(peak[0], tuple(crossings), phrase)
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:

@@ -63,14 +63,14 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
     if plot.paper_points:
         load, speed = np.transpose([*plot.paper_points.values()])
         axes[0].plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="paper")
-    said = ["from the static start"]
+    text = ["from the static start"]
     if sweep is not None:
-        said.append(_sweep(axes[1], sweep, study, horizons[0]))
+        text.append(_sweep(axes[1], sweep, study, horizons[0]))
         if "basins" in overlays:
             _measured(axes[1], overlays["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
-    parts.letters(axes, said, pad=12)
+    parts.letters(axes, text, pad=12)
     for ax in axes:
         ax.set_xlabel(SPEED)
         handles += ax.get_legend_handles_labels()[0]
@@ -193,12 +193,12 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
     """Draw onset and end of separation as the speed rises and falls in steps; description of the sweep."""
     N, lost = sweep["N"].values, parts.failed(sweep).values
-    for name, color, marker, said in (
+    for name, color, marker, text in (
         ("onset_speed", ONSET, "^", "sweep up: separation begins"),
         ("offset_speed", END, "v", "sweep down: separation ends"),
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
-        ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=said, clip_on=False)
+        ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=text, clip_on=False)
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 3, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     parts.mark_failed(ax, N[lost], on="y")

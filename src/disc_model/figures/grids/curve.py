@@ -43,8 +43,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
     words = parts.flags_of(found)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     jump = np.inf if plot.log or plot.variable != "growth_rate" else LINEAR
-    for colour, (said, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
-        name = said if numbers is None else ""
+    for colour, (text, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
+        name = text if numbers is None else ""
         x, y = parts.broken(along, line.values, jump)
         ax.plot(
             x, y, mark + "-" * (not words), color=colour, label=name or None,
@@ -69,7 +69,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
     if numbers is not None:
         _scale(figure, ax, numbers, colours)
     if ax.get_legend_handles_labels()[0]:
-        beside = by is not None and numbers is None and max(len(said) for said, _ in lines) < WIDEST
+        beside = by is not None and numbers is None and max(len(text) for text, _ in lines) < WIDEST
         figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or by else 2)
     parts.head(figure, study, plot, found)
     return figure

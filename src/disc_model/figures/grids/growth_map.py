@@ -145,8 +145,8 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **look) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
-        said = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
-        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(said)}"))
+        text = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
+        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(text)}"))
     return handles
 
 
@@ -180,5 +180,5 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, axes)
-    parts.head(figure, study, plot, modes_said=True)
+    parts.head(figure, study, plot, modes_in_panels=True)
     return figure

@@ -67,7 +67,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
             bar.minorticks_off()
         elif gaps := parts.gaps(study, found, plot.at):
             handles = [*handles, Patch(facecolor="white", hatch=HATCH, edgecolor=GREY, label=", ".join(gaps))]
-    _name(figure, axes, [said for said, _ in panels], found, plot)
+    _name(figure, axes, [text for text, _ in panels], found, plot)
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     parts.head(figure, study, plot, found)
@@ -77,11 +77,11 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
 def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr.DataArray, plot: HeatMap) -> None:
     """Label the panels with letters and values, and the axes."""
     width = round(figure.get_figwidth() / len(axes) / 0.08)
-    for ax, said, letter in zip(axes, values, "abcd", strict=False):
+    for ax, text, letter in zip(axes, values, "abcd", strict=False):
         ax.set_xlabel(parts.label_of(found[plot.x])[0])
         if len(axes) > 1:
             # keep a value on the line of its name
-            ax.set_title(fill(f"({letter}) " + said.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
+            ax.set_title(fill(f"({letter}) " + text.replace(" = ", "\u00a0=\u00a0"), width), loc="left")
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
 
 

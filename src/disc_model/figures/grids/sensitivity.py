@@ -12,7 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, shown_number, typeset
+from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, number_text, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
@@ -37,12 +37,12 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
         axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
         for ax, name in zip(axes, names, strict=True):
             _panel(ax, cell, name)
-        said = "; ".join(
+        phrase = "; ".join(
             f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
             for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
             if np.isfinite(cell[key])
         )
-        part.suptitle(", ".join((title.replace("\n", ", "), said)), x=0.01, ha="left", fontsize=8)
+        part.suptitle(", ".join((title.replace("\n", ", "), phrase)), x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     parts.note(figure, plot, spreads(options["distributions"]))
@@ -78,7 +78,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     label = "a third of the values, with its interval"
     ax.errorbar(middle, share, 1.96 * error, fmt="o", color=BLUE, markersize=2.5, capsize=1.5, label=label)
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
-    _, _, unit, factor = shown_number(name)
+    _, _, unit, factor = number_text(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     ax.minorticks_off()
     ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
@@ -90,17 +90,17 @@ def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
     alike: dict[str, list[str]] = {}
     for name, how in distributions.items():
         alike.setdefault(_spread(name, how), []).append(symbol(name))
-    return "; ".join(f"{', '.join(names)} {said}" for said, names in alike.items())
+    return "; ".join(f"{', '.join(names)} {phrase}" for phrase, names in alike.items())
 
 
 def _spread(name: str, how: Mapping[str, Any]) -> str:
     """Description of one distribution."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
-    unit, factor = ("times its value", 1.0) if how["relative"] else shown_number(name)[2:]
-    said = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
-    texts = [f"{said['low']} to {said['high']} {unit}"] if "low" in said else []
-    texts += [f"normal, {said['mean']} ± {said['deviation']} {unit}"] if "mean" in said else []
+    unit, factor = ("times its value", 1.0) if how["relative"] else number_text(name)[2:]
+    phrase = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
+    texts = [f"{phrase['low']} to {phrase['high']} {unit}"] if "low" in phrase else []
+    texts += [f"normal, {phrase['mean']} ± {phrase['deviation']} {unit}"] if "mean" in phrase else []
     return ", ".join(text.rstrip() for text in texts)
 
 
@@ -110,9 +110,9 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     for place in product(*(range(study.sizes[dim]) for dim in dims)):
         cell = study.isel(dict(zip(dims, place, strict=True)))
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
-        yield "\n".join(parts.value_said(cell[name], name) for name in names), cell
+        yield "\n".join(parts.coordinate_text(cell[name], name) for name in names), cell
 
 
 def symbol(name: str) -> str:
     """Symbol of a parameter."""
-    return typeset(shown_number(name).symbol) or name.replace("_", " ")
+    return typeset(number_text(name).symbol) or name.replace("_", " ")

@@ -116,13 +116,13 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
 
 def _paper_handles(plot: StabilityMap) -> list[Artist]:
     """Legend entries, one for each shape among the marks."""
-    said = {mark.paper_outcome for mark in plot.marks.values()}
+    text = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
     return [
         Line2D([], [], marker=look["marker"], label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
         for name, look in MARKS.items()
-        if name in said
+        if name in text
     ]
 
 
@@ -162,6 +162,6 @@ def _round_values(values: np.ndarray) -> list[float]:
 
 def legend_below_head(figure: Figure, study: xr.Dataset, plot: StabilityMap, handles: Iterable[Artist]) -> None:
     """Draw a legend over all panels, below `head`, which a title of the figure itself would cover."""
-    said = parts.headline(figure, plot, study.attrs.get("title", ""), parts.fixed(study, modes_said=True))
+    text = parts.headline(figure, plot, study.attrs.get("title", ""), parts.fixed(study, modes_in_panels=True))
     shown = list(handles)
-    figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title=said, title_fontsize=8)
+    figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title=text, title_fontsize=8)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from disc_model.data.variables import said_values
+from disc_model.data.variables import values_text
 from disc_model.figures.kinds import HIGHEST, OwnFigure, spectrum_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Window
@@ -50,10 +50,10 @@ def _read() -> tuple[dict[str, str], dict[str, Entry]]:
     """Sections by their numbers, and figures by their names."""
     found = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
     entries = {}
-    for name, said in found["figures"].items():
-        caption = " ".join([said["caption"]] if isinstance(said["caption"], str) else said["caption"])
-        needs = {case: tuple(windows) for case, windows in said["needs"].items()}
-        entries[name] = Entry(**said | {"caption": caption, "needs": needs})
+    for name, given in found["figures"].items():
+        caption = " ".join([given["caption"]] if isinstance(given["caption"], str) else given["caption"])
+        needs = {case: tuple(windows) for case, windows in given["needs"].items()}
+        entries[name] = Entry(**given | {"caption": caption, "needs": needs})
     return found["sections"], entries
 
 
@@ -120,14 +120,14 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
     """
     entry = CATALOGUE[name]
     text = entry.caption.format(**_numbers(entry, windows or {}))
-    said: list[str] = []
+    given: list[str] = []
     for case in entry.cases:
-        values = said_parameters(parameters[case])
-        if values not in said:
-            said.append(values)
+        values = parameters_text(parameters[case])
+        if values not in given:
+            given.append(values)
     modes = {parameters[case].normalization for case in entry.cases}
     named = " and ".join(_MODES[mode] for mode in sorted(modes))
-    return f"{text} {'; '.join(said)}; everything else as in Table 1; {named}."
+    return f"{text} {'; '.join(given)}; everything else as in Table 1; {named}."
 
 
 def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
@@ -135,13 +135,13 @@ def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
     angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
-    said = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
+    given = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
     for name, window in shown:
         if name == "zoom":
-            said[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
+            given[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
         if name == "orbit":
-            said[name] = f"{window.start:g} to {window.stop:g} s"
-    return said
+            given[name] = f"{window.start:g} to {window.stop:g} s"
+    return given
 
 
 _MODES = {
@@ -150,6 +150,6 @@ _MODES = {
 }
 
 
-def said_parameters(p: Parameters) -> str:
+def parameters_text(p: Parameters) -> str:
     """N, Omega and all values that differ from Table 1, with units."""
-    return said_values({name: getattr(p, name) for name in Parameters.model_fields})
+    return values_text({name: getattr(p, name) for name in Parameters.model_fields})

@@ -49,8 +49,8 @@ def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
     with parts.blank_if_missing(ax):
         ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
         label, factor, _ = parts.sampled("w_point", ignored, separating)
-        for ranges, color, said in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):
-            parts.envelope(ax, ranges, "w_point", scale=factor, color=color, label=said)
+        for ranges, color, text in ((ignored, GREY, "separation ignored"), (separating, DISC, "with separation")):
+            parts.envelope(ax, ranges, "w_point", scale=factor, color=color, label=text)
         ax.set(xlabel="Time (s)", ylabel=label)
         parts.headroom(ax, 0.25)
         ax.legend(loc="upper left")

@@ -20,7 +20,7 @@ import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.errors import DiscModelError, shown
+from disc_model.errors import DiscModelError, as_text
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.run import POINT, describe
 from disc_model.studies.grids.summaries import summarised
@@ -79,7 +79,7 @@ def failures(study: xr.Dataset) -> Iterator[str]:
         place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
         point = study.isel(place)
         values = {name: point[name].item() for name in varied}
-        where = ", ".join(f"{name} = {x if isinstance(x, str) else shown(x)}" for name, x in values.items())
+        where = ", ".join(f"{name} = {x if isinstance(x, str) else as_text(x)}" for name, x in values.items())
         word, message = str(status[tuple(index)]), str(point["message"].item())
         what = WITHOUT_CYCLE.get(word, word)
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"

@@ -50,14 +50,14 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     data = json.loads(text)
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
-    options, start = entry.parted(entry.said.model_validate(data["options"]))
+    options, start = entry.parted(entry.stated.model_validate(data["options"]))
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data, values) for values in varied]
     began = time.process_time()
     if "tile" in data:
         found = list(_over_tile(cast("Tiled", quantity), data, options))
     else:
-        starts = {name: Start.model_validate(said) for name, said in data.get("starts", {}).items()}
+        starts = {name: Start.model_validate(stated) for name, stated in data.get("starts", {}).items()}
         each = zip(parameters, varied, strict=True)
         found = [compute(quantity, _point(p, values, start, starts), options) for p, values in each]
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)

@@ -207,8 +207,8 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
     there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
     assert not any(i % 8 == 0 and j % 8 == 0 for i, j in there if i < 16)
-    said = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.results}
-    found = {place for place, word in said.items() if word == "separation"}
+    phrase = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.results}
+    found = {place for place, word in phrase.items() if word == "separation"}
     assert len(found & set(there)) > 0.9 * len(there)
     assert len(found - set(there)) < 0.1 * len(there)
     assert len(tile.results) < 0.4 * 33 * 33

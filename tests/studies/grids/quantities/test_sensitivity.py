@@ -141,7 +141,7 @@ def test_variants_take_one_parameter_each() -> None:
 def test_quantiles_are_those_of_the_distributions(share: float) -> None:
     """Both tails of 5e-11 that are left out move what lies within them by less than the tolerance."""
     normal = {"mean": 2, "deviation": 0.3}
-    for said, one in (
+    for text, one in (
         ({"distribution": "uniform", "low": 2, "high": 5}, stats.uniform(2, 3)),
         ({"distribution": "normal", **normal}, stats.norm(2, 0.3)),
         (
@@ -149,7 +149,7 @@ def test_quantiles_are_those_of_the_distributions(share: float) -> None:
             stats.truncnorm((1.9 - 2) / 0.3, (3 - 2) / 0.3, 2, 0.3),
         ),
     ):
-        made = SensitivityOptions.model_validate({"distributions": {"k": said}}).distributions["k"]
+        made = SensitivityOptions.model_validate({"distributions": {"k": text}}).distributions["k"]
         assert quantile(made, 7.0, share) == pytest.approx(one.ppf(share), rel=1e-5)
         relative = made.model_copy(update={"relative": True})
         assert quantile(relative, 7.0, share) == pytest.approx(7 * one.ppf(share), rel=1e-5)

@@ -215,10 +215,10 @@ class _Tile:
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for one, two in edges:
             middle = (one[0] + two[0]) // 2, (one[1] + two[1]) // 2
-            if middle not in (one, two) and not self.trends[middle] and self._said(one) == self._said(two):
-                self.presumed.setdefault(middle, self._said(one))
+            if middle not in (one, two) and not self.trends[middle] and self._format(one) == self._format(two):
+                self.presumed.setdefault(middle, self._format(one))
 
-    def _said(self, place: Place) -> str:
+    def _format(self, place: Place) -> str:
         """The outcome at a corner, computed or presumed."""
         if self.trends[place]:
             return self.trends[place]

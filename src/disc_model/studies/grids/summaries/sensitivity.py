@@ -30,8 +30,8 @@ _INDEX = ("output", "parameter")
 
 
 def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Column]:
-    said = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
-    return {key: Column("1", value, dims=dims) for key, value in said.items()}
+    given = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
+    return {key: Column("1", value, dims=dims) for key, value in given.items()}
 
 
 COLUMNS: Mapping[str, Column] = {
