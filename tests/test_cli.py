@@ -173,7 +173,7 @@ def test_a_plot_that_cannot_be_written_is_bad_input(command: Command, tmp_path: 
 
 
 def test_what_can_hardly_be_meant_is_a_warning(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(plausibility, "_told", set())
+    monkeypatch.setattr(plausibility, "_reported", set())
     code, _, err = command.run(*SHORT, "--h", "0.03")
     assert code == 0
     assert [line.split(" is ")[0] for line in err.splitlines()] == ["warning: h = 0.03 m"]

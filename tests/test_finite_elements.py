@@ -118,7 +118,7 @@ def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: o
 
 def test_units_by_a_thousand_or_more_off_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """E in GPa was searched for thousands of modes without an end."""
-    monkeypatch.setattr(plausibility, "_told", set())  # each doubt is told once in a process
+    monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
     given: dict[str, Any] = {"nu": P.nu, "rho": P.rho, "clamped": lambda x: x[0] < 0.061, "slider": (0.1, 0.005)}
     with pytest.warns(dm.ImplausibleValue), pytest.raises(dm.ParameterError, match="lowest modes of 0 nodal diameters"):
         disc_of_section(section(RING, 0.005), **given, E=150, highest_Hz=3000)

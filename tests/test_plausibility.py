@@ -13,7 +13,7 @@ BASE = {"N": 200, "Omega": 20}
 
 
 def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(plausibility, "_told", set())
+    monkeypatch.setattr(plausibility, "_reported", set())
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         for h in (0.02, 0.021, 0.022):

@@ -53,7 +53,7 @@ def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset,
     text = pages.page(run)
     assert "| heyoka | 630 | - |" in text
     assert "| series, modes, rigid contact | 4, 8 | - | - |" in text
-    assert "Python between the phases accounts for 25 % for" in text
+    assert "Python restarts heyoka; this accounts for 25 % for" in text
     assert "only, the package takes 1 ms for (a). heyoka always" in text
 
 
