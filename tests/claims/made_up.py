@@ -351,13 +351,14 @@ def scans(
     discs: tuple[str, ...] = ("growing", "quiet", "separation"),
     windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
     damped: str = "separation",
+    strong: str = "",
 ) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
 
     least, settled : share of stick where it is least, and whether the motion there has settled
     discs : outcome on the softest, a softer and the usual one
-    windows : rad/s, where separation begins and ends, at three preloads
-    damped : outcome at large preloads with in-plane damping, and at a smaller one without
+    windows : rad/s, where separation begins and ends, at three preloads or more
+    damped, strong : outcome at large preloads with in-plane damping, and with more of it; growth falls if they separate
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
@@ -369,28 +370,38 @@ def scans(
     map_E = xr.Dataset(
         {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
         {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-        {"base": '{"N": 200}'},
+        {"base": '{"N": 200}', "options": '{"horizon": 1000}'},
     )
     kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
     crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}
     speeds = np.array(windows)[:, None, None]
     along = ("N", "normalization", "horizon", "crossing_number")
-    loads = {"N": [50.0, 200.0, 385.0], "normalization": ["as_published"]}
+    loads = {"N": [50.0, 200.0, 385.0, 500.0, 510.0][: len(windows)], "normalization": ["as_published"]}
     critical_speed = xr.Dataset(
         {
-            "status": (along[:2], np.zeros((3, 1), dtype=np.int8), {"flag_values": [0], "flag_meanings": "ok"}),
+            "status": (
+                along[:2],
+                np.zeros((len(windows), 1), dtype=np.int8),
+                {"flag_values": [0], "flag_meanings": "ok"},
+            ),
             "critical_speed": (along[:3], speeds[..., 0]),
             "crossing": (along, speeds),
             "crossing_kind": (along, kinds.astype(np.int8), crossings),
         },
-        loads | {"horizon": [1000.0]},
+        loads | {"horizon": [1000.0], "scan_Omega": [5.0, 24.0]},
     )
-    pulled = np.ones((5, 2, 1), dtype=np.int8)
+    dampers = [0, 0.5, *([0.75] if strong else [])]
+    pulled = np.ones((5, len(dampers), 1), dtype=np.int8)
     pulled[2:, 1] = pulled[1, 0] = flags["flag_meanings"].split().index(damped)
+    pulled[2:, 2:] = flags["flag_meanings"].split().index(strong or damped)
+    falls = np.linspace(0.02, 0.01 if damped == "separation" else 0.03, len(dampers))
     map_c_p = xr.Dataset(
-        {"outcome": (("N", "c_p", "normalization"), pulled, flags)},
-        {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": [0, 0.5]},
-        {"base": '{"Omega": 15}'},
+        {
+            "outcome": (("N", "c_p", "normalization"), pulled, flags),
+            "growth_rate": (("N", "c_p", "normalization"), np.tile(falls[:, None], (5, 1, 1))),
+        },
+        {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": dampers},
+        {"base": '{"Omega": 15}', "options": '{"horizon": 1000}'},
     )
     plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})
     return {"bonded": plain, "critical_speed": critical_speed, "map_E": map_E, "map_c_p": map_c_p}

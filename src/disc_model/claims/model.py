@@ -103,7 +103,7 @@ class Text(BaseModel):
     remark, remarks : what should be known besides: in any case; where the value of that name is true
     undecided : by name, reasons why the evidence may decide nothing
     parts : by name of a value, how its rows are said
-    apart : why the tally leaves it out: it repeats another claim, or concerns a misprint
+    apart : why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)

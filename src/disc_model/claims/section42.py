@@ -51,16 +51,21 @@ def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer
 
 @CHECKS("F15a")
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
-    """Whether the lowest speed with separation has a minimum between higher ones, at every horizon."""
+    """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
     study = _scanned(study)
     loads, lowest = study["N"].values, study["critical_speed"].transpose("horizon", "N").values
     falls = [measures.dips(speeds, depth) for speeds in lowest]
     rows = [{"N": N, "speed": measures.or_none(v, ".1f")} for N, v in zip(loads, lowest[-1], strict=True)]
+    holds, again = all(map(len, falls)), measures.later_falls(lowest[-1], depth)
+    rises = slice(falls[-1][0], again[0]) if again else slice(0)
     return Answer(
-        all(map(len, falls)),
+        None if holds and again else holds,
+        "again",
         speeds=rows,
+        scan=measures.extent(study["scan_Omega"]),
         horizon=float(study["horizon"][-1]),
-        again=[f"{loads[i]:g} N" for i in measures.later_falls(lowest[-1], depth)],
+        top=loads[rises][np.nanargmax(lowest[-1][rises])] if again else np.nan,
+        again=[f"{loads[i]:g} N" for i in again],
     )
 
 

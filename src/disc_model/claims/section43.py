@@ -219,7 +219,9 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
 
 @CHECKS("F21q")
 def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
-    return Answer(*is_kind(Outcome.QUASI_PERIODIC, measures.late_motion(case, closes)[0]))
+    motion = measures.late_motion(case, closes)[0]
+    irregular = motion.kind is Outcome.IRREGULAR
+    return Answer(None, "irregular") if irregular else Answer(*is_kind(Outcome.QUASI_PERIODIC, motion))
 
 
 @CHECKS("S43k")
@@ -290,42 +292,62 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
 
 @CHECKS("C4N")
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
-    """Whether, from some preload on, all separate with the damper that do not without it: the largest decide."""
-    loads, damping, apart = _separations(study)
-    without, damped = apart[:, damping == 0][:, 0], apart[:, damping == c_p][:, 0]
-    newly, spared = damped & ~without, without & ~damped
-    largest = newly[~without][-int(few) :]
+    """Whether, from some preload on, all separate with any damper that do not without it: the largest decide."""
+    loads, damping, apart, _ = _separations(study)
+    quiet, dampers = ~apart[:, damping == 0][:, 0], damping[damping > 0]
+    newly, compared = apart[quiet][:, damping > 0], loads[quiet][-int(few) :]
+    largest = newly[-int(few) :]
     return Answer(
-        bool(largest.all()) if len({*largest}) == 1 else None,
+        bool(largest.all()) if len({*largest.ravel()}) == 1 else None,
         "some",
         N=measures.extent(loads),
-        compared=measures.extent(loads[~without][-int(few) :]),
+        compared=measures.extent(compared),
         Omega=json.loads(study.attrs["base"])["Omega"],
-        newly=[f"{N:g}" for N in loads[newly]] or ["none"],
-        spared=[f"{N:g}" for N in loads[spared]] or ["none"],
+        horizon=_horizon(study),
+        newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
+        some=[
+            {"N": N, "count": row.sum(), "of": row.size, "c_p": dampers[row].min()}
+            for N, row in zip(compared, largest, strict=True)
+            if row.any()
+        ],
     )
 
 
-def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Preloads, in-plane dampers, and whether the static start separates: (N,), (c_p,), (N, c_p)."""
+def _horizon(study: xr.Dataset) -> float:
+    """Time in s to which the cells of a map were simulated."""
+    return float(json.loads(study.attrs["options"])["horizon"])
+
+
+def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_], Array]:
+    """Preloads (N,), in-plane dampers (c_p,), whether the static start separates, and growth rates: (N, c_p)."""
     study = study.sel(normalization="as_published").sortby(["N", "c_p"])
     outcome = flag_names(study["outcome"].transpose("N", "c_p"))
     if np.any(outcome == "failed"):
         raise Missing("study map_c_p has points that failed")
-    return study["N"].values, study["c_p"].values, outcome == "separation"
+    rates = study["growth_rate"].transpose("N", "c_p").values
+    return study["N"].values, study["c_p"].values, outcome == "separation", rates
 
 
 @CHECKS("C4m")
 def not_monotonous(*evidence: Any) -> Answer:
-    """Whether each of three parameters stabilises an unstable case and destabilises a stable one."""
+    """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
     *cases, study = evidence
-    loads, _, apart = _separations(study)
-    changes = {"newly": apart & ~apart[:, :1], "spared": ~apart & apart[:, :1]}
+    loads, damping, apart, growth = _separations(study)
+    newly = (apart & ~apart[:, :1]).any(axis=1)
+    growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
+    lowered = growing & (growth[:, -1] < growth[:, 0])
     rates, text = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
-    counts = {name: [f"{N:g}" for N in loads[at.any(axis=1)]] or ["none"] for name, at in changes.items()}
-    both = all(at.any() for at in changes.values())
-    return Answer(between_only(cases) and both and {-1, 1} <= signs, loads=rows(cases), rates=text, **counts)
+    return Answer(
+        between_only(cases) and newly.any() and lowered.any() and {-1, 1} <= signs,
+        loads=rows(cases),
+        rates=text,
+        newly=[f"{N:g}" for N in loads[newly]] or ["none"],
+        most=damping[-1],
+        lowered=lowered.sum(),
+        growing=growing.sum(),
+        horizon=_horizon(study),
+    )
 
 
 @CHECKS("C4")
@@ -369,13 +391,14 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     mixed = some.any() and not some.all()
     softer = [{"GPa": E[i], "Omega": Omega[apart[i]].min()} for i in range(quiet)] if mixed else []
     return Answer(
-        mixed if some.any() else None,
-        "nowhere",
+        mixed if some.any() and not softer else None,
+        "enough" if softer else "nowhere",
+        horizon=_horizon(study),
         N=json.loads(study.attrs["base"])["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],
-        base_too=at.any() and not apart[E <= BASE.E / 1e9][:, at].any(),
+        base_too=[{"slow": slow}] if at.any() and not apart[E <= BASE.E / 1e9][:, at].any() else [],
         alike=[] if mixed else [{"all": "every" if some.any() else "no"}],
         softer=softer,
     )
