@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -39,6 +40,8 @@ COLOURS = {
     "undecided": GREY,
     "failed": BLACK,
 }
+HATCHES = {"irregular": "////", "undecided": "...."}
+"""Of outcomes that are as dark as others in grey print."""
 WORDS = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
@@ -70,10 +73,14 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])
     phrase = WORDS | {"undecided": f"undecided after {options['horizon']:g} s"}
-    patches = [Patch(color=COLOURS[class_], label=phrase.get(class_, class_)) for class_ in classes]
+    patches = [Patch(**_look(class_), label=phrase.get(class_, class_)) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot)
     return figure
+
+
+def _look(class_: str) -> dict[str, Any]:
+    return {"facecolor": COLOURS[class_], "edgecolor": "white", "hatch": HATCHES.get(class_, ""), "linewidth": 0}
 
 
 def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) -> None:
@@ -81,7 +88,7 @@ def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) 
     low = np.zeros(len(along))
     for class_ in classes:
         share = study["basin_fraction_by_energy"].sel(attractor_class=class_).values
-        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, color=COLOURS[class_], linewidth=0)
+        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, **_look(class_))
         low = low + np.nan_to_num(share)
     ax.set(ylim=(0, 1))
 

@@ -123,15 +123,15 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     unsure = False
     for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
-        low, high = (exponent[i].values + s * ERRORS * error[i].values for s in (-1, 1))
         shown = parts.broken(along, exponent[i].values, JUMP)
         ax.plot(*shown, ".-", color=color, markersize=3, linewidth=0.8, label=label)
-        ax.fill_between(along, low, high, color=color, alpha=0.15, linewidth=0)
+        band = ERRORS * np.interp(shown[0], along, error[i].values)
+        ax.fill_between(shown[0], shown[1] - band, shown[1] + band, color=color, alpha=0.15, linewidth=0)
         if "converged" in lyapunov:
             moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
             ax.plot(along[moving], exponent[i][moving], label="_nolegend_", **ring | {"color": color})
             unsure |= bool(moving.any())
-    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} errors")
+    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
     if unsure:
         ax.plot([], [], label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])

@@ -210,7 +210,7 @@ def growth_bar(figure: Figure, axes: list[Axes]) -> None:
     for mesh in meshes:
         mesh.set_norm(norm)
     bar = figure.colorbar(meshes[0], ax=axes, extend="both", pad=0.01, aspect=30)
-    bar.set_label("Growth rate of the stick-slip cycle (1/s)")
+    bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
     ticks = [-largest, -largest / 10, 0, largest / 10, largest]
     bar.set_ticks(ticks, labels=[f"{x:g}".replace("-", "−") for x in ticks])

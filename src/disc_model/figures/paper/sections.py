@@ -108,7 +108,9 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
             counts = np.arange(1, (len(released) - 1) // 2 + 1)
             if not counts.size:
                 raise Missing("keeps no two releases of stick")
-            ax.plot(counts, [closure(np.diff(released), int(n)) for n in counts], ".", color=BLACK, markersize=3)
+            rounding = np.spacing(released[-1])  # intervals that agree exactly have no place on a logarithmic scale
+            differences = [max(closure(np.diff(released), int(n)), rounding) for n in counts]
+            ax.plot(counts, differences, ".", color=BLACK, markersize=3)
             ax.set(xscale="log", yscale="log", xlabel="Releases n")
             ax.margins(0.04)
         parts.letter(ax, letter, name)
@@ -124,7 +126,8 @@ def _orbit(ax: Axes, phase: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
         # a line broken where the phase changes, so that no chord is drawn across others
         shown = np.where(inside, y, np.nan)
         colour = PHASE_COLOURS[name]
-        ax.plot(x, shown, color=colour, linewidth=0.5, rasterized=True)
-        ax.plot([], [], color=colour, linewidth=1.5, label=name)
+        width = 1.5 if name == "separation" else 0.5  # distinct in grey print
+        ax.plot(x, shown, color=colour, linewidth=width, rasterized=True)
+        ax.plot([], [], color=colour, linewidth=width + 0.5, label=name)
     ax.margins(0.04)
     parts.legend_above(ax)
