@@ -70,5 +70,5 @@ def main() -> None:
         if source.is_file():
             shrink(source, small)
         if small.is_file():
-            lines += [f"![{name}](gallery/{small.name})", "", text, ""]
+            lines += [f"![{text.partition('. ')[0]}](gallery/{small.name})", "", text, ""]
     (docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
