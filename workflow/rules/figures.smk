@@ -33,8 +33,9 @@ rule draw_figure:
             STUDY.figure(wildcards.figure).plot.module,
             of=list(map(case_made_of, STUDY.figure(wildcards.figure).cases)),
         ),
+    # '': Snakemake writes nothing at all for an empty caption
     shell:
-        "job draw_figure {params.plot:q} {params.caption:q} {output} {params.cases:q} > {log} 2>&1"
+        "job draw_figure {params.plot:q} ''{params.caption:q} {output} {params.cases:q} > {log} 2>&1"
 
 
 # A study of cases and a grid of the same name share a folder of figures.

@@ -80,5 +80,6 @@ rule draw_plot:
                 *overlay_inputs(wildcards).items(),
             ]
         ],
+    # '': Snakemake writes nothing at all for an empty caption
     shell:
-        "job draw_figure {params.plot:q} {params.caption:q} {output} {params.files:q} > {log} 2>&1"
+        "job draw_figure {params.plot:q} ''{params.caption:q} {output} {params.files:q} > {log} 2>&1"
