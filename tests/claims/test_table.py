@@ -64,14 +64,14 @@ def test_cases_are_those_that_the_texts_speak_of() -> None:
     count = 0
     for claim in CLAIMS:
         if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
-            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.phrase.cases)}
+            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.texts.cases)}
             assert tuple(map(float, phrase.groups())) in found, claim.id
             count += 1
     assert count > 10
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:
-    assert sorted({name for claim in CLAIMS for name in claim.phrase.scans}) == sorted(SCANS)
+    assert sorted({name for claim in CLAIMS for name in claim.texts.scans}) == sorted(SCANS)
 
 
 @pytest.mark.compiled

@@ -195,7 +195,7 @@ def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.Dat
     cases = views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
-        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.phrase.cases])
+        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.texts.cases])
 
 
 def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree) -> None:

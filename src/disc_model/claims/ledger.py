@@ -47,9 +47,9 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        (found, turned), phrase = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.phrase
-        texts = (claim.id, phrase.location, claim.text, phrase.paper, found.ours, claim.tolerance, phrase.reason)
-        rows.append((*texts, found.verdict, found.remark, phrase.apart, turned))
+        (found, turned), texts = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.texts
+        told = (claim.id, texts.location, claim.text, texts.paper, found.ours, claim.tolerance, texts.reason)
+        rows.append((*told, found.verdict, found.remark, texts.apart, turned))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -131,7 +131,7 @@ def _modes() -> pd.DataFrame:
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
-    table = {"Case": [case.name for case in cases], "Parameters": [_format(case) for case in cases]}
+    table = {"Case": [case.name for case in cases], "Parameters": [_parameters(case) for case in cases]}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
     table |= {f"Growth{which} (1/s)": [_growth(case) for case in those] for which, those in pairs.items()}
     table[f"P in the end{[*pairs][-1]} (N)"] = [_late(case) for case in new or cases]
@@ -154,7 +154,7 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
     )
 
 
-def _format(case: CaseView) -> str:
+def _parameters(case: CaseView) -> str:
     p = case.parameters
     return parameters_text(p) + (", separation ignored" if p.contact == "bonded" else "")
 

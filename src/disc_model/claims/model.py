@@ -139,34 +139,34 @@ class Claim:
     """A statement of the paper under our name for it, with the check that decides it."""
 
     id: str
-    phrase: Text
+    texts: Text
     check: Callable[..., Answer]
 
     @property
     def text(self) -> str:
-        return self.phrase.claim
+        return self.texts.claim
 
     @property
     def tolerance(self) -> str:
-        return Sentences({}, self.numbers).fill(self.phrase.tolerance)
+        return Sentences({}, self.numbers).fill(self.texts.tolerance)
 
     @property
     def numbers(self) -> dict[str, float]:
         """Numbers that the check receives besides its evidence."""
-        return self.phrase.given | self.phrase.bounds
+        return self.texts.given | self.texts.bounds
 
     @property
     def separating(self) -> tuple[str, ...]:
         """The cases without whose separation the claim is not testable."""
-        if self.phrase.separates is True:
+        if self.texts.separates is True:
             known = paper_cases()
-            return tuple(name for name in self.phrase.cases if known[name]["parameters"].get("contact") != "bonded")
-        return self.phrase.separates
+            return tuple(name for name in self.texts.cases if known[name]["parameters"].get("contact") != "bonded")
+        return self.texts.separates
 
     @property
     def steady(self) -> tuple[str, ...]:
         """The cases whose steady state it concerns."""
-        return tuple(self.phrase.cases) if self.phrase.steady is True else self.phrase.steady
+        return tuple(self.texts.cases) if self.texts.steady is True else self.texts.steady
 
     def judge(self, *evidence: Any) -> Finding:
         """Apply the check to this evidence; the verdict names missing evidence."""
@@ -181,17 +181,17 @@ class Claim:
         changed : a parameter that is taken to be 0.1 % larger
         """
         try:
-            needed = {name: _needed(cases, name, until) for name, until in self.phrase.cases.items()}
+            needed = {name: _needed(cases, name, until) for name, until in self.texts.cases.items()}
             if changed:
                 needed = {name: self._changed(case, changed) for name, case in needed.items()}
-            for name in self.phrase.scans:
+            for name in self.texts.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
             quiet = [needed[name] for name in self.separating if not needed[name].separates]
             if quiet:
-                phrase = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
-                return Finding(phrase, NOT_TESTABLE)
-            scans = [cases[name].node.to_dataset() for name in self.phrase.scans]
+                text = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
+                return Finding(text, NOT_TESTABLE)
+            scans = [cases[name].node.to_dataset() for name in self.texts.scans]
             found = self._found(self.check(*needed.values(), *scans, **self.numbers), needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
@@ -200,9 +200,9 @@ class Claim:
     def _changed(self, case: CaseView, parameter: str) -> CaseView:
         """The case with a parameter taken to be 0.1 % larger, or simulated with it."""
         other = replace(case, scaled=((parameter, CHANGED),))
-        if not self.phrase.simulated:
+        if not self.texts.simulated:
             return other
-        return CaseView(case.name, simulate_again(other.parameters, self.phrase.cases[case.name]))
+        return CaseView(case.name, simulate_again(other.parameters, self.texts.cases[case.name]))
 
     def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
         """Final result of the claim, undecided if a halved or doubled threshold changes the verdict; and such changes.
@@ -216,7 +216,7 @@ class Claim:
         if turned not in ("", "stable") and found.verdict != UNDECIDED:
             remark = "; ".join(filter(None, (f"small changes turn it: {turned}", found.remark)))
             found = replace(found, verdict=UNDECIDED, remark=remark)
-        if not self.phrase.simulated or found.verdict.startswith(NOT_COMPUTED):
+        if not self.texts.simulated or found.verdict.startswith(NOT_COMPUTED):
             return found, turned
         others = _turns({name: judge(self, name).verdict for name in PHYSICAL}, found.verdict)
         if others:
@@ -230,30 +230,30 @@ class Claim:
 
         For ratios between 0.5 and 2, the distance from 1 is halved or doubled.
         """
-        if not (self.phrase.bounds or self.phrase.computed) or verdict.startswith(NOT_COMPUTED):
+        if not (self.texts.bounds or self.texts.computed) or verdict.startswith(NOT_COMPUTED):
             return ""
         others = {}
-        for name, bound in self.phrase.bounds.items():
+        for name, bound in self.texts.bounds.items():
             for factor in (0.5, 2.0):
                 other = 1 + factor * (bound - 1) if name in RELATIVE and 0.5 < bound < 2 else factor * bound
-                phrase = self.phrase.model_copy(update={"bounds": self.phrase.bounds | {name: other}})
-                others[f"{name} = {other:.4g}"] = judge(replace(self, phrase=phrase)).verdict
-        if self.phrase.computed:
+                texts = self.texts.model_copy(update={"bounds": self.texts.bounds | {name: other}})
+                others[f"{name} = {other:.4g}"] = judge(replace(self, texts=texts)).verdict
+        if self.texts.computed:
             others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
         return _turns(others, verdict) or "stable"
 
     def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
-        phrase, values = self.phrase, self.numbers | rows_of(cases or {}) | answer.values
+        texts, values = self.texts, self.numbers | rows_of(cases or {}) | answer.values
         if answer.holds is None and not answer.why:
-            remarks, verdict = [phrase.remark], NOT_TESTABLE
+            remarks, verdict = [texts.remark], NOT_TESTABLE
         elif answer.holds is None:
-            remarks, verdict = [phrase.undecided[answer.why]], UNDECIDED
+            remarks, verdict = [texts.undecided[answer.why]], UNDECIDED
         else:
-            remarks = [*filter(None, [phrase.remark]), *(text for name, text in phrase.remarks.items() if values[name])]
+            remarks = [*filter(None, [texts.remark]), *(text for name, text in texts.remarks.items() if values[name])]
             verdict = (REMARK if remarks else HOLDS) if answer.holds else FAILS
-        sentences = Sentences(phrase.parts, values)
+        sentences = Sentences(texts.parts, values)
         try:
-            return Finding(sentences.fill(phrase.ours), verdict, "; ".join(map(sentences.fill, remarks)))
+            return Finding(sentences.fill(texts.ours), verdict, "; ".join(map(sentences.fill, remarks)))
         except KeyError as name:
             raise ClaimError(
                 f"claim {self.id}: no value {name} among those of its check: {', '.join(values)}"
@@ -299,8 +299,8 @@ class Checks(dict[str, Callable[..., Answer]]):
                 f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()
             ]
             found.append(Claim(name, text, self.get(name, Answer)))
-        phrase = {name for _, read in texts for name in read}
-        faults += [f"{name}: a check without a text" for name in self if name not in phrase]
+        named = {name for _, read in texts for name in read}
+        faults += [f"{name}: a check without a text" for name in self if name not in named]
         if faults:
             raise ClaimError("\n".join(faults))
         return tuple(found)

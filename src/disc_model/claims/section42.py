@@ -106,5 +106,5 @@ def _scanned(study: xr.Dataset) -> xr.Dataset:
 def far_below(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters)
     lower = [case for case in cases if case["Omega"] < share * critical]
-    text = [{"case": case, "percent": 100 * case["Omega"] / critical} for case in lower]
-    return Answer(any(case.separates for case in lower), lower=text, critical=critical)
+    rows = [{"case": case, "percent": 100 * case["Omega"] / critical} for case in lower]
+    return Answer(any(case.separates for case in lower), lower=rows, critical=critical)

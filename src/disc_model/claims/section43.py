@@ -174,17 +174,17 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
         min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
         for group in ((undamped, slow[0]), damped)
     ]
-    text = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
-    return Answer(lowest[0] < lowest[1], runs=text)
+    found = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
+    return Answer(lowest[0] < lowest[1], runs=found)
 
 
 @CHECKS("S43d")
 def disc_damping(*cases: CaseView, factor: float) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
-    text = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
+    texts = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
     stable = [not case.separates and not _grew(case, factor) for case in cases]
     holds = all(stable) if len({*stable}) == 1 else None
-    return Answer(holds, "speed", rates=text)
+    return Answer(holds, "speed", rates=texts)
 
 
 @CHECKS("F19")
@@ -286,8 +286,8 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
             raise Missing(f"case {case.name} keeps no separation")
         if velocity.size:
             shares[case.name] = float(np.mean(velocity > 0))
-    text = [f"{name}: {100 * found:.0f} %" for name, found in shares.items()]
-    return Answer(min(shares.values(), default=0.0) >= share, shares=text or ["none that separates"])
+    texts = [f"{name}: {100 * found:.0f} %" for name, found in shares.items()]
+    return Answer(min(shares.values(), default=0.0) >= share, shares=texts or ["none that separates"])
 
 
 @CHECKS("C4N")
@@ -434,25 +434,25 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
 @CHECKS("S43b")
 def bounded(*cases: CaseView, factor: float) -> Answer:
     widths = {case.name: case.last_quarters("w_point") for case in cases}
-    text = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
-    return Answer(all(late <= factor * before for late, before in widths.values()), ranges=text)
+    texts = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
+    return Answer(all(late <= factor * before for late, before in widths.values()), ranges=texts)
 
 
 @CHECKS("C3")
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     shares = [measures.phase_share(case, "stick") for case in cases[:5]]
-    text = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
+    texts = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
     another = measures.another_motion(*zip((*cases[:2], cases[4]), cases[5:], strict=True))
-    return Answer(min(shares) <= share, shares="; ".join(text), another=another)
+    return Answer(min(shares) <= share, shares="; ".join(texts), another=another)
 
 
 @CHECKS("C1")
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
-    text = [{"case": case, "rate": rate_text(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
+    found = [{"case": case, "rate": rate_text(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
     stable = [rate < growth for rate in smooth]
-    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=text)
+    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=found)
 
 
 def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[str, Any]:

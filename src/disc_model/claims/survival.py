@@ -144,21 +144,21 @@ def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], 
 def fold(found: Evidence, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), load)))
     highs, width = _beginnings(found.grid("survival_speed"), load)
-    phrase = {
+    speeds = {
         "folds": [f"{speed:.3f}" for speed in folds] or ["none"],
         "begins": [f"{v:.1f}" for v in highs] or ["none"],
     }
     if not highs.size:
-        return Answer(None, "no_speed", growth=[], **phrase)
+        return Answer(None, "no_speed", growth=[], **speeds)
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
     if min(off) <= within:
-        return Answer(True, growth=[], **phrase)
+        return Answer(True, growth=[], **speeds)
     beside = [_growth_beside(found.grid("survival_growth").sel(N=load), high - width, high) for high in highs]
     rows = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(found.grid("survival_curves")["n_continuation_failures"])
     goes_on = all(rate > SLOW for rates in beside for rate in rates)
     return Answer(
-        None if missed and not goes_on else False, "missed", missed=missed, growth=[{"rates": rows}], **phrase
+        None if missed and not goes_on else False, "missed", missed=missed, growth=[{"rates": rows}], **speeds
     )
 
 
@@ -328,7 +328,7 @@ def page_of(table: pd.DataFrame) -> Comparison:
     texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
     first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
-    first["Place"] = [one.phrase.location for one in CONCLUSIONS]
+    first["Place"] = [one.texts.location for one in CONCLUSIONS]
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
     sections = [("At a glance", texts["introduction"], first)]
@@ -337,6 +337,6 @@ def page_of(table: pd.DataFrame) -> Comparison:
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        rule = texts["rule"].format(text=one.text, tolerance=one.tolerance, reason=one.phrase.reason)
+        rule = texts["rule"].format(text=one.text, tolerance=one.tolerance, reason=one.texts.reason)
         sections.append((one.id, rule, shown))
     return Comparison(texts["title"], tuple(sections))

@@ -251,7 +251,7 @@ SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[one].symbol for one in pair), "") 
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
 
-def number_text(name: str) -> Shown:
+def presentation_of(name: str) -> Shown:
     """Presentation of a distributed parameter: one of `SHOWN`, or of a single mode of a table, such as omega_2_0."""
     if name in SHOWN:
         return SHOWN[name]
@@ -277,15 +277,15 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 def values_text(values: Mapping[str, Any]) -> str:
     """Text with N, Omega and all parameter values that differ from Table 1, with units."""
-    phrase = []
+    texts = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
             value, unit = values[name], Parameters.unit(name)
             if name == "disc" and value:  # a table is too long
                 frequencies = value["omega"] if isinstance(value, Mapping) else value.omega
-                phrase.append(f"a disc given by {len(frequencies)} modes")
+                texts.append(f"a disc given by {len(frequencies)} modes")
             elif name in ("N", "Omega") or value != field.default:
                 number = isinstance(value, float | int)  # some parameters may be words, which have no unit
                 shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
-                phrase.append(f"{symbol_of(name)} = {shown}")
-    return ", ".join(phrase)
+                texts.append(f"{symbol_of(name)} = {shown}")
+    return ", ".join(texts)

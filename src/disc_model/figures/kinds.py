@@ -427,8 +427,8 @@ def _same(one: Any, other: Any) -> bool:
 
 def _listed(values: Sequence[Any]) -> str:
     """A few values as messages show them."""
-    given = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
-    return ", ".join(given if len(given) <= 12 else [*given[:6], "...", given[-1]])
+    texts = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
+    return ", ".join(texts if len(texts) <= 12 else [*texts[:6], "...", texts[-1]])
 
 
 class HeatMap(General):

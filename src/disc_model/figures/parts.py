@@ -207,7 +207,7 @@ def fixed(study: xr.Dataset, modes_in_panels: bool = False) -> str:
 def what_case(values: Mapping[str, Any], modes_in_panels: bool = False) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1.
 
-    modes_said : whether the normalization is said elsewhere
+    modes_in_panels : whether the normalization is said elsewhere
     """
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
     if values.get("normalization") == "orthonormal" and not modes_in_panels:
@@ -222,7 +222,7 @@ def head(
     """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary.
 
     shown : the shown variable, if some dimensions are taken at one value
-    modes_said : whether the figure's panels say the normalization
+    modes_in_panels : whether the figure's panels say the normalization
     """
     values = [
         coordinate_text(shown, str(name))
@@ -372,15 +372,15 @@ def say_beside(ax: Axes, height: float, text: str) -> None:
     say(ax, text, (1, height), (2, 0), xycoords=("axes fraction", "data"), fontsize=6, color=GREY)
 
 
-def letter(ax: Axes, text: str, phrase: str = "", **look: Any) -> None:
+def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
     """Write a panel's letter above its upper left corner, and its subject."""
-    ax.set_title(f"({text}) {phrase}".strip(), loc="left", **look)
+    ax.set_title(f"({text}) {title}".strip(), loc="left", **look)
 
 
-def letters(axes: Sequence[Axes], phrase: Sequence[str], **look: Any) -> None:
+def letters(axes: Sequence[Axes], titles: Sequence[str], **look: Any) -> None:
     """Write the subject of each panel after its letter; a single panel has no letter."""
-    for ax, text, one in zip(axes, "abcdef", phrase, strict=False):
-        ax.set_title(f"({text}) {one}" if len(axes) > 1 else one, loc="left", **look)
+    for ax, text, title in zip(axes, "abcdef", titles, strict=False):
+        ax.set_title(f"({text}) {title}" if len(axes) > 1 else title, loc="left", **look)
 
 
 def legend_above(ax: Axes, **look: Any) -> Legend:

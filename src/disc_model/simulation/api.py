@@ -177,7 +177,7 @@ class _Request:
     def faults(self) -> list[str]:
         """Every fault of the arguments."""
         t_end, stop_at, progress = self.t_end, self.stop_at, self.progress
-        stated = self.initial_state is None or isinstance(self.initial_state, State)
+        starts = self.initial_state is None or isinstance(self.initial_state, State)
         time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
         timed = is_finite(time)
         start = time if timed else 0.0
@@ -185,7 +185,7 @@ class _Request:
         rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
         found = foreign_case(self.p) + violations(
             (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
-            (stated, "initial_state", self.initial_state, "must be a State"),
+            (starts, "initial_state", self.initial_state, "must be a State"),
             (timed, "initial_state.time", time, "must be finite"),
             (is_number(t_end) and start < t_end < math.inf, "t_end", t_end, rule),
         )

@@ -89,8 +89,8 @@ class StudyError(DiscModelError, ValueError):
     """A study file that breaks rules; lists every fault once, as ``path = value: rule``."""
 
     def __init__(self, *faults: str, source: str = "study") -> None:
-        stated = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
-        self.faults = tuple(dict.fromkeys(stated))
+        texts = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
+        self.faults = tuple(dict.fromkeys(texts))
         self.source = source
         count = f"{len(self.faults)} fault{'s' if len(self.faults) > 1 else ''}"
         super().__init__("\n  ".join([f"{source}: {count}", *self.faults]))
@@ -150,14 +150,14 @@ def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        stated = place + ", ".join(part for part in (error.context, error.problem) if part)
+        fault = place + ", ".join(part for part in (error.context, error.problem) if part)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # ValueError: text that looks like a number or date but is none
-        stated = " ".join(str(error).split())
+        fault = " ".join(str(error).split())
     except (AttributeError, KeyError, TypeError) as error:
         # raised by a tag such as !!timestamp or !!bool before an invalid value
-        stated = f"a value does not fit its tag ({' '.join(str(error).split())})"
-    raise StudyError(stated, source=source)
+        fault = f"a value does not fit its tag ({' '.join(str(error).split())})"
+    raise StudyError(fault, source=source)
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
@@ -422,8 +422,8 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
             return model.model_validate(whole), faults
     except ValidationError as error:
         found = list(faults_of(error, whole, model))
-    stated = {fault.path for fault in found}
-    faults += [there for fault in found if (there := _locate(fault, raw)) is fault or there.path not in stated]
+    places = {fault.path for fault in found}
+    faults += [there for fault in found if (there := _locate(fault, raw)) is fault or there.path not in places]
     for fault in found:
         _drop(whole, fault.path)
     if "options" not in whole:

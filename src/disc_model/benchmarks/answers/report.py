@@ -46,12 +46,12 @@ def to_markdown(dataset: xr.Dataset) -> str:
         own = about[question]
         head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
         table = "\n".join(markdown_table(head, map(_row, points(dataset, question).itertuples())))
-        text = {
+        passage = {
             "title": own["title"].capitalize(),
             "within": within(own["enough"], own["units"]),
             "error": own["error"],
         }
-        rows.append({**text, "table": table})
+        rows.append({**passage, "table": table})
     return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=rows)
 
 

@@ -213,7 +213,7 @@ def judged(
         verdicts += [judge(int(place)) for place in places[TRIED:count]]
     except Broken as broken:
         return broken.found(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
-    wrong = sum(text != right[place] for (text, _), place in zip(verdicts, places, strict=False))
+    wrong = sum(apart != right[place] for (apart, _), place in zip(verdicts, places, strict=False))
     part = float(wrong) / count
     low = high = part
     if count < len(places):

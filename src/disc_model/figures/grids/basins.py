@@ -72,8 +72,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     for ax in axes[-2:]:
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])
-    phrase = WORDS | {"undecided": f"undecided after {options['horizon']:g} s"}
-    patches = [Patch(**_look(class_), label=phrase.get(class_, class_)) for class_ in classes]
+    labels = WORDS | {"undecided": f"undecided after {options['horizon']:g} s"}
+    patches = [Patch(**_look(class_), label=labels.get(class_, class_)) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot)
     return figure

@@ -147,13 +147,13 @@ def growth_norm(rates: Array) -> AsinhNorm:
 
 def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
     """Draw `growth_rate` (1/s) over two parameters, or the status where no cycle is followed; isolated cells are
-    hatched.
+    hatched. `growth_bar` sets the scale of all panels.
 
     data : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
     shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
-    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=growth_norm(shown.compressed()), rasterized=True)
+    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=AsinhNorm(), rasterized=True)
     fill(ax, edges, words, CYCLE_LOOKS)
     return mesh
 

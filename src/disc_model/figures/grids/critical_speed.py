@@ -63,14 +63,14 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
     if plot.paper_points:
         load, speed = np.transpose([*plot.paper_points.values()])
         axes[0].plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="paper")
-    text = ["from the static start"]
+    titles = ["from the static start"]
     if sweep is not None:
-        text.append(_sweep(axes[1], sweep, study, horizons[0]))
+        titles.append(_sweep(axes[1], sweep, study, horizons[0]))
         if "basins" in overlays:
             _measured(axes[1], overlays["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
-    parts.letters(axes, text, pad=12)
+    parts.letters(axes, titles, pad=12)
     for ax in axes:
         ax.set_xlabel(SPEED)
         handles += ax.get_legend_handles_labels()[0]

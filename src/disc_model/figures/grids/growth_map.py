@@ -145,8 +145,8 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **look) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
-        text = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
-        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(text)}"))
+        counts = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
+        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(counts)}"))
     return handles
 
 

@@ -54,7 +54,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     legend_below_head(figure, study, plot, [*above, *finish(axes, study, plot)])
     cells.growth_bar(figure, list(axes[1]))
     below: list[Artist] = list(cells.cycle_patches(gaps))
-    below.append(Line2D([], [], linestyle="", label="\n".join(_format(study, plot))))
+    below.append(Line2D([], [], linestyle="", label="\n".join(_captions(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
     return figure
 
@@ -98,7 +98,7 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Artist]:
     return [Line2D([], [], **parts.border(kind)) for kind, lines in found.items() if lines]
 
 
-def _format(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
+def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     """Captions: the horizon, and disagreements between paper, start and cycle."""
     yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the static start."
     if "as_published" not in parts.normalizations(study):

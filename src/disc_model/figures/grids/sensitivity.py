@@ -12,7 +12,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, number_text, typeset
+from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, presentation_of, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
@@ -78,7 +78,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     label = "a third of the values, with its interval"
     ax.errorbar(middle, share, 1.96 * error, fmt="o", color=BLUE, markersize=2.5, capsize=1.5, label=label)
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
-    _, _, unit, factor = number_text(name)
+    _, _, unit, factor = presentation_of(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     ax.minorticks_off()
     ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
@@ -97,10 +97,10 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
     """Description of one distribution."""
     if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
         return f"± {50 * (how['high'] - how['low']):g} %"
-    unit, factor = ("times its value", 1.0) if how["relative"] else number_text(name)[2:]
-    phrase = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
-    texts = [f"{phrase['low']} to {phrase['high']} {unit}"] if "low" in phrase else []
-    texts += [f"normal, {phrase['mean']} ± {phrase['deviation']} {unit}"] if "mean" in phrase else []
+    unit, factor = ("times its value", 1.0) if how["relative"] else presentation_of(name)[2:]
+    numbers = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
+    texts = [f"{numbers['low']} to {numbers['high']} {unit}"] if "low" in numbers else []
+    texts += [f"normal, {numbers['mean']} ± {numbers['deviation']} {unit}"] if "mean" in numbers else []
     return ", ".join(text.rstrip() for text in texts)
 
 
@@ -115,4 +115,4 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
 
 def symbol(name: str) -> str:
     """Symbol of a parameter."""
-    return typeset(number_text(name).symbol) or name.replace("_", " ")
+    return typeset(presentation_of(name).symbol) or name.replace("_", " ")

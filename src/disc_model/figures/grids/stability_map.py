@@ -116,13 +116,13 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
 
 def _paper_handles(plot: StabilityMap) -> list[Artist]:
     """Legend entries, one for each shape among the marks."""
-    text = {mark.paper_outcome for mark in plot.marks.values()}
+    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
     return [
         Line2D([], [], marker=look["marker"], label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
         for name, look in MARKS.items()
-        if name in text
+        if name in outcomes
     ]
 
 

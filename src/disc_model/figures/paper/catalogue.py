@@ -120,14 +120,14 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
     """
     entry = CATALOGUE[name]
     text = entry.caption.format(**_numbers(entry, windows or {}))
-    given: list[str] = []
+    texts: list[str] = []
     for case in entry.cases:
         values = parameters_text(parameters[case])
-        if values not in given:
-            given.append(values)
+        if values not in texts:
+            texts.append(values)
     modes = {parameters[case].normalization for case in entry.cases}
     named = " and ".join(_MODES[mode] for mode in sorted(modes))
-    return f"{text} {'; '.join(given)}; everything else as in Table 1; {named}."
+    return f"{text} {'; '.join(texts)}; everything else as in Table 1; {named}."
 
 
 def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
@@ -135,13 +135,13 @@ def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
     angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
-    given = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
+    words = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
     for name, window in shown:
         if name == "zoom":
-            given[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
+            words[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
         if name == "orbit":
-            given[name] = f"{window.start:g} to {window.stop:g} s"
-    return given
+            words[name] = f"{window.start:g} to {window.stop:g} s"
+    return words
 
 
 _MODES = {
