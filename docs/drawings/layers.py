@@ -35,6 +35,7 @@ WHAT = {
     "plausibility": "implausible values",
     "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
+    "bytecode": "code without comments, to tell changes",
     "renamed": "names that are gone, and their successors",
 }
 """A few words for each part of a layer."""

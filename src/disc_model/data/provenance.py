@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import dis
 import functools
 import hashlib
 import importlib.metadata
 import platform
 import subprocess
-import types
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 
+from disc_model.bytecode import bytecode_of
 from disc_model.data.sources import KINDS
 
 PACKAGE = Path(__file__).resolve().parents[1]
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
-_DECISIVE = "name names varnames freevars cellvars argcount posonlyargcount kwonlyargcount flags"
-_NOP = dis.opmap["NOP"]
 
 
 @functools.cache
@@ -35,7 +32,7 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     own = {path: path.relative_to(PACKAGE).as_posix() for path in source_files(*names)}
     # a script is hashed under its bare name, wherever it is installed
     for path, name in (own | {path: path.name for path in files}).items():
-        content = _code(path) if path.suffix == ".py" else path.read_bytes()
+        content = bytecode_of(path) if path.suffix == ".py" else path.read_bytes()
         digest.update(f"{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()[:16]
 
@@ -61,24 +58,6 @@ def _file(path: Path) -> Path:
     if not file.is_file():
         raise FileNotFoundError(f"{file}: no such source")
     return file
-
-
-@functools.cache
-def _code(path: Path) -> bytes:
-    """Python code as compiled: without comments, docstrings and layout. It is that of this version of Python."""
-    code = compile(path.read_bytes(), path.name, "exec", optimize=2, dont_inherit=True)
-    return repr((*_contents(code),)).encode()
-
-
-def _contents(code: types.CodeType) -> Iterator[object]:
-    yield tuple(getattr(code, f"co_{name}") for name in _DECISIVE.split())
-    pairs = (code.co_code[i : i + 2] for i in range(0, len(code.co_code), 2))
-    yield b"".join(pair for pair in pairs if pair[0] != _NOP)  # which a docstring leaves
-    for constant in code.co_consts:
-        if isinstance(constant, types.CodeType):
-            yield tuple(_contents(constant))
-        else:  # the order within sets varies
-            yield sorted(map(repr, constant)) if isinstance(constant, frozenset) else repr(constant)
 
 
 def versions() -> dict[str, str]:

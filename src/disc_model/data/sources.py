@@ -22,6 +22,7 @@ class Kind(NamedTuple):
 
 BESIDES = {
     "": "names only",
+    "bytecode": "says what made a result",
     "data.provenance": "says what made a result",
     "data.sources": "says what made a result",
     "explorer": "a name only",

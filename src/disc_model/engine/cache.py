@@ -16,17 +16,17 @@ import hashlib
 import os
 import pickle
 import sys
-import types
 import uuid
 import warnings
 import zlib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
 import numba
+
+from disc_model.bytecode import bytecode_of
 
 SHIPPED = Path(__file__).parent / "kernels"
 """Kernels shipped with the package, a folder for each level; its file `VERSIONS` states the versions that compiled
@@ -55,15 +55,8 @@ def source_hash(folder: Path = Path(__file__).parent) -> str:
     """Hash of the engine's code without comments, docstrings and line numbers: 16 hexadecimal digits."""
     digest = hashlib.sha256()
     for path in sorted(folder.glob("*.py")):
-        code = compile(path.read_bytes(), path.name, "exec", optimize=2, dont_inherit=True)
-        digest.update(repr((path.name, *_contents(code))).encode())
+        digest.update(f"{path.name}\0".encode() + bytecode_of(path))
     return digest.hexdigest()[:16]
-
-
-def _contents(code: types.CodeType) -> Iterator[object]:
-    yield code.co_name, code.co_code, code.co_names, code.co_varnames, code.co_argcount, code.co_flags
-    for constant in code.co_consts:
-        yield tuple(_contents(constant)) if isinstance(constant, types.CodeType) else repr(constant)
 
 
 @functools.cache
