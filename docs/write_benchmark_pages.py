@@ -4,7 +4,7 @@ What was not measured is left as it was.
 """
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,43 +14,31 @@ from disc_model.benchmarks import pages, truncation_pages
 from disc_model.data.dataset import load
 from disc_model.errors import DiscModelError, script
 
-PAGES = ("README.md", "docs/method.md")
-"""Those that hold passages on speed."""
-MODES_PAGE = "docs/truncation.md"
-"""The one that holds those on the number of modes."""
+SPEED = {"work_precision", "work_precision_avx2", "answers"}
+"""Measurements for the passages on speed."""
 
 
-def keep(run: Mapping[str, Any], path: Path) -> None:
-    """The numbers that pages are made of."""
+def store(run: Mapping[str, Any], path: Path) -> None:
+    """Write the numbers of passages."""
     path.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def fill(path: Path, run: Mapping[str, Any], passages: Callable[[Mapping[str, Any]], Mapping[str, str]]) -> None:
-    """Write a page's passages anew."""
-    path.write_text(pages.fill(path.read_text(encoding="utf-8"), passages(run)), encoding="utf-8")
 
 
 @script
 def main(bench: str = "results/bench", root: str = "") -> None:
     folder, top = Path(bench), Path(root)
-    measured = {
-        name: folder / f"{name}.nc"
-        for name in ("work_precision", "work_precision_avx2", "answers", "contact_truncation")
-    }
+    measured = {name: folder / f"{name}.nc" for name in (*sorted(SPEED), "contact_truncation")}
     there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
     if not there:
         raise DiscModelError(f"{bench} holds no measurements: make bench")
     docs = top / "docs"
-    if {"work_precision", "work_precision_avx2", "answers"} <= there.keys():
+    if there.keys() >= SPEED:
         run = pages.summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
-        keep(run, docs / "benchmark.json")
-        (docs / "benchmark.md").write_text(pages.page(run), encoding="utf-8")
-        for name in PAGES:
-            fill(top / name, run, pages.passages)
+        store(run, docs / "benchmark.json")
     if "contact_truncation" in there:
-        run = truncation_pages.summary(there["contact_truncation"])
-        keep(run, docs / "contact_truncation.json")
-        fill(top / MODES_PAGE, run, truncation_pages.passages)
+        store(truncation_pages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
+    known = pages.stored_passages(docs)
+    for page in (top / name for name in pages.PAGES):
+        page.write_text(pages.fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")
     for name in pages.FIGURES:
         source = folder / "figures" / f"{name}.png"
         if source.is_file():  # else the picture stays as it was

@@ -186,7 +186,7 @@ def test_it_is_written(dataset: xr.Dataset) -> None:
     assert dataset.attrs["machine"] in text
     assert "| late | tol=1 | - | - | 2 | wrong | none: no separation within 55 s |" in text
     assert "## First separation\n\nRight to 0.1 s." in text
-    models = report.points(dataset, "first_separation").query("line == 'rigid'")
+    models = report.points(dataset).query("line == 'rigid' and answer == 'first_separation'")
     assert report.right_numbers(models) == "4, 8"
 
 

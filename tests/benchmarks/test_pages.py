@@ -16,27 +16,24 @@ __all__ = ["answers", "dataset", "known"]
 
 
 ROOT = Path(__file__).parents[2]
-STORED = ROOT / "docs" / "benchmark.json"
 
 
-@pytest.mark.skipif(not STORED.is_file(), reason="README has no run of the benchmark yet: make bench bench-pages")
-def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
-    run = json.loads(STORED.read_text(encoding="utf-8"))
-    assert (ROOT / "docs" / "benchmark.md").read_text(encoding="utf-8") == pages.page(run)
+def test_every_number_on_speed_and_modes_is_of_the_one_stored_run() -> None:
+    known = pages.stored_passages(ROOT / "docs")
     named = set()
-    for name in ("README.md", "docs/method.md"):
+    for name in pages.PAGES:
         text = (ROOT / name).read_text(encoding="utf-8")
-        assert pages.fill(text, pages.passages(run)) == text, f"{name}: run `make bench-pages`"
+        assert pages.fill(text, known) == text, f"{name}: run `make bench-pages`"
         named |= set(re.findall(r"<!-- bench (\w+) -->", text))
-    assert named == {"speed", "first_separation", "prices", "cycle"}
+    assert named == known.keys()
 
 
 def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
     run = pages.summary(dataset, dataset, answers)
     assert run["machine"] == dataset.attrs["machine"]
     # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
-    assert run["own"]["stick_slip"] == pytest.approx({"cost": 1e-3, "error": 5e-11}, rel=1e-6)
-    assert run["prices"]["first_separation"]["late"] == {"seconds": 2.0, "at": "tol=0.01", "wrong": [1.0, 0.3]}
+    assert run["own"] == [{"letter": "a", "ms": pytest.approx(1.0), "error": pytest.approx(5e-11)}]
+    assert run["answers"]["late"]["first_separation"] == {"seconds": 2.0, "at": "tol=0.01", "wrong": [1.0, 0.3]}
     assert json.loads(json.dumps(run)) == run
 
 
@@ -46,11 +43,14 @@ def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset,
     fast = heyoka.copy(deep=True)
     fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
     run = pages.summary(fast, heyoka, answers)
-    assert run["glue"]["stick_slip"] == pytest.approx(0.25)
-    assert run["own"]["stick_slip"]["cost"] == pytest.approx(5e-4)
-    assert run["as_avx2"]["own"]["stick_slip"]["cost"] == pytest.approx(1e-3)
-    assert run["times_slower"]["stick_slip"]["heyoka"] == pytest.approx(2 * run["as_avx2"]["heyoka"]["stick_slip"])
-    text = pages.page(run)
+    assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
+    assert run["own"][0]["ms"] == pytest.approx(0.5)
+    assert run["narrow"][0]["ms"] == pytest.approx(1.0)
+    assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
+    price = {"seconds": 0.018, "at": "tol=1e-4", "wrong": []}
+    run["answers"]["series (this package)"] = {"first_separation": price}
+    run["answers"]["series, from the cycle itself"]["growth_rate"] = price
+    text = "".join(pages.passages(run).values())
     assert "| heyoka | 630 | - |" in text
     assert "| series, modes, rigid contact | 4, 8 | - | - |" in text
     assert "Python restarts heyoka; this accounts for 25 % for" in text

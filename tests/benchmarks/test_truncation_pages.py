@@ -1,18 +1,14 @@
 """What the docs say of the number of modes."""
 
 import json
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import pages, truncation_pages
+from disc_model.benchmarks import truncation_pages
 from disc_model.benchmarks.truncation_pages import COSTS, TABLED, passages, settled, summary, text
 
-ROOT = Path(__file__).parents[2]
-STORED = ROOT / "docs" / "contact_truncation.json"
 MODES = (1.0, 9.0, 17.0, 34.0, 165.0)
 
 
@@ -30,14 +26,6 @@ def study() -> xr.Dataset:
         {"case": ["orthonormal, N=1"], "contact": ["rigid", "residual"], "model": ["0,0", "4,0", "8,0", "8,1", "16,4"]},
         {"machine": "a machine", "late": "[20.0, 10.0]", "most_growth": 80, "horizon": 200.0},
     )
-
-
-@pytest.mark.skipif(not STORED.is_file(), reason="no run yet: make bench bench-pages")
-def test_every_number_on_modes_is_of_the_one_stored_run() -> None:
-    known = passages(json.loads(STORED.read_text(encoding="utf-8")))
-    page = (ROOT / "docs" / "truncation.md").read_text(encoding="utf-8")
-    assert pages.fill(page, known) == page, "run `make bench-pages`"
-    assert set(re.findall(r"<!-- bench (\w+) -->", page)) == known.keys()
 
 
 @pytest.mark.parametrize(

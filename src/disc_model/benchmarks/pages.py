@@ -1,7 +1,7 @@
-"""Benchmark results in README and docs: numbers, the benchmark's page, and passages of other pages.
+"""Benchmark results in README and docs: the numbers of a run, and the passages of pages that are made of them.
 
-`summary` extracts the numbers from the datasets of one run, which are stored as ``docs/benchmark.json``.  All texts are
-written from that file, so that one run refreshes every number, and a test detects outdated pages.
+`summary` extracts the numbers from the datasets of one run, which are stored as ``docs/benchmark.json``.  All passages
+are written from that file, so that one run refreshes every number, and a test detects outdated pages.
 """
 
 from __future__ import annotations
@@ -10,27 +10,31 @@ import json
 import math
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from disc_model.benchmarks import truncation_pages
 from disc_model.benchmarks.answers import report
-from disc_model.benchmarks.answers.measure import LINES
 from disc_model.benchmarks.answers.questions import QUESTIONS
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
-from disc_model.benchmarks.texts import TEXTS, plain
-from disc_model.data.dataset import markdown_table
+from disc_model.benchmarks.texts import TEXTS, as_markdown, plain
 from disc_model.errors import DiscModelError
 
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Panel letters of the scenes in the overview."""
 FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "contact_truncation")
 """Figures that are shown in docs/gallery."""
-Summary = Mapping[str, Any]
+PAGES = ("README.md", "docs/method.md", "docs/benchmark.md", "docs/truncation.md")
+"""Pages with passages."""
+Rows = list[dict[str, Any]]
+Table = dict[str, dict[Any, Any]]
+"""Cells by the names of line and column."""
 
 
 def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
@@ -47,120 +51,117 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
             f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure all anew"
         )
     points, narrow = measured_points(work_precision), measured_points(as_avx2)
-    asked = [name for name in QUESTIONS if name in answers["answer"].values]
     return {
         "machine": machines.pop(),
         "versions": json.loads(work_precision.attrs["versions"]),
         "own": _own(points),
-        "times_slower": headline(points),
-        "as_avx2": {"own": _own(narrow), "heyoka": {scene: x.get("heyoka") for scene, x in headline(narrow).items()}},
-        "glue": _glue(points),
-        "whole_call": _whole_call(points),
-        "stiff": _stiff(points),
-        "models": {name: _models(report.points(answers, name)) for name in asked},
-        "prices": {name: _prices(report.points(answers, name)) for name in asked},
+        "narrow": _own(narrow),
+        "narrowly": [{"times": times["heyoka"]} for times in headline(narrow).values() if "heyoka" in times],
+        "glue": _glue(points[points["solver"] == "heyoka"]),
+        "call": _whole_call(points[points["scene"] == JUDGED[0]]),
+        "costs": _costs(points),
+        "answers": _answers(report.points(answers)),
     }
 
 
-def _models(found: pd.DataFrame) -> dict[str, str]:
-    """Numbers of nodal diameters with which a reduced model answers correctly, by its contact."""
-    lines = {model: found[found["line"] == model] for model in report.MODELS}
-    return {model: report.right_numbers(line) for model, line in lines.items() if len(line)}
+def _own(points: pd.DataFrame) -> Rows:
+    """Cost (ms) and error (s) of the series engine at its default, by scene."""
+    found = at_default(points[points["scene"].isin(JUDGED)])
+    return [
+        {"letter": LETTERS[p["scene"]], "ms": 1e3 * p["further"], "error": p["event_error"]}
+        for p in found.to_dict("records")
+    ]
 
 
-def _own(points: pd.DataFrame) -> dict[str, dict[str, Any]]:
-    """Cost and error of the series engine at its default, by scene."""
-    default = at_default(points[points["scene"].isin(JUDGED)])
-    return {str(p.scene): {"cost": p.further, "error": p.event_error} for p in default.itertuples()}
-
-
-def _prices(found: pd.DataFrame) -> dict[str, dict[str, Any]]:
-    """Cheapest correct answer, and settings that answer wrongly without a warning, by name of the line."""
-    table: dict[str, dict[str, Any]] = {}
-    for label, line in found[~found["line"].isin(report.MODELS)].groupby("label", sort=False):
-        best = line[line["correct"]].nsmallest(1, "seconds")
-        seconds, at = next(zip(best["seconds"], best["at"], strict=True), (None, None))
-        table[str(label)] = {"seconds": seconds, "at": at, "wrong": line["setting"][line["wrong"]].tolist()}
-    return table
-
-
-def _whole_call(points: pd.DataFrame) -> dict[str, float]:
-    """Seconds of a whole call of `simulate` for the first scene's second, and the ratio of heyoka's time to it.
+def _whole_call(points: pd.DataFrame) -> Rows:
+    """Milliseconds of a whole call of `simulate` for the first scene's second, and the ratio of heyoka's time to it.
 
     heyoka's time is that of its integration alone, at the error of `headline`.
     """
-    part = points[points["scene"] == JUDGED[0]]
-    if part.empty:
-        return {}
-    found = {"seconds": float(part["whole_call"].iloc[0])}
-    rival = cost_at(part[part["solver"] == "heyoka"], DEFAULT, "seconds")
-    return found | ({"heyoka": rival / found["seconds"]} if math.isfinite(rival) else {})
+    rival = cost_at(points[points["solver"] == "heyoka"], DEFAULT, "seconds")
+    calls = points["whole_call"].head(1)
+    return [{"ms": 1e3 * call, "times": rival / call} for call in calls if math.isfinite(rival)]
 
 
-def _glue(points: pd.DataFrame) -> dict[str, float]:
-    """Fraction of heyoka's time spent in Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
-    own = points[(points["solver"] == "heyoka") & points["scene"].isin(JUDGED) & points["glue"].notna()]
-    nearest = np.abs(np.log(own["event_error"] / DEFAULT)).groupby(own["scene"]).idxmin()
-    return {scene: float(own["glue"][nearest[scene]]) for scene in JUDGED if scene in nearest}
+def _glue(heyoka: pd.DataFrame) -> Rows:
+    """Percentage of heyoka's time spent in Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
+    known = heyoka[heyoka["glue"].notna() & heyoka["scene"].isin(JUDGED)]
+    off = np.abs(np.log(known["event_error"] / DEFAULT))
+    nearest = known.loc[off.groupby(known["scene"], sort=False).idxmin()]
+    return [{"letter": LETTERS[p["scene"]], "share": 100.0 * p["glue"]} for p in nearest.to_dict("records")]
 
 
-def _stiff(points: pd.DataFrame) -> dict[str, float]:
-    """Seconds per simulated second with converged events on the almost rigid disc, by method."""
-    lines = points[points["scene"] == "rigid"].groupby("solver")
-    costs = pd.Series({str(name): cost_at(line, CONVERGED, "cost") for name, line in lines}, dtype=float)
-    return dict(costs.dropna().sort_values())
+def _costs(points: pd.DataFrame) -> Table:
+    """Cost by method, cheapest first: times that of the series engine, and on the almost rigid disc in ms a second."""
+    times = {f"({LETTERS[scene]}), times": pd.Series(found) for scene, found in headline(points).items()}
+    rigid = points[points["scene"] == "rigid"].groupby("solver")
+    stiff = pd.Series({name: 1e3 * cost_at(line, CONVERGED, "cost") for name, line in rigid}, dtype=float)
+    table = pd.DataFrame({**times, "(d), ms": stiff})
+    table = table.assign(least=table[[*times]].min(axis=1)).sort_values(["least", "(d), ms"]).drop(columns="least")
+    return {METHODS[str(name)].label: line.dropna().to_dict() for name, line in table.iterrows() if line.notna().any()}
+
+
+def _answers(found: pd.DataFrame) -> Table:
+    """By line and question: cheapest correct answer, and settings that answer wrongly without a warning.
+
+    Of models: the numbers of nodal diameters with which they answer correctly.
+    """
+    table: Table = {}
+    for (label, line, name), part in found.groupby(["label", "line", "answer"], sort=False):
+        best = part[part["correct"]].nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
+        cell = {"wrong": part["setting"][part["wrong"]].tolist()} | (best[0] if best else {})
+        table.setdefault(str(label), {})[name] = report.right_numbers(part) if line in report.MODELS else cell
+    return table
 
 
 # ----------------------------------------------------------------------------------------------------
 # Passages
 
 
-def passages(run: Summary) -> dict[str, str]:
+def passages(run: Mapping[str, Any]) -> dict[str, str]:
     """Texts by the name that pages refer to."""
-    first = run["prices"]["first_separation"]["series (this package)"]
-    cycle = run["prices"]["growth_rate"]["series, from the cycle itself"]
+    costs, answers = run["costs"], run["answers"]
+    first = answers["series (this package)"]["first_separation"]
+    cycle = answers["series, from the cycle itself"]["growth_rate"]
+    heads = [*(f"({own['letter']}), times" for own in run["own"]), "(d), ms"]
+    asked = {
+        name: f"{own.title}, to {report.within(own.enough, own.units)}"
+        for name, own in QUESTIONS.items()
+        if any(name in line for line in answers.values())
+    }
+    known = {name: run[name] for name in ("machine", "own", "narrow", "narrowly", "glue", "call")}
     return {
+        "machine": run["machine"],
         "first_separation": f"{1e3 * first['seconds']:.0f} ms with `{first['at']}`",
         "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
-        "speed": _speed(run),
-        "prices": TEXTS["prices"].text,
+        "speed": TEXTS["speed"].fill(**known, errors=run["own"], table=_printed(costs, {head: head for head in heads})),
+        "answers": f"\n\n{_printed(answers, asked)}\n",
     }
 
 
-def _speed(run: Summary) -> str:
-    """Cost of a simulated second, and its ratio for the other methods."""
-    own, slower, call, narrow = run["own"], run["times_slower"], run["whole_call"], run["as_avx2"]
-    costs = {
-        name: [*(found.get(name, math.nan) for found in slower.values()), stiff]
-        for name, stiff in _methods(run).items()
-    }
-    rows = [
-        [METHODS[name].label, *("-" if math.isnan(cost) else plain(cost) for cost in line)]
-        for name, line in costs.items()
-    ]
-    head = ("method", *(f"({LETTERS[scene]}), times" for scene in slower), "(d), ms")
-    return TEXTS["speed"].fill(
-        machine=run["machine"],
-        own=_milliseconds(own),
-        errors=[{"error": cost["error"]} for cost in own.values()],
-        table="\n".join(markdown_table(head, rows)),
-        narrow=_milliseconds(narrow["own"]),
-        narrowly=[{"times": times} for times in narrow["heyoka"].values() if times],
-        glue=[{"letter": LETTERS[scene], "share": 100.0 * share} for scene, share in run["glue"].items()],
-        call=[{"ms": 1e3 * call["seconds"], "times": call["heyoka"]}] if "heyoka" in call else [],
+def stored_passages(docs: Path) -> dict[str, str]:
+    """All passages of the stored run, those on the number of modes among them."""
+    speed, modes = (
+        json.loads((docs / f"{name}.json").read_text(encoding="utf-8")) for name in ("benchmark", "contact_truncation")
     )
+    return passages(speed) | truncation_pages.passages(modes)
 
 
-def _methods(run: Summary) -> dict[str, float]:
-    """Methods with a cost in any scene, cheapest first, and their cost (ms) on the almost rigid disc."""
-    slower, stiff = run["times_slower"].values(), run["stiff"]
-    times = {name: min(found.get(name, math.inf) for found in slower) for found in slower for name in found}
-    names = [*sorted(times, key=lambda name: times[name]), *(name for name in stiff if name not in times)]
-    return {name: 1e3 * stiff.get(name, math.nan) for name in names}
+def _printed(table: Table, titles: Mapping[str, str]) -> str:
+    rows = ({title: _cell(line.get(name)) for name, title in titles.items()} for line in table.values())
+    return as_markdown(pd.DataFrame([{"method": label} | row for label, row in zip(table, rows, strict=True)]))
 
 
-def _milliseconds(own: Mapping[str, Mapping[str, float]]) -> list[dict[str, Any]]:
-    return [{"ms": 1e3 * cost["cost"], "letter": LETTERS[scene]} for scene, cost in own.items()]
+def _cell(found: Any) -> str:
+    """A cost, the cheapest answer with its setting, or numbers of diameters."""
+    if found is None or isinstance(found, float):
+        return "-" if found is None else plain(found)
+    if isinstance(found, str):
+        return found or "no number"
+    wrong = f"wrong at {', '.join(f'{setting:g}' for setting in found['wrong'])}" if found["wrong"] else ""
+    if "seconds" not in found:
+        return wrong or "no answer"
+    return f"{plain(found['seconds'])} s ({'; '.join(filter(None, (found['at'], wrong)))})"
 
 
 def fill(text: str, known: Mapping[str, str]) -> str:
@@ -179,30 +180,3 @@ def fill(text: str, known: Mapping[str, str]) -> str:
         return f"<!-- bench {name} -->{known[name]}<!-- end -->"
 
     return re.sub(r"<!-- bench (?P<name>\w+) -->.*?<!-- end -->", passage, text, flags=re.DOTALL)
-
-
-def page(run: Summary) -> str:
-    """The page of the benchmark."""
-    lines = dict.fromkeys(label for table in run["prices"].values() for label in table)
-    rows = [[label, *(_price(table.get(label)) for table in run["prices"].values())] for label in lines]
-    for model in report.MODELS:
-        found = (run["models"][name].get(model) for name in run["prices"])
-        rows.append([LINES[model][0], *("-" if right is None else right or "no number" for right in found)])
-    head = (
-        "method",
-        *(
-            f"{own.title}, to {report.within(own.enough, own.units)}"
-            for own in (QUESTIONS[name] for name in run["prices"])
-        ),
-    )
-    table = "\n".join(markdown_table(head, rows))
-    return TEXTS["page"].fill(machine=run["machine"], speed=_speed(run), table=table)
-
-
-def _price(cell: Mapping[str, Any] | None) -> str:
-    if cell is None:
-        return "-"
-    wrong = f"wrong at {', '.join(f'{setting:g}' for setting in cell['wrong'])}" if cell["wrong"] else ""
-    if cell["seconds"] is None:
-        return wrong or "no answer"
-    return f"{plain(cell['seconds'])} s ({'; '.join(filter(None, (cell['at'], wrong)))})"

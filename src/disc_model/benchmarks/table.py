@@ -11,8 +11,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
-from disc_model.benchmarks.texts import TEXTS
-from disc_model.data.dataset import markdown_table
+from disc_model.benchmarks.texts import TEXTS, as_markdown
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) required of the other methods."""
@@ -100,32 +99,27 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The table as Markdown: a section per scene, with the machine above and the orders beside each method."""
-    frame, ratios = table(dataset), headline(measured_points(dataset))
+    frame, labels = table(dataset), {name: method.label for name, method in METHODS.items()}
     headlines = [
         {"title": scenes.TITLES[scene], "others": [{"label": label, "ratio": ratio} for ratio, label in others]}
-        for scene, found in ratios.items()
-        if (others := sorted((ratio, METHODS[name].label) for name, ratio in found.items() if name != "series"))
+        for scene, found in headline(measured_points(dataset)).items()
+        if (others := sorted((ratio, labels[name]) for name, ratio in found.items() if name != "series"))
     ]
-    sections = []
-    for scene, part in frame.groupby("scene", sort=False):
-        columns = {
-            "method": [METHODS[name].label for name in part["method"]],
-            "setting": part["setting"],
-            "verdict": part["verdict"].str.replace("_", " "),
-            "cost": part["seconds_per_simulated_second"].map(_short),
-            "event-time error (s)": part["event_time_error"].map(_short),
-            "state error": part["state_error"].map(_short),
-            "events": part["events"],
-            "order": [*map(_order_text, part["order_event"], part["order_theory"])],
-            "x series": part["times_series"].map(_short),
-        }
-        lines = markdown_table(columns, zip(*columns.values(), strict=True))
-        sections.append({"title": scenes.TITLES[str(scene)], "table": "\n".join(lines)})
+    shown = frame.assign(
+        method=frame["method"].map(labels),
+        verdict=frame["verdict"].str.replace("_", " "),
+        order=[*map(_order_text, frame["order_event"], frame["order_theory"])],
+    )
+    numbers = {"cost": "seconds_per_simulated_second", "event-time error (s)": "event_time_error"}
+    numbers |= {"state error": "state_error", "x series": "times_series"}
+    for title, name in numbers.items():
+        shown[title] = [f"{x:.2g}" if math.isfinite(x) else "-" for x in frame[name]]
+    columns = ["method", "setting", "verdict", *[*numbers][:3], "events", "order", "x series"]
+    sections = [
+        {"title": scenes.TITLES[str(scene)], "table": as_markdown(part[columns])}
+        for scene, part in shown.groupby("scene", sort=False)
+    ]
     return TEXTS["table"].fill(machine=dataset.attrs["machine"], headlines=headlines, scenes=sections)
-
-
-def _short(x: float) -> str:
-    return f"{x:.2g}" if math.isfinite(x) else "-"
 
 
 def _order_text(found: float, theory: float) -> str:

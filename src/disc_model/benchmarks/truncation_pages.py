@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.texts import TEXTS
-from disc_model.data.dataset import markdown_table
-
-Summary = Mapping[str, Any]
-Line = tuple[list[int], list[float | None]]
-"""Numbers of modes, and values of a quantity."""
+from disc_model.benchmarks.texts import TEXTS, as_markdown
 
 
 class Asked(NamedTuple):
@@ -35,6 +32,10 @@ class Asked(NamedTuple):
     scale: float
     digits: int
 
+    def shown(self, value: float) -> str:
+        """A value as text; a dash if missing."""
+        return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
+
 
 TABLED = {
     "lowest_coupled": Asked("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
@@ -46,42 +47,35 @@ TABLED = {
     "force_max_separating": Asked("largest force", "largest force, N", 1e-1, 1.0, 3),
 }
 """Tolerances: 1 % or better for the motion in contact, 10 % for values from ten seconds of an irregular motion."""
-COSTS = {"cost": "cost in contact, ms/s", "cost_separating": "cost after it, ms/s"}
+COSTS = {
+    "cost": Asked("", "cost in contact, ms/s", math.nan, 1e3, 2),
+    "cost_separating": Asked("", "cost after it, ms/s", math.nan, 1e3, 2),
+}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
 OPEN = ("case", "contact", "quantity", "values", "with so many modes")
 """Head of the table of quantities that have not converged."""
 FEWEST = 3
 """Number of models that must agree: one, and two larger ones."""
+NOT = "**not**"
+HEADINGS = {
+    "truncation_tables": "All models",
+    "truncation_settled": "Number of modes from which on a quantity has converged",
+    "truncation_open": "Quantities that have not converged",
+}
+"""Passages, and their headings on the page beside the figures."""
 
 
 def summary(study: xr.Dataset) -> dict[str, Any]:
-    """Numbers of a run for the pages: by case and contact, a list along the models for each quantity, None if missing.
-
-    The list of growth rates ends with the largest model for which a cycle was searched.
-    """
-    counts = [int(count) for count in study["modes"].isel(case=0, contact=0).values]
-    looked = sum(count <= study.attrs["most_growth"] for count in counts)
-    ends = {name: looked if name == "growth_rate" else len(counts) for name in (*TABLED, *COSTS)}
+    """Numbers of a run for the pages: a row for each case, contact and model, None where there is no value."""
+    frame = study[["modes", *TABLED, *COSTS]].to_dataframe(dim_order=["case", "contact", "model"])
+    rounded = frame.map(lambda value: float(f"{value:.5g}")).astype(object)
     return {
         "machine": study.attrs["machine"],
-        "late": json.loads(study.attrs["late"]),
         "horizon": float(study.attrs["horizon"]),
-        "models": [str(model) for model in study["model"].values],
-        "modes": counts,
-        "values": {
-            str(case): {
-                str(contact): {
-                    name: [
-                        float(f"{value:.5g}") if math.isfinite(value) else None
-                        for value in study[name].sel(case=case, contact=contact).values[:end]
-                    ]
-                    for name, end in ends.items()
-                }
-                for contact in study["contact"].values
-            }
-            for case in study["case"].values
-        },
+        "most_growth": float(study.attrs["most_growth"]),
+        "late": json.loads(study.attrs["late"]),
+        "values": rounded.where(frame.notna(), None).reset_index().to_dict("split", index=False),
     }
 
 
@@ -90,108 +84,77 @@ def settled(values: Sequence[float | None], tolerance: float) -> int | None:
 
     Parameters
     ----------
-    values : by size of the model, None where a model has no such quantity
+    values : by size of the model, None or nan where a model has no such quantity
 
     Returns
     -------
     int or None
         Its index in the list; None if it would not have two larger ones.
     """
-    first = len(values)
-    while first and _alike(values[first - 1], values[-1], tolerance):
-        first -= 1
-    return first if len(values) - first >= FEWEST else None
+    line = np.array(values, float)
+    off = np.flatnonzero(~np.isclose(line, line[-1], rtol=tolerance, atol=0.0, equal_nan=True))
+    first = int(off[-1]) + 1 if off.size else 0
+    return first if len(line) - first >= FEWEST else None
 
 
-def _alike(value: float | None, last: float | None, tolerance: float) -> bool:
-    if value is None or last is None:
-        return value is last
-    return abs(value - last) <= tolerance * abs(last)
-
-
-def passages(run: Summary) -> dict[str, str]:
+def passages(run: Mapping[str, Any]) -> dict[str, str]:
     """Texts by the name that pages refer to."""
+    study = pd.DataFrame(**run["values"]).set_index(["case", "contact", "model"]).astype(float)
     start, length = run["late"]
-    tables = [{"title": _upper(case), "table": _table(run, contacts)} for case, contacts in run["values"].items()]
-    settled_of: dict[str, list[bool]] = {}
+    tables = [
+        {"title": _upper(str(case)), "table": _of_all_models(part)} for case, part in study.groupby("case", sort=False)
+    ]
     rows, open_rows = [], []
-    for case, contact, values in _each(run):
-        found = {name: _known(run, values, name) for name in TABLED}
-        places = {name: settled(found[name][1], asked.tolerance) for name, asked in TABLED.items()}
-        settled_of.setdefault(contact, []).extend(place is not None for place in places.values())
-        rows.append([case, contact, *(_from_where(found[name], place) for name, place in places.items())])
-        open_rows += [
-            [_upper(case), contact, TABLED[name].title, *_moves(found[name], TABLED[name])]
-            for name, place in places.items()
-            if place is None
-        ]
-    columns = [f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %" for asked in TABLED.values()]
-    counts = [{"contact": name, "settled": sum(all_), "count": len(all_)} for name, all_ in settled_of.items()]
+    for (case, contact), models in study.groupby(["case", "contact"], sort=False):
+        row = {"case": case, "contact": contact}
+        for name, asked in TABLED.items():
+            line = _known(models, name, run["most_growth"])
+            place, last = settled(line.tolist(), asked.tolerance), line[-FEWEST:]
+            row[f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %"] = _from_where(line, place)
+            if place is None:
+                modes = ", ".join(f"{modes:g}" for modes in last.index)
+                open_rows.append((_upper(str(case)), contact, asked.title, ", ".join(map(asked.shown, last)), modes))
+        rows.append(row)
+    table = pd.DataFrame(rows)
+    found = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
+    counts = [{"contact": contact, "settled": part["sum"], "count": part["size"]} for contact, part in found.iterrows()]
+    most = f"{study['modes'].iloc[-1]:g}"
     return {
         "truncation_tables": TEXTS["truncation_tables"].fill(
             horizon=run["horizon"], start=start, stop=start + length, machine=run["machine"], tables=tables
         ),
-        "truncation_settled": TEXTS["truncation_settled"].fill(
-            table="\n".join(markdown_table(["case", "contact", *columns], rows)), most=run["modes"][-1], contacts=counts
-        ),
-        "truncation_open": TEXTS["truncation_open"].fill(table="\n".join(markdown_table(OPEN, open_rows))),
+        "truncation_settled": TEXTS["truncation_settled"].fill(table=as_markdown(table), most=most, contacts=counts),
+        "truncation_open": f"\n\n{as_markdown(pd.DataFrame(open_rows, columns=OPEN))}\n",
     }
 
 
-def _each(run: Summary) -> Iterator[tuple[str, str, Mapping[str, Sequence[float | None]]]]:
-    """Case, contact and the values of the models."""
-    for case, contacts in run["values"].items():
-        for contact, values in contacts.items():
-            yield case, contact, values
-
-
-def _table(run: Summary, contacts: Mapping[str, Mapping[str, Sequence[float | None]]]) -> str:
+def _of_all_models(study: pd.DataFrame) -> str:
     """The table of a case: a row for each model, with rigid and residual values in each cell."""
-    head = ["diameters, circles", "modes", *(asked.head for asked in TABLED.values()), *COSTS.values()]
-    shown = [(name, asked.scale, asked.digits) for name, asked in TABLED.items()]
-    shown += [(name, 1e3, 2) for name in COSTS]
-    rows = []
-    for i, (model, modes) in enumerate(zip(run["models"], run["modes"], strict=True)):
-        cells = [
-            " / ".join(_number(_at(contacts[contact][name], i), scale, digits) for contact in contacts)
-            for name, scale, digits in shown
-        ]
-        rows.append([model.replace(",", ", "), modes, *cells])
-    return "\n".join(markdown_table(head, rows))
+    cells = {asked.head: study[name].map(asked.shown) for name, asked in (TABLED | COSTS).items()}
+    table = pd.DataFrame(cells).groupby("model", sort=False).agg(" / ".join)
+    table.insert(0, "modes", study["modes"].groupby("model", sort=False).first().astype(int))
+    table.insert(0, "diameters, circles", table.index.str.replace(",", ", "))
+    return as_markdown(table)
 
 
-def _at(values: Sequence[float | None], i: int) -> float | None:
-    return values[i] if i < len(values) else None
+def _known(models: pd.DataFrame, name: str, most_growth: float) -> pd.Series[float]:
+    """A quantity by the number of modes, without models for which it was not looked for.
+
+    These have too many modes for a growth rate, or lose contact and could then not be followed.
+    """
+    line = models.set_index("modes")
+    if name == "growth_rate":
+        return line[name][line.index <= most_growth]
+    return line[name][line[name].notna() | line["first_separation"].isna() | (name not in LATE)]
 
 
-def _known(run: Summary, values: Mapping[str, Sequence[float | None]], name: str) -> Line:
-    """Numbers of modes and values of a quantity, without models that lose contact and could then not be followed."""
-    pairs = [
-        (modes, value)
-        for modes, value, first in zip(run["modes"], values[name], values["first_separation"], strict=False)
-        if name not in LATE or value is not None or first is None
-    ]
-    return [modes for modes, _ in pairs], [value for _, value in pairs]
-
-
-def _from_where(line: Line, place: int | None) -> str:
-    modes, values = line
+def _from_where(line: pd.Series[float], place: int | None) -> str:
     if place is None:
-        return "**not**"
-    none = "none" if values[place] is None else ""
-    return none if place == 0 and none else f"{none} from {modes[place]}".strip()
-
-
-def _moves(line: Line, asked: Asked) -> tuple[str, str]:
-    """The values of the three largest models, and their numbers of modes."""
-    modes, values = line
-    listed = ", ".join(_number(value, asked.scale, asked.digits) for value in values[-FEWEST:])
-    return listed, ", ".join(map(str, modes[-FEWEST:]))
-
-
-def _number(value: float | None, scale: float, digits: int) -> str:
-    """A number with the given digits, without a power of ten; a dash if missing."""
-    return "-" if value is None else f"{float(f'{value * scale:.{digits}g}'):.10g}"
+        return NOT
+    where = f"from {line.index[place]:g}"
+    if not math.isnan(line.iloc[place]):
+        return where
+    return f"none {where}" if place else "none"
 
 
 def _upper(case: str) -> str:
@@ -200,5 +163,6 @@ def _upper(case: str) -> str:
 
 def text(study: xr.Dataset) -> str:
     """All texts as one page: the table beside the figures of ``make bench``."""
-    known = {name.removeprefix("truncation_"): phrase.strip("\n") for name, phrase in passages(summary(study)).items()}
-    return TEXTS["truncation_page"].fill(**known)
+    known = passages(summary(study))
+    sections = (f"## {heading}\n" + known[name].strip("\n") + "\n" for name, heading in HEADINGS.items())
+    return "\n".join(["# Convergence with the number of modes\n", *sections])

@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
 
 import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerVerdict
-from disc_model.benchmarks.texts import TEXTS
-from disc_model.data.dataset import markdown_table
+from disc_model.benchmarks.texts import TEXTS, as_markdown
 
 MODELS = ("rigid", "residual")
 
 
-def points(dataset: xr.Dataset, question: str) -> pd.DataFrame:
-    """The rows of a question, in the order in which they were measured; ``at`` is the setting in words."""
-    found = dataset.isel(row=dataset["answer"].values == question).to_dataframe()
-    at = [
-        f"{x:.0f} diameters" if kind == "diameters" else f"{kind}={x:g}"
-        for kind, x in zip(found["varies"], found["setting"], strict=True)
-    ]
-    return found.assign(
-        at=at, correct=found["verdict"] == AnswerVerdict.RIGHT, wrong=found["verdict"] == AnswerVerdict.WRONG
-    )
+def points(dataset: xr.Dataset) -> pd.DataFrame:
+    """All rows, in the order in which they were measured; ``at`` is the setting in words."""
+    found = dataset.to_dataframe()
+    counted = found["varies"] == "diameters"
+    at = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
+          for count, kind, x in zip(counted, found["varies"], found["setting"], strict=True)]  # fmt: skip
+    verdict = found["verdict"]
+    return found.assign(at=at, correct=verdict == AnswerVerdict.RIGHT, wrong=verdict == AnswerVerdict.WRONG)
 
 
 def right_numbers(model: pd.DataFrame) -> str:
@@ -40,32 +36,29 @@ def within(enough: float, units: str) -> str:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The tables as Markdown: a section per question, its correct answer and tolerance; the machine stands above."""
-    about = json.loads(dataset.attrs["questions"])
-    rows = []
-    for question in dict.fromkeys(map(str, dataset["answer"].values)):
-        own = about[question]
-        head = ("line", "setting", f"found ({_unit(own['units'])})", "error", "time (s)", "verdict", "status")
-        table = "\n".join(markdown_table(head, map(_row, points(dataset, question).itertuples())))
-        passage = {
-            "title": own["title"].capitalize(),
-            "within": within(own["enough"], own["units"]),
-            "error": own["error"],
+    sections = []
+    for question, part in points(dataset).groupby("answer", sort=False):
+        own = json.loads(dataset.attrs["questions"])[question]
+        table = {
+            "line": part["label"],
+            "setting": part["at"],
+            f"found ({_unit(own['units'])})": [*map(_found, part["found"], part["low"], part["high"], part["cells"])],
+            "error": [_short(error, 3) for error in part["error"]],
+            "time (s)": [_short(seconds, 3) for seconds in part["seconds"]],
+            "verdict": [VERDICT_WORDS[verdict].replace("_", " ") for verdict in part["verdict"]],
+            "status": [
+                ": ".join(filter(None, (STATUS_WORDS[status].replace("_", " "), message)))
+                for status, message in zip(part["status"], part["message"], strict=True)
+            ],
         }
-        rows.append({**passage, "table": table})
-    return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=rows)
+        passage = {"title": own["title"].capitalize(), "within": within(own["enough"], own["units"])}
+        sections.append({**passage, "error": own["error"], "table": as_markdown(pd.DataFrame(table))})
+    return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=sections)
 
 
-def _row(p: Any) -> tuple[str, ...]:
-    value = _short(p.found)
-    if math.isfinite(p.low) and math.isfinite(p.found) and p.low < p.high:
-        value += f" ({_short(p.low)} to {_short(p.high)})"
-    if p.cells:
-        value += f", {p.cells} cells"
-    verdict, status = (
-        words[i].replace("_", " ") for words, i in ((VERDICT_WORDS, p.verdict), (STATUS_WORDS, p.status))
-    )
-    why = ": ".join(filter(None, (status, p.message)))
-    return p.label, p.at, value, _short(p.error, 3), _short(p.seconds, 3), verdict, why
+def _found(value: float, low: float, high: float, cells: int) -> str:
+    bounds = f" ({_short(low)} to {_short(high)})" if math.isfinite(value) and low < high else ""
+    return _short(value) + bounds + (f", {cells} cells" if cells else "")
 
 
 def _short(number: float, digits: int = 8) -> str:
