@@ -7,18 +7,19 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import cycle, product
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 import yaml
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm, Colormap, ListedColormap, LogNorm
+from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
@@ -50,25 +51,35 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
     For a method without a fixed order, the number is q of error ~ tol^q.
     """
     figure, axes = _panels(2, "Time per simulated second (s)", columns=2, row=3.0, sharey=True)
-    part = dataset.sel(scene=scene)
-    for ax, error, letter in zip(axes, ERRORS, "ab", strict=True):
-        _cost_panel(ax, part, error, orders=True)
-        parts.letter(ax, letter)
-        ax.set_xlabel(ERRORS[error])
-    figure.legend(handles=_method_handles(part), loc="outside right center", title=TITLES[scene])
+    panels = [(dataset.sel(scene=scene), error, "") for error in ERRORS]
+    _cost_panels(figure, axes, panels, title=TITLES[scene])
     return figure
 
 
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
     figure, axes = _panels(4, "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
-    for ax, scene, letter in zip(axes, dataset["scene"].values, "abcd", strict=False):
-        _cost_panel(ax, dataset.sel(scene=scene), "event", orders=False)
-        parts.letter(ax, letter, TITLES[str(scene)])
-    for ax in axes[2:]:
-        ax.set_xlabel(ERRORS["event"])
-    figure.legend(handles=_method_handles(dataset), loc="outside right center")
+    panels = [(dataset.sel(scene=scene), "event", TITLES[scene]) for scene in dataset["scene"].values.tolist()]
+    _cost_panels(figure, axes, panels)
+    for ax in axes[:2]:
+        ax.set_xlabel("")
     return figure
+
+
+def _cost_panels(
+    figure: Figure, axes: Sequence[Axes], panels: Sequence[tuple[xr.Dataset, str, str]], **legend: str
+) -> None:
+    """Draw panels of a scene, its error and its title each; the legend names the methods with a point in any of them.
+
+    Without titles, lines have their orders.
+    """
+    found: dict[str, list[Line2D]] = {}
+    for ax, (part, error, title), letter in zip(axes, panels, "abcd", strict=False):
+        found |= _cost_panel(ax, part, error, orders=not title)
+        parts.letter(ax, letter, title)
+        ax.set_xlabel(ERRORS[error])
+    handles = [handle for method in LINES for handle in found.get(method, ())]
+    figure.legend(handles=handles, loc="outside right center", **legend)
 
 
 def _panels(
@@ -85,17 +96,20 @@ def _panels(
     return figure, axes[:count]
 
 
-def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None:
+def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict[str, list[Line2D]]:
     """Draw lines of all methods: correct results filled, wrong events hollow, if necessary at the right edge.
 
-    Dotted lines leave out the time in Python between compiled phases, where it was measured.
+    Dotted lines leave out the time in Python between compiled phases, where it was measured. Returns legend entries.
     """
+    handles: dict[str, list[Line2D]] = {}
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
     labels: list[tuple[float, float, str, str]] = []
     for method in map(str, part["solver"].values):
         line = part.sel(solver=method)
         look = _look(method)
+        name = {"color": look["color"], "label": line["label"].item()}
+        entries = [Line2D([], [], markersize=4, **look | name)]
         look["markersize"] = 4.5 if look["marker"] == "*" else 3.5
         verdict, cost = line["verdict"].values, line["cost"].values
         x = line[f"{error}_error"].values
@@ -103,7 +117,10 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
         bold = method == "series"
         ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
         if np.isfinite(glue := line["glue"].values).any():
-            ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", color=look["color"])
+            name["label"] += ", without Python"
+            entries += ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", **name)
+        if (right | wrong).any():
+            handles[method] = entries
         hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
         ax.plot(hollow, cost[wrong], **look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8})
         order = float(line[f"order_{error}"])
@@ -122,6 +139,7 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> None
                     fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
     for at_x, at_y, text, color in _spread(labels):
         parts.say(ax, text, (at_x, at_y), (-5, 0), fontsize=6.5, color=color, path_effects=_HALO, zorder=4)
+    return handles
 
 
 def _look(line: str) -> dict[str, Any]:
@@ -138,25 +156,6 @@ def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float
                 y = other_y * 1.5
         placed.append((x, y, text, color))
     return placed
-
-
-def _method_handles(part: xr.Dataset) -> list[Line2D]:
-    """Legend entries of the methods with a point in this part."""
-    lines = {str(method): part.sel(solver=method) for method in part["solver"].values}
-    return [
-        handle
-        for method, line in lines.items()
-        if np.isin(line["verdict"], (0, 1, 2)).any()
-        for handle in _handles(method, line)
-    ]
-
-
-def _handles(method: str, line: xr.Dataset) -> list[Line2D]:
-    label, look = line["label"].item(), _look(method)
-    whole = Line2D([], [], markersize=4, label=label, **look)
-    if not np.isfinite(line["glue"]).any():
-        return [whole]
-    return [whole, Line2D([], [], linewidth=0.7, linestyle=":", color=look["color"], label=f"{label}, without Python")]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -176,64 +175,58 @@ def answers(dataset: xr.Dataset) -> Figure:
     Shaded: correct.  A method that wrongly reports no result has a hollow mark at the right edge. Errors below all
     others, exact zeros among them, stand at the left edge.
     """
-    about = json.loads(dataset.attrs["questions"])
-    names = [name for name in ANSWERS if name in dataset["answer"].values]
+    enough = {name: own["enough"] for name, own in json.loads(dataset.attrs["questions"]).items()}
+    found = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
+    names = [name for name in ANSWERS if name in found]
     figure, axes = _panels(len(names), "Time on one core (s)", columns=min(3, len(names)), row=2.1, more=0.7)
     handles: dict[str, Line2D] = {}
     for ax, name, letter in zip(axes, names, "abcdef", strict=False):
-        part = dataset.isel(row=dataset["answer"].values == name)
+        part = found[name]
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
         parts.letter(ax, letter)
-        errors = part["error"].values
-        positive = errors[np.isfinite(errors) & (errors > 0)]
-        least = min(0.3 * float(positive.min(initial=math.inf)), 0.1 * about[name]["enough"])
-        for line in dict.fromkeys(map(str, part["line"].values)):
-            points = part.isel(row=part["line"].values == line)
-            if (handle := _answer_line(ax, points, least, counted=line in MODELS)) is not None:
-                handles[line] = handle
+        least = min(0.3 * part["error"][part["error"] > 0].min(), 0.1 * enough[name])
+        part = part.assign(error=part["error"].clip(lower=least))
+        for line, points in part.groupby("line", sort=False):
+            handles |= _answer_line(ax, str(line), points)
         low, _ = ax.get_xlim()
-        ax.axvspan(low, about[name]["enough"], color=_ENOUGH, zorder=0)
+        ax.axvspan(low, enough[name], color=_ENOUGH, zorder=0)
         ax.set_xlim(left=low)
         ax.xaxis.set_minor_formatter(NullFormatter())
-        _number_models(ax, part.isel(row=np.isin(part["line"].values, MODELS)), least)
+        _number_models(ax, part[part["line"].isin(MODELS) & part["error"].notna()])
     figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
     return figure
 
 
-def _answer_line(ax: Axes, points: xr.Dataset, least: float, *, counted: bool) -> Line2D | None:
+def _answer_line(ax: Axes, line: str, points: pd.DataFrame) -> dict[str, Line2D]:
     """Draw a line; returns its legend entry, if there is anything to draw."""
-    look = _look(points["line"].values[0]) | {"markersize": 4.0} | ({"marker": ""} if counted else {})
-    x, y = points["error"].values, points["seconds"].values
-    found = np.isfinite(x)
-    ax.plot(np.maximum(x[found], least), y[found], linewidth=0.9, **look)
-    denied = ~found & (points["verdict"].values == WRONG) & np.isfinite(y)
-    if denied.any() and not counted:
+    look = _look(line) | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
+    found = points[points["error"].notna()]
+    denied = points["seconds"][points["error"].isna() & (points["verdict"] == WRONG)].dropna()
+    ax.plot(found["error"], found["seconds"], linewidth=0.9, **look)
+    if len(denied) and line not in MODELS:
         edge = {"transform": ax.get_yaxis_transform(), "linestyle": "", "markerfacecolor": "white"}
-        ax.plot(np.full(denied.sum(), 0.97), y[denied], **look | edge)
-    if not (found.any() or denied.any()):
-        return None
-    return Line2D([], [], label=points["label"].values[0], **look)
+        ax.plot(np.full(len(denied), 0.97), denied, **look | edge)
+    return {line: Line2D([], [], label=points["label"].iloc[0], **look)} if len(found) or len(denied) else {}
 
 
 APART = 0.045
 """Least distance of two numbers in a panel, as a fraction of its sides."""
 
 
-def _number_models(ax: Axes, points: xr.Dataset, least: float) -> None:
+def _number_models(ax: Axes, points: pd.DataFrame) -> None:
     """Label models with their numbers of nodal diameters, the largest first; a dot where there is no room."""
-    points = points.isel(row=np.flatnonzero(np.isfinite(points["error"].values)))
-    points = points.isel(row=np.argsort(-points["setting"].values, kind="stable"))
-    x, y = np.maximum(points["error"].values, least), points["seconds"].values
     to_panel = ax.transScale + ax.transLimits
     numbered: list[np.ndarray] = []
-    for at, count in zip(np.stack([x, y], axis=1), points["setting"].values, strict=True):
+    for count, *at in points.sort_values("setting", ascending=False, kind="stable")[
+        ["setting", "error", "seconds"]
+    ].values:
         place = np.asarray(to_panel.transform(at))
         if any(np.abs(place - other).max() < APART for other in numbered):
             ax.plot(*at, ".", color=BLACK, markersize=2)
         else:
             numbered.append(place)
-            ax.annotate(f"{int(count)}", tuple(at), ha="center", va="center", fontsize=6, path_effects=_HALO)
+            ax.annotate(f"{count:.0f}", (at[0], at[1]), ha="center", va="center", fontsize=6, path_effects=_HALO)
 
 
 def prices(dataset: xr.Dataset) -> Figure:
@@ -241,41 +234,34 @@ def prices(dataset: xr.Dataset) -> Figure:
 
     The setting stands below the time. The number in red counts settings that give a wrong answer without a warning.
     """
+    found = dataset.to_dataframe().query("line not in @MODELS")
     names = [name for name in HEADS if name in dataset["answer"].values]
-    lines = [line for line in dict.fromkeys(map(str, dataset["line"].values)) if line not in MODELS]
+    labels = found.drop_duplicates("line")["label"]
+    lines = [*found["line"].unique()]
     figure = new_figure(PAGE, 0.9 + 0.4 * len(lines))
     ax = figure.subplots()
-    colors = colormaps["YlGnBu"]
-    norm = LogNorm(1e-3, 1e3)
-    for (row, line), (column, name) in product(enumerate(lines), enumerate(names)):
-        part = dataset.isel(row=(dataset["line"].values == line) & (dataset["answer"].values == name))
-        if part.sizes["row"]:
-            _price(ax, part, column, row, colors, norm)
-    labels = [str(dataset["label"].values[dataset["line"].values == line][0]) for line in lines]
+    colors = ScalarMappable(LogNorm(1e-3, 1e3), colormaps["YlGnBu"])
+    for (line, name), part in found.groupby(["line", "answer"], sort=False):
+        _price(ax, part, names.index(str(name)), lines.index(line), colors)
     ax.set_xticks(range(len(names)), [HEADS[name] for name in names], fontsize=7)
     ax.set_yticks(range(len(lines)), labels, fontsize=7)
-    ax.set_xlim(-0.5, len(names) - 0.5)
-    ax.set_ylim(len(lines) - 0.5, -0.5)
+    ax.set(xlim=(-0.5, len(names) - 0.5), ylim=(len(lines) - 0.5, -0.5))
     ax.tick_params(length=0, top=False, labeltop=True, bottom=False, labelbottom=False)
     ax.spines[:].set_visible(False)
-    bar = figure.colorbar(ScalarMappable(norm, colors), ax=ax, shrink=0.7, pad=0.01)
-    bar.set_label("Time on one core (s)")
+    figure.colorbar(colors, ax=ax, shrink=0.7, pad=0.01, label="Time on one core (s)")
     return figure
 
 
-def _price(ax: Axes, part: xr.Dataset, column: int, row: int, colors: Colormap, norm: LogNorm) -> None:
-    verdict, seconds, setting = (part[name].values for name in ("verdict", "seconds", "setting"))
-    right, wrong = verdict == RIGHT, verdict == WRONG
+def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMappable) -> None:
+    wrong = (part["verdict"] == WRONG).sum()
     face: Any = "#F4F4F4"
-    texts = [("wrong" if wrong.any() else "no answer", 6.5, _RED if wrong.any() else GREY)]
-    if right.any():
-        best = np.flatnonzero(right)[np.argmin(seconds[right])]
-        face = colors(norm(seconds[best]))
-        ink = "white" if seconds[best] > 3.0 else BLACK
-        phrase = SETTINGS[str(part["varies"].values[best])][1].format(_power(setting[best]))
-        texts = [(_seconds(seconds[best]), 6.5, ink), (phrase, 6.0, ink)]
-        if wrong.any():
-            texts.append((f"wrong at {wrong.sum()}", 6.0, _RED))
+    texts = [("wrong", 6.5, _RED) if wrong else ("no answer", 6.5, GREY)]
+    for _, best in part[part["verdict"] == RIGHT].nsmallest(1, "seconds").iterrows():
+        face = colors.to_rgba(best["seconds"])
+        ink = "white" if best["seconds"] > 3.0 else BLACK
+        phrase = SETTINGS[best["varies"]][1].format(_power(best["setting"]))
+        texts = [(_seconds(best["seconds"]), 6.5, ink), (phrase, 6.0, ink)]
+        texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
     for place, (text, size, ink) in enumerate(texts):
         at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
@@ -299,42 +285,38 @@ def _seconds(value: float) -> str:
 
 def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
-    figure, axes = _map_panels(maps, WORDS, row=1.45, more=0.75)
-    for ax, dataset in zip(axes, maps, strict=True):
-        _map_borders(ax, dataset)
-    used = {int(verdict) for dataset in maps for verdict in np.unique(dataset["verdict"])}
-    handles: list[Any] = _verdict_patches([*WORDS.values()][i] for i in sorted(used))
-    handles += [
-        Line2D([], [], color=BLACK, linewidth=1.4, label=r"RK4: $h\,\omega_{max} = 2\sqrt{2}$"),
-        Line2D([], [], color=BLACK, linestyle=":", linewidth=1.4, label="longest step = shortest phase"),
-        Line2D([], [], color=BLACK, linestyle="--", linewidth=1.4, label="friction law stiffer than the disc"),
-    ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
-    return figure
+    borders = {
+        "-": r"RK4: $h\,\omega_{max} = 2\sqrt{2}$",
+        ":": "longest step = shortest phase",
+        "--": "friction law stiffer than the disc",
+    }
+    return _map_panels(maps, WORDS, borders, row=1.45, more=0.75)
 
 
 def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
     """One panel per method: whether it finds the first separation, over setting and number of modes."""
-    figure, _ = _map_panels(maps, ANSWERED, row=1.35, more=0.4)
-    handles = _verdict_patches(ANSWERED.values())
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
-    return figure
+    return _map_panels(maps, ANSWERED, {}, row=1.35, more=0.4)
 
 
 def _map_panels(
-    maps: Sequence[xr.Dataset], verdicts: Mapping[str, tuple[str, str]], **size: float
-) -> tuple[Figure, list[Axes]]:
+    maps: Sequence[xr.Dataset], verdicts: Mapping[str, tuple[str, str]], borders: Mapping[Any, str], **size: float
+) -> Figure:
+    """Panels with the shades of verdicts, and a legend of those that occur and of the borders by line style."""
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
     for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         _verdict_cells(ax, dataset, [shade for _, shade in verdicts.values()])
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
         parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
-    return figure, axes
-
-
-def _verdict_patches(verdicts: Iterable[tuple[str, str]]) -> list[Patch]:
-    """Legend entries of the shades of cells."""
-    return [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in verdicts]
+        if borders:
+            _map_borders(ax, dataset)
+    used = np.unique(np.concatenate([dataset["verdict"].values.ravel() for dataset in maps]))
+    named = [verdict for number, verdict in enumerate(verdicts.values()) if number in used]
+    handles: list[Any] = [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in named]
+    handles += [
+        Line2D([], [], color=BLACK, linestyle=style, linewidth=1.4, label=word) for style, word in borders.items()
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    return figure
 
 
 def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
@@ -397,8 +379,6 @@ def _log_edges(values: np.ndarray) -> np.ndarray:
 
 _LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
 """Colour and marker of each line."""
-Panels = Sequence[tuple[str, str, bool]]
-"""Contents of eight panels: the variable, its name, and whether its scale is logarithmic."""
 FAR = 25.0
 """Greatest difference of first separations that is shown to scale, per cent."""
 
@@ -418,7 +398,12 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
         for contact in ("residual", "rigid")
     ]
-    figure, axes = _against_modes(lines, _TEXTS["contact_truncation"], (1, 3, 10, 30, 100))
+    cases = json.loads(dataset.attrs["cases"])
+    shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
+    labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
+    gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
+    handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
+    figure, axes = _against_modes(lines, "contact_truncation", (1, 3, 10, 30, 100), handles=handles, ncols=3)
     for ax in axes.values():
         ax.autoscale(False)
     axes["late"].set_ylim(-FAR, FAR)
@@ -426,12 +411,6 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         _beyond(axes["late"], line, color)
         _gone(axes["growth_rate"], line, color)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-    cases = json.loads(dataset.attrs["cases"])
-    shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
-    labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
-    gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
-    handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
@@ -462,45 +441,49 @@ def truncation(dataset: xr.Dataset) -> Figure:
         for i in range(part.sizes["normalization"])
         for j, look in zip(range(part.sizes["circles"]), cycle(_LOOKS))
     ]
-    figure, axes = _against_modes(lines, _TEXTS["truncation"], (3, 10, 30))
+    circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
+    nine = Line2D([], [], color=GREY, linestyle=":", label="nine modes")
+    handles = _look_handles(circles, nine, filled="as published", hollow="orthonormal")
+    figure, axes = _against_modes(lines, "truncation", (3, 10, 30), handles=handles, ncols=len(handles))
     _cut(axes["first_separation"], part["first_separation"].values)
     for name, ticks in (("impact_share", (0.05, 0.1, 0.2, 0.5)), ("separations", (20, 50, 100, 200))):
         axes[name].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     for ax in axes.values():
         ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-    circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
-    nine = Line2D([], [], color=GREY, linestyle=":", label="nine modes")
-    handles = _look_handles(circles, nine, filled="as published", hollow="orthonormal")
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
 def _against_modes(
-    lines: Sequence[tuple[xr.Dataset, tuple[str, str], bool]], panels: Panels, ticks: Sequence[int]
+    lines: Sequence[tuple[xr.Dataset, tuple[str, str], bool]], name: str, ticks: Sequence[int], **legend: Any
 ) -> tuple[Figure, dict[str, Axes]]:
-    """Create eight panels over the number of real modes, by variable.
+    """Create eight panels over the number of real modes, by variable; ``name`` is their list in the texts.
 
     lines : dataset of each line, its colour and marker, and whether it is filled or else hollow and dashed
     ticks : numbers of modes with a label
     """
     figure = new_figure(PAGE, 3.9)
-    axes = np.ravel(figure.subplots(2, 4, sharex=True))
-    for ax, (name, label, log), letter in zip(axes, panels, "abcdefgh", strict=True):
+    axes = {
+        variable: ax
+        for (variable, *_), ax in zip(_TEXTS[name], np.ravel(figure.subplots(2, 4, sharex=True)), strict=True)
+    }
+    for (variable, label, log), letter in zip(_TEXTS[name], "abcdefgh", strict=True):
+        ax = axes[variable]
         for line, (color, marker), filled in lines:
-            good = np.isfinite(line[name].values) & ((line[name].values > 0) | (not log))
-            ax.plot(line["modes"].values[good], line[name].values[good], color=color, marker=marker, markersize=3,
+            y = line[variable].values
+            good = np.isfinite(y) & ((y > 0) | (not log))
+            ax.plot(line["modes"].values[good], y[good], color=color, marker=marker, markersize=3,
                     markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
                     linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
-        ax.set_xscale("log")
-        ax.set_yscale("log" if log else "linear")
+        ax.set(xscale="log", yscale="log" if log else "linear")
         ax.margins(x=0.06)
         parts.letter(ax, letter, label, fontsize=7)
         ax.set_xticks(ticks, [str(tick) for tick in ticks])
-        ax.xaxis.set_minor_formatter(NullFormatter())
-        ax.yaxis.set_minor_formatter(NullFormatter())
-    for ax in axes[4:]:
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_minor_formatter(NullFormatter())
+    for ax in [*axes.values()][4:]:
         ax.set_xlabel("Real modes")
-    return figure, {name: ax for (name, _, _), ax in zip(panels, axes, strict=True)}
+    figure.legend(loc="outside lower center", **legend)
+    return figure, axes
 
 
 def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow: str) -> list[Line2D]:
@@ -531,17 +514,8 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
 # All of them
 
 SCENE = "work_precision_"
-OF_ONE: dict[str, Callable[[xr.Dataset], Figure]] = {
-    "overview": overview,
-    "answers": answers,
-    "prices": prices,
-    "truncation": truncation,
-    "contact_truncation": contact_truncation,
-}
-OF_MAPS: dict[str, Callable[[Sequence[xr.Dataset]], Figure]] = {
-    "failure_maps": failure_maps,
-    "answer_maps": answer_maps,
-}
+OF_ONE = {function.__name__: function for function in (overview, answers, prices, truncation, contact_truncation)}
+OF_MAPS = {function.__name__: function for function in (failure_maps, answer_maps)}
 
 
 def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
