@@ -163,14 +163,13 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             tags = [each["kind"].default for each in fields if "kind" in each]
             word = value.get("kind") if isinstance(value, Mapping) else None
             yield Fault.of((*path, "kind"), word, f"unknown kind of figure{suggestion(word, tags)}")
-        elif item["loc"][-1:] == ("[key]",) and kind == "value_error":
-            yield Fault(path, "", str(reason))
         else:
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
             if kind == "literal_error":
                 rule += renamed(value, re.findall(r"'(\w+)'", context["expected"]))
-            yield Fault(path, _faulty_as_text(kind, value), rule)
+            of_name = item["loc"][-1:] == ("[key]",)  # a name at fault is the end of the path
+            yield Fault(path, "" if of_name else _faulty_as_text(kind, value), rule)
 
 
 _BOUNDS = {
@@ -269,7 +268,7 @@ def _path(item: Any, raw: Any) -> tuple[str, ...]:
 
 
 def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Paths through the input along `place`, and the values at their ends; steps without a key or index are skipped."""
+    """Paths through the input along `place`, and the values at their ends; any step may be skipped."""
     if not place:
         yield (), here
         return
@@ -277,8 +276,7 @@ def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...]
     if (step in here) if isinstance(here, Mapping) else isinstance(here, list | tuple) and isinstance(step, int):
         for path, end in _readings(rest, here[step]):
             yield (step, *path), end
-    if isinstance(step, str):
-        yield from _readings(rest, here)
+    yield from _readings(rest, here)
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -1,7 +1,5 @@
 """Contents of the page for each study, as plain values for JSON: numbers packed, words as they are."""
 
-from __future__ import annotations
-
 import base64
 import json
 import zlib

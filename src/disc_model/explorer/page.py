@@ -1,7 +1,5 @@
 """The page: contents, pictures, style and script in one file."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,7 +1,5 @@
 """The named cases of a study, each simulated by a job of its own, as one tree."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -7,11 +7,9 @@ heavy. A job receives the values of all options, so this module is not among the
 shipped copy is ``workflow/schemas/study.schema.json``.
 """
 
-from __future__ import annotations
-
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import reduce
 from operator import or_
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
@@ -59,14 +57,13 @@ from disc_model.parameters import (
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
-from disc_model.studies.rules import LONGEST, names_in
+from disc_model.studies.rules import checked_rule
 from disc_model.truncation import (
     CHOSEN_BY,
     FREQUENCIES,
+    TRUSTED,
     Asked,
     by_frequencies,
-    checked_quantity,
-    checked_tolerance,
     read_asked,
 )
 
@@ -75,34 +72,27 @@ from disc_model.truncation import (
 
 STATIC = "static"
 """Name of the default start."""
-TAKEN_CASES = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
+TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
 
-def _named(text: str, what: str = "a case's name ", but: str = "") -> str:
-    if not (text.isascii() and text.replace("_", "a").isalnum() and text[:1].isalpha()) or text == but:
-        raise ValueError(
-            f"{what}must be letters, digits and _, starting with a letter{f', and not {but}' if but else ''}"
-        )
-    return text
+def _but(taken: Collection[str], rule: str) -> AfterValidator:
+    """Refuse some names."""
 
+    def free(text: str) -> str:
+        if text in taken:
+            raise ValueError(rule)
+        return text
 
-def _case_name(text: str) -> str:
-    if _named(text) in TAKEN_CASES:
-        raise ValueError("a case must not be called so, the name is taken by a variable")
-    return text
-
-
-def _window_name(text: str) -> str:
-    if text in TAKEN_CASES | BESIDE_WINDOWS:
-        raise ValueError("a window must not be called so, the name is taken by a variable or group")
-    return text
+    return AfterValidator(free)
 
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
-CaseName = Annotated[str, AfterValidator(_case_name)]
-WindowName = Annotated[Name, AfterValidator(_window_name)]
-StartName = Annotated[str, AfterValidator(lambda text: _named(text, "", STATIC))]
+CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
+WindowName = Annotated[
+    Name, _but(TAKEN | BESIDE_WINDOWS, "a window must not be called so, the name is taken by a variable or group")
+]
+StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ----------------------------------------------------------------------------------------------------
 # Values along an axis: lists, linear and logarithmic ranges, and blocks of them
@@ -115,7 +105,36 @@ MOST = 100_000
 """Greatest number of values along one axis; a slip of the pen can ask for more than fit into memory."""
 
 
-class Range(Strict):
+Rules = tuple[tuple[Callable[[Any], bool], str], ...]
+
+
+class Ruled(Strict):
+    """A part of a file with conditions between its fields.
+
+    _rules : conditions, each with its message, which may show values of the part
+    _units : fields in the unit of a parameter, each with the field that names the parameter
+    """
+
+    _rules: ClassVar[Rules] = ()
+    _units: ClassVar[tuple[tuple[str, str], ...]] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_units(cls, stated: Any) -> Any:
+        if not (cls._units and isinstance(stated, dict)):
+            return stated
+        named = {name: stated.get(by, cls.model_fields[by].default) for name, by in cls._units}
+        return each_in_si(stated, {name: Parameters.unit(str(one)) for name, one in named.items()})
+
+    @model_validator(mode="after")
+    def _keep_rules(self) -> Self:
+        for holds, stated in self._rules:
+            if not holds(self):
+                raise ValueError(stated.format(self))
+        return self
+
+
+class Range(Ruled):
     """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`.
 
     On a logarithmic scale the ratio of neighbours is constant.
@@ -127,21 +146,20 @@ class Range(Strict):
     step: Positive | None = None
     scale: Literal["linear", "log"] = "linear"
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        if not self.start < self.stop:
-            raise ValueError(f"start={self.start:g} must be < stop={self.stop:g}")
-        if not math.isfinite(self.stop - self.start):
-            raise ValueError("stop - start must be finite")
-        if (self.count is None) == (self.step is None):
-            raise ValueError("must give either count or step")
-        if self.scale == "log" and (self.step is not None or self.start <= 0):
-            raise ValueError("a logarithmic range must give count, and start > 0")
-        if self._steps >= MOST:
-            raise ValueError(f"must be at most {MOST} values")
-        if abs(self._steps - self.intervals) > 1e-9 * self._steps:
-            raise ValueError(f"stop - start must be a multiple of step={self.step:g}")
-        return self
+    _rules = (
+        (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
+        (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
+        (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
+        (
+            lambda r: r.scale == "linear" or (r.count and r.start > 0),
+            "a logarithmic range must give count, and start > 0",
+        ),
+        (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
+        (
+            lambda r: abs(r._steps - r.intervals) <= 1e-9 * r._steps,
+            "stop - start must be a multiple of step={0.step:g}",
+        ),
+    )
 
     @property
     def _steps(self) -> float:
@@ -255,12 +273,6 @@ Columns = create_model("Columns", __base__=_Columns, **_columns)
 """An axis for each of several names of `VARIED`."""
 
 
-def _zip_kind(raw: Any) -> str:
-    return "several" if isinstance(raw, list) else "one zip"
-
-
-Zip = Annotated[Annotated[Columns, Tag("one zip")] | Annotated[list[Columns], Tag("several")], Discriminator(_zip_kind)]
-
 # ----------------------------------------------------------------------------------------------------
 # Distributions of uncertain parameters
 
@@ -270,7 +282,7 @@ FARTHEST = 6.47
 """Standard deviations at which a normal distribution is cut off: a fraction of 1e-10 lies beyond."""
 
 
-class _Distribution(Strict):
+class _Distribution(Ruled):
     """Of one parameter.
 
     relative : whether the numbers are multiples of the parameter's own value at the point
@@ -283,11 +295,7 @@ class _Bounded(_Distribution):
     low: Finite
     high: Finite
 
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.low < self.high:
-            raise ValueError(f"low={self.low:g} must be < high={self.high:g}")
-        return self
+    _rules: ClassVar[Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -319,11 +327,13 @@ class TruncatedNormal(_Bounded):
     mean: Finite
     deviation: Positive
 
-    @model_validator(mode="after")
-    def _near_the_mean(self) -> Self:
-        if max(self.low - self.mean, self.mean - self.high) > FARTHEST * self.deviation:
-            raise ValueError(f"low and high must be within {FARTHEST:g} deviations of mean={self.mean:g}")
-        return self
+    _rules = (
+        *_Bounded._rules,
+        (
+            lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation,
+            f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}",
+        ),
+    )
 
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
@@ -334,22 +344,7 @@ Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 
 
-class Options(Strict):
-    """Of a quantity.
-
-    _rules : conditions between its fields, each with its message
-    """
-
-    _rules: ClassVar[tuple[tuple[Callable[[Any], bool], str], ...]] = ()
-
-    @model_validator(mode="after")
-    def _keep_rules(self) -> Self:
-        if broken := [stated for holds, stated in self._rules if not holds(self)]:
-            raise ValueError(broken[0])
-        return self
-
-
-class EarlyEndOptions(Options):
+class EarlyEndOptions(Ruled):
     """Simulations that may end before the horizon.
 
     early_end : whether a simulation ends as soon as its outcome is known, see `disc_model.stability.attractor`
@@ -379,7 +374,7 @@ class OutcomeOptions(EarlyEndOptions):
     )
 
 
-class RegionsOptions(Options):
+class RegionsOptions(Ruled):
     """Outcomes over a plane of two parameters, computed more densely where they change.
 
     horizon : s
@@ -405,23 +400,27 @@ class CriticalSpeedOptions(EarlyEndOptions):
     precision: Speed = 0.1
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
 
-    @model_validator(mode="after")
-    def _lattice(self) -> Self:
-        if self.scan.scale != "linear":
-            raise ValueError("scan must be linear")
-        step = (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
-        if not math.isfinite(step) or abs(step - round(step)) > 1e-6 or round(step) < 1:
-            raise ValueError("the scan's step must be a multiple of precision")
-        return self
+    _rules = (
+        (lambda o: o.scan.scale == "linear", "scan must be linear"),
+        (
+            lambda o: 0.5 < o.step < math.inf and abs(o.step - round(o.step)) <= 1e-6,
+            "the scan's step must be a multiple of precision",
+        ),
+    )
+
+    @property
+    def step(self) -> float:
+        """The scan's step as a multiple of the precision."""
+        return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
 
 
-class FloquetOptions(Options):
+class FloquetOptions(Ruled):
     """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
 
     tol: CycleTolerance = 1e-12
 
 
-class HysteresisOptions(Options):
+class HysteresisOptions(Ruled):
     """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
 
     scan : rad/s
@@ -437,7 +436,7 @@ class HysteresisOptions(Options):
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
 
-class RampsOptions(Options):
+class RampsOptions(Ruled):
     """Slow ramps of the speed, up from the static start and down again, once for each rate.
 
     low, high : rad/s, ends of the ramps
@@ -457,7 +456,7 @@ class RampsOptions(Options):
     )
 
 
-class BifurcationOptions(Options):
+class BifurcationOptions(Ruled):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
     section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
@@ -476,7 +475,7 @@ class BifurcationOptions(Options):
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
 
-class LyapunovOptions(Options):
+class LyapunovOptions(Ruled):
     """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
 
     transient : s, left out
@@ -492,7 +491,7 @@ class LyapunovOptions(Options):
     interval: Seconds = 0.05
 
 
-class BasinsOptions(Options):
+class BasinsOptions(Ruled):
     """Attractors, basin fractions and critical energy, from many starts.
 
     energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
@@ -508,9 +507,7 @@ class BasinsOptions(Options):
     """
 
     tol: Tolerance = 1e-10
-    energies: Annotated[
-        tuple[Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")], ...], Field(min_length=1)
-    ] = (0.0,)
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
     n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
@@ -531,7 +528,7 @@ class BasinsOptions(Options):
 Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
 
 
-class StabilityCurvesOptions(Options):
+class StabilityCurvesOptions(Ruled):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
 
     x, y : the parameters
@@ -554,20 +551,14 @@ class StabilityCurvesOptions(Options):
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
 
-    @model_validator(mode="before")
-    @classmethod
-    def _in_units(cls, stated: Any) -> Any:
-        plane = {"x_range": "x", "y_lines": "y"}
-        usual = {"x": "Omega", "y": "N"} | (stated if isinstance(stated, dict) else {})
-        return each_in_si(stated, {name: Parameters.unit(str(usual[axis])) for name, axis in plane.items()})
-
+    _units = (("x_range", "x"), ("y_lines", "y"))
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
         (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
     )
 
 
-class BranchesOptions(Options):
+class BranchesOptions(Ruled):
     """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
 
     parameter : the one that varies
@@ -590,16 +581,11 @@ class BranchesOptions(Options):
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
 
-    @model_validator(mode="before")
-    @classmethod
-    def _in_units(cls, stated: Any) -> Any:
-        name = stated.get("parameter", "Omega") if isinstance(stated, dict) else "Omega"
-        return each_in_si(stated, {"scan": Parameters.unit(str(name))})
-
+    _units = (("scan", "parameter"),)
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
 
-class SensitivityOptions(Options):
+class SensitivityOptions(Ruled):
     """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start.
 
     distributions : by parameter; for a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
@@ -624,19 +610,15 @@ class SensitivityOptions(Options):
 
     @field_validator("distributions", mode="before")
     @classmethod
-    def _in_units(cls, given: Any) -> Any:
+    def _each_in_units(cls, given: Any) -> Any:
         named = given if isinstance(given, Mapping) else ()
         of_modes = {name: "rad/s" for name in named if str(name).startswith("omega_")}
         return each_in_si(given, {name: Parameters.unit(name) for name in NUMBERS} | of_modes)
 
-    @model_validator(mode="after")
-    def _balanced(self) -> Self:
-        if self.samples & (self.samples - 1):
-            raise ValueError(f"samples={self.samples} must be a power of two")
-        return self
+    _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
 
 
-class CampbellOptions(Options):
+class CampbellOptions(Ruled):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
 
     modes : room for that many, the lowest in frequency
@@ -691,12 +673,6 @@ class Entry(NamedTuple):
     def batch_size(self, options: Strict) -> int:
         """Number of points in a batch if a study does not state it."""
         return max(1, round(WORK / self.seconds(options)))
-
-    def parted(self, stated: Strict) -> tuple[Strict, Start]:
-        """The options and the start of motions from the key ``options`` of a file."""
-        own = {name: getattr(stated, name) for name in self.options.model_fields}
-        start = Start(prerun=stated.prerun, perturbation=stated.perturbation) if isinstance(stated, Start) else Start()
-        return self.options.model_construct(**own), start
 
 
 WORK = 20.0
@@ -797,18 +773,6 @@ SomeRecord = create_model(
 )
 
 
-def _rule(checked: Callable[[str, Any], tuple[Any, list[Any]]]) -> Callable[[Any], Any]:
-    """A validator from a check of an argument."""
-
-    def validate(value: Any) -> Any:
-        found, faults = checked("", value)
-        if faults:
-            raise ValueError(faults[0].rule)
-        return found
-
-    return validate
-
-
 _diameters = Parameters.model_fields["n_diameters"]
 _given: dict[str, Any] = {
     "n_diameters": (
@@ -821,11 +785,11 @@ _given: dict[str, Any] = {
         Field(None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra),
     ),
     "truncation_quantity": (
-        Annotated[Any, PlainValidator(_rule(checked_quantity), json_schema_input_type=Literal[*CHOSEN_BY])],
+        Literal[*CHOSEN_BY],
         Field(None, description="quantity by which n_diameters: auto chooses the modes"),
     ),
     "truncation_tolerance": (
-        Annotated[Any, PlainValidator(_rule(checked_tolerance), json_schema_input_type=Positive)],
+        Annotated[Finite, Field(ge=TRUSTED)],
         Field(None, description="relative tolerance of this quantity"),
     ),
 }
@@ -837,6 +801,9 @@ def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
     return read_asked(values) if leaves_modes(values) else (Parameters.model_validate(values), None)
+
+
+SomeSpan = TypeVar("SomeSpan", bound=Span)
 
 
 class NamedCase(Strict):
@@ -905,8 +872,6 @@ class NamedCase(Strict):
         return span
 
 
-SomeSpan = TypeVar("SomeSpan", bound=Span)
-
 # ----------------------------------------------------------------------------------------------------
 # Figures
 
@@ -932,23 +897,6 @@ else:
 
 # ----------------------------------------------------------------------------------------------------
 # The whole document
-
-
-def _resolution(value: Any) -> int:
-    try:
-        number = int(str(value))
-    except ValueError:
-        number = 0
-    if number < 1:
-        raise ValueError("must be a whole number >= 1")
-    return number
-
-
-def _rule_of_grid(text: str) -> str:
-    if len(text) > LONGEST:
-        raise ValueError(f"must be at most {LONGEST} characters")
-    names_in(text)
-    return text
 
 
 class Document(Strict):
@@ -982,23 +930,24 @@ class Document(Strict):
     options: Annotated[Any, WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
     where: Annotated[
-        tuple[Annotated[str, AfterValidator(_rule_of_grid)], ...],
+        tuple[Annotated[str, AfterValidator(checked_rule)], ...],
         BeforeValidator(
             lambda stated: (stated,) if isinstance(stated, str) else stated, json_schema_input_type=str | list[str]
         ),
     ] = ()
-    zip: Zip = Columns()
+    zip: Annotated[
+        tuple[Columns, ...],
+        BeforeValidator(
+            lambda stated: stated if isinstance(stated, list) else [stated],
+            json_schema_input_type=Columns | list[Columns],
+        ),
+    ] = ()
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()
     overrides: dict[str, dict[str, Any]] = Field({})
-    resolution: Annotated[int, PlainValidator(_resolution, json_schema_input_type=Annotated[int, Field(ge=1)])] = 1
-
-    @property
-    def zips(self) -> list[Any]:
-        """All groups of parameters that vary together."""
-        return self.zip if isinstance(self.zip, list) else [self.zip]
+    resolution: Annotated[Count, Field(ge=1)] = 1
 
 
 def _of_quantity(name: str, quantity: Entry) -> type[Document]:

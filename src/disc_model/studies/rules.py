@@ -1,7 +1,5 @@
 """Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -20,8 +18,16 @@ LONGEST = 500
 """Greatest length of a rule, in characters."""
 
 
+def checked_rule(rule: str) -> str:
+    """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
+    if len(rule) > LONGEST:
+        raise ValueError(f"must be at most {LONGEST} characters")
+    _tree(rule)
+    return rule
+
+
 def names_in(rule: str) -> frozenset[str]:
-    """Names in a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``; raises ValueError if it is no rule."""
+    """Names in a rule."""
     return frozenset(node.id for node in ast.walk(_tree(rule)) if isinstance(node, ast.Name))
 
 

@@ -12,7 +12,6 @@ equal content is therefore not computed again, however the file describes it.
 
 from __future__ import annotations
 
-import importlib
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -64,12 +63,12 @@ from disc_model.studies.document import (
     BatchSpec,
     Blocks,
     Document,
-    Entry,
     NamedCase,
     SensitivityOptions,
     Value,
     blocks_of,
 )
+from disc_model.studies.grids.run import module_of, own_coordinates
 from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.rules import holds, names_in
 from disc_model.truncation import FREQUENCIES, asked_modes
@@ -113,40 +112,35 @@ LARGEST = 100_000
 """Greatest number of values in a file, repeated ones counted each time."""
 
 
-def _size(node: yaml.Node, sizes: dict[int, int], faults: list[str]) -> int:
-    """Number of values below a node: nested aliases in a few lines can expand to more than fits into memory.
+def _given_twice(root: yaml.Node) -> list[str]:
+    """Keys that are given twice, of which YAML itself would take the last value.
 
-    Keys that are given twice are added to `faults`; YAML itself would take the last value.
+    Raises ValueError if there are too many values: nested aliases in a few lines can expand to more than fits into
+    memory.
     """
-    if id(node) in sizes:
-        if not sizes[id(node)]:
-            raise ValueError("a value contains itself")
-        return sizes[id(node)]
-    sizes[id(node)] = 0
-    children: list[yaml.Node] = node.value if isinstance(node, yaml.SequenceNode) else []
-    if isinstance(node, yaml.MappingNode):
-        children = [*chain(*node.value)]
-        first: dict[Any, int] = {}
-        for key, line in ((key.value, key.start_mark.line + 1) for key in children[::2]):
-            if key in first and key != "<<":
-                faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
-            first.setdefault(key, line)
-    sizes[id(node)] = 1 + sum(_size(child, sizes, faults) for child in children)
-    if sizes[id(node)] > LARGEST:
-        raise ValueError(f"more than {LARGEST} values, repeated ones counted each time")
-    return sizes[id(node)]
+    nodes, faults = [root], []
+    for node in nodes:
+        if isinstance(node, yaml.MappingNode):
+            first: dict[Any, int] = {}
+            for key, line in ((key.value, key.start_mark.line + 1) for key, _ in node.value):
+                if key in first and key != "<<":
+                    faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
+                first.setdefault(key, line)
+            nodes += chain(*node.value)
+        elif isinstance(node, yaml.SequenceNode):
+            nodes += node.value
+        if len(nodes) > LARGEST:
+            raise ValueError(f"a value contains itself, or more than {LARGEST} values, repeated ones counted each time")
+    return faults
 
 
 def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
     """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
-    faults: list[str] = []
     try:
         loader = yaml.SafeLoader(text)
         node = loader.get_single_node()
-        if node is None:
-            return None, faults
-        _size(node, {}, faults)
-        return loader.construct_document(node), faults
+        faults = [] if node is None else _given_twice(node)
+        return None if node is None else loader.construct_document(node), faults
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
@@ -278,7 +272,7 @@ class Study:
         try:
             raw, more = read_file(path)
             raw = {"resolution": self.resolution, **inherit(mapping(raw), self.overrides.get(path.stem, {}))}
-            study = _with_more_faults(raw, more, _shown_path(path), path.parent)
+            study = parse_study(raw, path.parent, _shown_path(path), more)
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
             return
@@ -296,7 +290,7 @@ class Study:
 def load_study(path: str | Path) -> Study:
     """Read and check a study file, but not the files that it names."""
     raw, faults = read_file(Path(path))
-    return _with_more_faults(raw, faults, str(path), Path(path).parent)
+    return parse_study(raw, Path(path).parent, str(path), faults)
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -307,41 +301,42 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     paths = [Path(file) for file in files]
     faults = [fault for path in paths for fault in read_file(path)[1]]
     folder = paths[-1].parent if paths else Path()
-    return _with_more_faults(config, faults, ", ".join(map(_shown_path, paths)) or "study", folder)
+    return parse_study(config, folder, ", ".join(map(_shown_path, paths)) or "study", faults)
 
 
-def parse_study(raw: Any) -> Study:
-    """Check the mapping that a study file holds."""
+def parse_study(raw: Any, folder: Path | None = None, source: str = "study", known: Iterable[str] = ()) -> Study:
+    """Check the mapping that a study file holds; raises one error with its faults and those known before.
+
+    folder : contains the tables of discs, if the file may name any
+    """
+    before = [*known]
+    if folder is not None:
+        raw = _with_discs(raw, folder, before)
     document, faults = _checked(raw)
-    if document is None:
-        raise StudyError(*faults)
+    study = None if document is None else _study(document, raw, faults)
+    if study is None or before or faults:
+        raise StudyError(*before, *faults, source=source)
+    return study
+
+
+def _study(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> Study:
+    """The study of a file's valid parts, which is right if it adds no fault."""
     if document.study in TAKEN:
         faults.append(Fault.of(("study",), document.study, "is the name of another folder of results"))
     if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
         faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
-    specs = _specs(document, raw, faults)
+    specs = {}
+    for name, case in document.cases.items():
+        try:
+            specs[name] = case.spec()
+        except ParameterError as error:
+            faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
     listed, plots, of_grid = _figures(document, raw, specs, faults)
-    grid = _Grid(document, raw, of_grid, faults).made() if raw.keys() & GRID_KEYS else None
-    if faults:
-        raise StudyError(*faults)
+    grid = GridStudy(document, raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
     return Study(
         document.study, document.title, document.cases, specs, listed, plots, document.claims, grid, document.studies,
         document.overrides, document.resolution,
     )  # fmt: skip
-
-
-def _with_more_faults(raw: Any, more: list[str], source: str, folder: Path) -> Study:
-    """The study from a file's content; raises one error with these faults and those found before.
-
-    folder : contains the tables of discs
-    """
-    try:
-        study = parse_study(_with_discs(raw, folder, more))
-    except StudyError as error:
-        raise StudyError(*more, *error.faults, source=source) from None
-    if more:
-        raise StudyError(*more, source=source)
-    return study
 
 
 def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...] = ()) -> Any:
@@ -351,27 +346,28 @@ def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...
     """
     if not isinstance(raw, Mapping):
         return raw
-    if not place and (varied := _varied_discs(raw)):
-        raw = {**raw, "discs": {name: name for name in varied} | {**mapping(raw.get("discs"))}}
+    if not place:  # names along an axis of discs are tables too
+        axes = [mapping(group).get("disc") for group in _groups(raw)]
+        varied = [name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)]
+        if varied:
+            raw = {**raw, "discs": {**{name: name for name in varied}, **mapping(raw.get("discs"))}}
     made = {}
     for key, value in raw.items():
-        in_case = key == "disc" and place[-1:] in (("base",), ("parameters",))
-        if isinstance(value, str) and (in_case or place == ("discs",)):
+        here = (*place, str(key))
+        if isinstance(value, str) and (place == ("discs",) or here[-2:] in (("base", "disc"), ("parameters", "disc"))):
             try:
                 made[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
             except ParameterError as error:
-                faults += [Fault((*place, str(key)), "", str(fault)).in_file for fault in error.faults]
+                faults += [Fault(here, "", str(fault)).in_file for fault in error.faults]
         else:
-            made[key] = _with_discs(value, folder, faults, (*place, str(key)))
+            made[key] = _with_discs(value, folder, faults, here)
     return made
 
 
-def _varied_discs(raw: Mapping[Any, Any]) -> list[str]:
-    """Names along an axis of discs."""
+def _groups(raw: Mapping[str, Any]) -> list[Any]:
+    """What a file gives as axes, and as each zip."""
     zips = raw.get("zip")
-    groups = [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
-    given = [mapping(group).get("disc") for group in groups]
-    return [name for axis in given if isinstance(axis, list) for name in axis if isinstance(name, str)]
+    return [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
 
 
 def _shown_path(path: Path) -> str:
@@ -409,13 +405,19 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
     """The document without its faulty parts, and the faults at their places in the file."""
     if not isinstance(raw, Mapping):
         return None, [Fault.of(("study",), raw, "must be a mapping")]
-    whole = {**raw, "cases": _with_inherited(raw)} if isinstance(raw.get("cases"), Mapping) else dict(raw)
-    asked = raw.get("quantity")
+    whole, asked = dict(raw), raw.get("quantity")
+    if isinstance(raw.get("cases"), Mapping):
+        whole["cases"] = {
+            name: {"parameters": {}} | inherit(_inherited(raw), own) if isinstance(own, Mapping) else own
+            for name, own in raw["cases"].items()
+        }
     if asked is not None:
         whole.setdefault("options", {})
-    model = DOCUMENTS.get(asked, Document) if isinstance(asked, str) else Document
-    unknown = isinstance(asked, str) and model is Document
-    faults = [Fault.of(("quantity",), asked, f"unknown quantity{suggestion(asked, QUANTITIES)}")] if unknown else []
+    faults, model = [], Document
+    if isinstance(asked, str):
+        model = DOCUMENTS.get(asked, Document)
+        if model is Document:
+            faults.append(Fault.of(("quantity",), asked, f"unknown quantity{suggestion(asked, QUANTITIES)}"))
     found = list(faults_of_names(whole))
     try:
         if not found:
@@ -426,20 +428,10 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
     faults += [there for fault in found if (there := _locate(fault, raw)) is fault or there.path not in places]
     for fault in found:
         _drop(whole, fault.path)
-    if "options" not in whole:
-        model = Document
     try:
-        return model.model_validate({"study": "nameless"} | whole), faults
+        return (model if "options" in whole else Document).model_validate({"study": "nameless"} | whole), faults
     except ValidationError:
         return None, faults
-
-
-def _with_inherited(raw: Mapping[str, Any]) -> dict[Any, Any]:
-    """Cases with the values that they inherit."""
-    return {
-        name: {"parameters": {}} | inherit(_inherited(raw), own) if isinstance(own, Mapping) else own
-        for name, own in raw["cases"].items()
-    }
 
 
 def _inherited(raw: Mapping[str, Any]) -> dict[str, Any]:
@@ -474,17 +466,6 @@ def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
         left = {name: value for name, value in part.items() if str(name) != path[1]}
         if left:
             whole[key] = left
-
-
-def _specs(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> dict[str, CaseSpec]:
-    """The specifications of all valid cases."""
-    specs = {}
-    for name, case in document.cases.items():
-        try:
-            specs[name] = case.spec()
-        except ParameterError as error:
-            faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
-    return specs
 
 
 def _figures(
@@ -601,40 +582,34 @@ _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fro
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
-@dataclass(frozen=True)
 class GridStudy:
-    """A checked grid study.
+    """A grid study. What is wrong with it is added to a list of faults as it is made.
 
     Attributes
     ----------
     document : content of the file
-    options, base : options of the quantity, and values that do not vary
+    quantity, options : name of the quantity, and its options
+    base : values that do not vary
     dims : in the order of `VARIED`
     starts : starts of motions, by name
+    plots : figures, by name
     """
 
-    document: Document
-    options: Strict
-    base: Mapping[str, Any]
-    dims: tuple[Dimension, ...]
-    starts: Mapping[str, Start]
-    plots: Mapping[str, Plot]
-
-    @property
-    def name(self) -> str:
-        return self.document.study
-
-    @property
-    def title(self) -> str:
-        return self.document.title
-
-    @property
-    def quantity(self) -> str:
-        return str(self.document.quantity)
-
-    @property
-    def where(self) -> tuple[str, ...]:
-        return self.document.where
+    def __init__(
+        self, document: Document, raw: Mapping[str, Any], plots: Mapping[str, Plot], faults: list[Fault]
+    ) -> None:
+        self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
+        self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
+        self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
+        self.entry = QUANTITIES.get(self.quantity)
+        self.options: Any = document.options if self.entry else None
+        self.scanned = self.entry.scanned(self.options) if self.entry else ()
+        """Parameters that the quantity varies by itself."""
+        self.wanted = {str(name) for group in _groups(raw) for name in mapping(group)}
+        """Names that are to vary, even if the file describes them incorrectly."""
+        self.base, self.automatic = self._base()
+        self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
+        self._check()
 
     @cached_property
     def batches(self) -> dict[str, str]:
@@ -660,14 +635,14 @@ class GridStudy:
     def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         """Parts of the grid that have points left, each as a text with everything that its result depends on."""
         names = [name for dim in dims for name in dim.names]
-        options = self.document.options.model_dump()
+        options = self.options.model_dump()
         shared = {"quantity": self.quantity, "options": options, "base": self.base, "names": names}
         texts = []
         for part in parts:
             every = [dict(zip(names, point, strict=True)) for point in part["points"]]
             kept = [point for point in every if not self.where or holds(self.where, {**self.base, **point})]
             stated = {}
-            for key, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.document.discs)):
+            for key, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
                 if key in names:
                     stated[kind] = {name: known[name].model_dump() for name in {str(point[key]) for point in kept}}
             if kept:
@@ -694,7 +669,7 @@ class GridStudy:
     def kernels(self) -> list[str]:
         """Kinds of kernels that its points need, named as in `disc_model.kernels`."""
         deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
-        cases = [case_of({**self.base, **point}, self.document.discs) for point in points(deciding)]
+        cases = [case_of({**self.base, **point}, self.discs) for point in points(deciding)]
         return kinds_of(cases, QUANTITIES[self.quantity].tasks)
 
     @property
@@ -717,69 +692,44 @@ class GridStudy:
             looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
             first = next(points(self.dims, self.where, base))
             cases = [base | first | point for point in points(looked_at, self.where, base | first)] or [base | first]
-            discs = self.document.discs
+            discs = self.discs
             found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, discs))))]
             if found:
                 about = "about " * (n_points(looked_at) < n_points(dims))
                 yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
 
+    # ---- its check
 
-class _Grid:
-    """A grid during its check, which appends faults to a list."""
-
-    def __init__(
-        self, document: Document, raw: Mapping[str, Any], plots: Mapping[str, Plot], faults: list[Fault]
-    ) -> None:
-        self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
-        self.quantity: Entry | None = QUANTITIES.get(str(document.quantity))
-        self.options: Strict | None = None
-        if self.quantity is not None and document.options is not None:
-            self.options, self.start = self.quantity.parted(document.options)
-        self.base, self.automatic = self._base()
-        self.starts = {STATIC: Start(), **document.starts}
-        zips = raw.get("zip")
-        groups = (raw.get("axes"), *([zips] if isinstance(zips, Mapping) else zips if isinstance(zips, list) else ()))
-        self.wanted = {str(name) for group in groups for name in mapping(group)}
-        """Names that are to vary, even if the file describes them incorrectly."""
-        self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
-
-    @property
-    def right(self) -> bool:
-        """Whether the grid has no known fault."""
-        return not self.faults
-
-    def add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
+    def _add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
         self.faults.append(Fault(path, as_text(value[0]) if value else "", rule))
 
-    def made(self) -> GridStudy | None:
-        """The grid, or None if it has faults."""
+    def _check(self) -> None:
+        """Check all rules between the parts; those between values only if the parts are right."""
         if self.raw.get("quantity") is None:
-            self.add(("quantity",), "is required")
+            self._add(("quantity",), "is required")
         self._check_names()
         self._check_starts()
-        self._check_truncation()
-        if self.right:
-            self._check_where()
-        if self.right:
-            self._check_points()
-        if self.right and isinstance(self.options, SensitivityOptions):
-            self._check_distributions(self.options)
+        for check in (self._check_where, self._check_points, self._check_distributions):
+            if not self.faults:
+                check()
         if (size := n_points(self.dims)) > MOST_POINTS:
-            self.add(("axes",), f"must make at most {MOST_POINTS} points, and not {size}")
+            self._add(("axes",), f"must make at most {MOST_POINTS} points, and not {size}")
         self._check_plots()
-        if self.faults or self.quantity is None or self.options is None:
-            return None
-        point = next(points(self.dims, self.document.where, self.base))
-        first = case_of({**self.base, **point}, self.document.discs)
-        unused = {name: 0.0 for name in self.quantity.scanned(self.options) if name in REQUIRED}
+        if not self.faults:
+            self._complete_base()
+
+    def _complete_base(self) -> None:
+        """Give `base` all values that do not vary, as one point has them."""
+        point = next(points(self.dims, self.where, self.base))
+        first = case_of({**self.base, **point}, self.discs)
+        unused = {name: 0.0 for name in self.scanned if name in REQUIRED}
         try:
-            base = Parameters(**{**unused, **first}).canonical | self.automatic
+            whole = Parameters(**{**unused, **first}).canonical | self.automatic
         except ParameterError as error:  # faults of varying and fixed values together
             self.faults += [fault.inside(("base",)) for fault in error.faults]
-            return None
+            return
         dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS), *["n_circles"] * bool(self.automatic)}
-        base = {name: value for name, value in base.items() if name not in dropped}
-        return GridStudy(self.document, self.options, base, self.dims, self.starts, self.plots)
+        self.base = {name: value for name, value in whole.items() if name not in dropped}
 
     # ---- what the file says
 
@@ -793,22 +743,24 @@ class _Grid:
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
             return fixed, {}
-        automatic = {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance}
-        if asked.quantity != FREQUENCIES:
-            automatic["truncation_quantity"] = asked.quantity
-        return fixed, automatic
+        # chosen numbers of modes cannot be given as well
+        also = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
+        for path in [*also, *[("base", "n_circles")] * ("n_circles" in fixed)]:
+            self._add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+        quantity = {} if asked.quantity == FREQUENCIES else {"truncation_quantity": asked.quantity}
+        return fixed, {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance, **quantity}
 
     def _dimensions(self) -> Iterator[Dimension]:
         """The valid dimensions of the file."""
         resolution = self.document.resolution
         for name, blocks in self._columns(self.document.axes.stated, ("axes",), resolution).items():
             yield Dimension.of((name,), [[(value,) for value in block] for block in blocks])
-        for i, group in enumerate(self.document.zips):
-            place = ("zip", str(i)) if isinstance(self.document.zip, list) else ("zip",)
+        for i, group in enumerate(self.document.zip):
+            place = ("zip", str(i)) if isinstance(self.raw["zip"], list) else ("zip",)
             columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group.stated, place).items()}
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
-                self.add(place, f"must have columns of equal length, not {lengths}")
+                self._add(place, f"must have columns of equal length, not {lengths}")
             elif columns and len(columns) == len(group.stated):
                 yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
 
@@ -820,8 +772,8 @@ class _Grid:
             try:
                 blocks = blocks_of(axis, resolution)
             except ValueError as error:
-                self.add(place, str(error))
-                continue
+                blocks = ()
+                self._add(place, str(error))
             checked = tuple(tuple(self._value(name, value, place) for value in block) for block in blocks)
             if len(self.faults) == before:
                 found[name] = checked
@@ -831,13 +783,13 @@ class _Grid:
         """Convert and check one value by itself; `_check_points` checks them together."""
         known = {**self.starts, **mapping(self.raw.get("starts"))}
         if name == START and not (isinstance(value, str) and value in known):
-            self.add(place, f"no such start{suggestion(value, known)}", value)
+            self._add(place, f"no such start{suggestion(value, known)}", value)
         elif name == "disc" and not (isinstance(value, str) and value in mapping(self.raw.get("discs"))):
-            self.add(place, "must be the table of a disc", value)
+            self._add(place, "must be the table of a disc", value)
         elif name == "n_diameters" and value == AUTO:
-            self.add(place, "cannot be varied: give it in base, for all points", value)
+            self._add(place, "cannot be varied: give it in base, for all points", value)
         elif name == "contact_compliance" and value == RESIDUAL:
-            self.add(place, "must be a number along an axis: give it in base, for all points", value)
+            self._add(place, "must be a number along an axis: give it in base, for all points", value)
         elif name not in (START, "disc"):
             try:
                 return getattr(_Varied(**{name: value}), name)  # type: ignore[no-any-return]
@@ -857,86 +809,71 @@ class _Grid:
     # ---- rules between its parts
 
     def _check_names(self) -> None:
+        """Check which names vary, which are given, and which are lacking."""
+        base, wanted, scanned, over = mapping(self.raw.get("base")), self.wanted, self.scanned, self.document.batch.over
+        asked, names = f"the quantity {self.quantity}", [dim.name for dim in self.dims]
         varied = [name for dim in self.dims for name in dim.names]
         for name in sorted({name for name in varied if varied.count(name) > 1}):
-            self.add(("axes", name), "varies along two dimensions")
-        if not self.dims and self.right:
-            self.add(("axes",), "is required: at least one axis or zip")
-        base, wanted = mapping(self.raw.get("base")), self.wanted
-        quantity, asked = self.quantity, self.document.quantity
-        scanned = () if quantity is None else quantity.scanned(self.options)
+            self._add(("axes", name), "varies along two dimensions")
+        if not self.dims and not self.faults:
+            self._add(("axes",), "is required: at least one axis or zip")
         for name in scanned:
             if name in wanted or name in base:
-                self.add(("axes" if name in wanted else "base", name), f"is varied by the quantity {asked}")
-        if "disc" in {*wanted, *base}:
-            for name in sorted(wanted):
-                if not {name, *RATIOS.get(name, ())}.isdisjoint((*PLATE, "damping_ratio")):
-                    self.add(("axes", name), "must be left out where a disc is given: it is a parameter of the plate")
-        for name in sorted(wanted & RATIOS.keys()):
-            stands_for, other = RATIOS[name]
+                self._add(("axes" if name in wanted else "base", name), f"is varied by {asked}")
+        for name in sorted(wanted):
+            stands_for, other = RATIOS.get(name, ("", ""))
             others = [RATIOS.get(one, (one,))[0] for one in (*wanted - {name}, *base, *scanned)]
+            if "disc" in {*wanted, *base} and not {name, stands_for, other}.isdisjoint((*PLATE, "damping_ratio")):
+                self._add(("axes", name), "must be left out where a disc is given: it is a parameter of the plate")
             if stands_for in others:
-                self.add(("axes", name), f"stands for {stands_for}, which is given as well")
+                self._add(("axes", name), f"stands for {stands_for}, which is given as well")
             elif other in scanned:
-                self.add(("axes", name), f"needs {other}, which the quantity {asked} varies")
-        for name in sorted(wanted & base.keys()):
-            self.add(("base", name), "varies as well: give it in base or as an axis, not both", base[name])
-        if quantity is None:
+                self._add(("axes", name), f"needs {other}, which {asked} varies")
+            if name in base:
+                self._add(("base", name), "varies as well: give it in base or as an axis, not both", base[name])
+        if self.entry is None:
             return
         for name in REQUIRED:
             if name not in {*wanted, *base, *scanned}:
-                self.add(("axes", name), "is required, here, in a zip or in base")
-        names = [dim.name for dim in self.dims]
-        if quantity.over not in ("", SAMPLE, *names, *wanted):
-            self.add(("axes", quantity.over), f"is required: {asked} looks along it")
-        over = self.document.batch.over
-        for name in over if over and self.right else ():
+                self._add(("axes", name), "is required, here, in a zip or in base")
+        if self.entry.over not in ("", SAMPLE, *names, *wanted):
+            self._add(("axes", self.entry.over), f"is required: {asked} looks along it")
+        if self.faults:
+            return
+        for name in over or ():
             if name not in names:
-                self.add(("batch", "over"), f"must name dimensions (known: {', '.join(names)})", name)
-        if quantity.tiled and self.right and len(_plane(self.dims, over)) != 2:
-            rule = f"must name the two dimensions, single numbers, of {asked}'s plane first"
-            self.add(("batch", "over"), rule, over and list(over))
+                self._add(("batch", "over"), f"must name dimensions (known: {', '.join(names)})", name)
+        if self.entry.tiled and not self.faults and len(_plane(self.dims, over)) != 2:
+            rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
+            self._add(("batch", "over"), rule, over and list(over))
 
     def _check_starts(self) -> None:
         """Only some quantities accept another start, and the file must give it in one place only."""
-        wanted = [name for name in (START, *PERTURBATIONS) if name in self.wanted]
         options = mapping(self.raw.get("options"))
-        if self.quantity is not None and not self.quantity.starts:
-            for name in wanted:
-                self.add(("axes", name), f"the quantity {self.document.quantity} follows no motion from a start")
-        for name in ("prerun", "perturbation"):
-            if START in wanted and name in options:
-                self.add(("options", name), "must not be given where the start varies: say it under starts")
-        for name in wanted:
-            if name in PERTURBATIONS and name.removeprefix("perturbation_") in mapping(options.get("perturbation")):
-                self.add(
-                    ("options", "perturbation", name.removeprefix("perturbation_")),
-                    f"is given, and varies as axes.{name}",
-                )
-
-    def _check_truncation(self) -> None:
-        """Chosen numbers of modes cannot be given as well, and are chosen for all points or for none."""
-        if not self.automatic:
-            return
-        given = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
-        for path in [*given, *[("base", "n_circles")] * ("n_circles" in self.base)]:
-            self.add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+        for name in (START, *PERTURBATIONS):
+            coordinate = name.removeprefix("perturbation_")
+            if name not in self.wanted:
+                continue
+            if self.entry is not None and not self.entry.starts:
+                self._add(("axes", name), f"the quantity {self.quantity} follows no motion from a start")
+            if coordinate in mapping(options.get("perturbation")):
+                self._add(("options", "perturbation", coordinate), f"is given, and varies as axes.{name}")
+            for key in options.keys() & {"prerun", "perturbation"} if name == START else ():
+                self._add(("options", key), "must not be given where the start varies: say it under starts")
 
     def _check_where(self) -> None:
         """Check the file's own rules: they must compare known values and leave some points."""
-        where = self.document.where
         known = {**Parameters.model_fields, **dict.fromkeys(name for dim in self.dims for name in dim.names)}
-        for rule in where:
+        for rule in self.where:
             for name in sorted(names_in(rule) - known.keys()):
-                self.add(
-                    ("where",), f"{name} is no value of a point{suggestion(name, [*known], all_of_them=False)}", rule
-                )
-        if where and self.right and next(points(self._needed(()), where, self.base), None) is None:
-            self.add(("where",), "leaves no point")
+                more = suggestion(name, [*known], all_of_them=False)
+                self._add(("where",), f"{name} is no value of a point{more}", rule)
+        if self.where and not self.faults and next(points(self._needed(()), self.where, self.base), None) is None:
+            self._add(("where",), "leaves no point")
 
     def _needed(self, names: Iterable[str]) -> list[Dimension]:
         """Dimensions of some names, and those that the file's rules compare."""
-        wanted = {*names, *chain(*map(names_in, self.document.where))}
+        wanted = {*names, *chain(*map(names_in, self.where))}
         ratios = [(name, *RATIOS[name]) for name in self.wanted & RATIOS.keys()]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
         return [dim for dim in self.dims if not wanted.isdisjoint(dim.names)]
@@ -945,7 +882,7 @@ class _Grid:
         """Check the rules between parameters of which some vary; each is reported where it is broken first."""
         related = self._needed(RELATED)
         varied = [name for dim in related for name in dim.names]
-        every = points(related, self.document.where, self.base)
+        every = points(related, self.where, self.base)
         found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in every]
         ratios = {RATIOS[name][0]: name for name in varied if name in RATIOS}
         for fault in first_of_each(chain(*found)):
@@ -953,15 +890,17 @@ class _Grid:
             if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and not all(found):
                 hint = f"; where: {name} {rule[1]} {rule[2]} leaves out the points that break this"
             if name in ratios:
-                self.add(("axes", ratios[name]), f"{fault}{hint}")
+                self._add(("axes", ratios[name]), f"{fault}{hint}")
             else:
                 self.faults.append(Fault(("axes" if name in varied else "base", name), fault.value, fault.rule + hint))
 
-    def _check_distributions(self, options: SensitivityOptions) -> None:
+    def _check_distributions(self) -> None:
         """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.
 
         Each rule is reported where it is broken first.
         """
+        if not isinstance(options := self.options, SensitivityOptions):
+            return
         place, dims, numbers = ("options", "distributions"), self.dims[:-1], self._numbers()
         varied = {name for dim in dims for name in dim.names}
         varied |= {*numbers}.difference(NUMBERS) if "disc" in varied else set()
@@ -969,12 +908,12 @@ class _Grid:
             own = _own(name, self.base)
             if name not in numbers:
                 known = ", ".join(numbers)
-                self.add((*place, name), f"must be of a parameter that is a number (known: {known})")
+                self._add((*place, name), f"must be of a parameter that is a number (known: {known})")
             elif not given.relative and name in varied:
-                self.add((*place, name), "must be relative, since it varies along an axis as well")
+                self._add((*place, name), "must be relative, since it varies along an axis as well")
             elif given.relative and name not in varied and (not is_number(own) or own == 0):
-                self.add((*place, name), f"must not be relative to {as_text(own)}")
-        if not self.right:
+                self._add((*place, name), f"must not be relative to {as_text(own)}")
+        if self.faults:
             return
         for fault in first_of_each(self._out_of_reach(options, dims)):
             at = place if fault.path[0] in options.distributions else ("base",)
@@ -982,7 +921,7 @@ class _Grid:
 
     def _numbers(self) -> list[str]:
         """Names that can be distributed: parameters that are numbers, and those of the modes that all discs have."""
-        discs: list[Disc] = [*self.document.discs.values()] if "disc" in self.wanted else []
+        discs: list[Disc] = [*self.discs.values()] if "disc" in self.wanted else []
         discs += [disc] if (disc := self.base.get("disc")) is not None else []
         if not discs:
             return [*NUMBERS]
@@ -993,8 +932,8 @@ class _Grid:
         """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
         wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
-        for point in points(wanted, self.document.where, self.base):
-            here = case_of({**self.base, **point}, self.document.discs)
+        for point in points(wanted, self.where, self.base):
+            here = case_of({**self.base, **point}, self.discs)
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():
                 scale = _own(name, here) if given.relative else 1.0
@@ -1013,14 +952,13 @@ class _Grid:
     def _check_plots(self) -> None:
         # a faulty dimension counts as one without values
         meant = sorted(self.wanted.difference(*(dim.names for dim in self.dims)))
-        values: Values = dict.fromkeys(meant, ()) | {dim.name: dim.values for dim in self.dims}
-        asked = self.document.quantity
+        values: Values = {**dict.fromkeys(meant, ()), **self.values}
         for name, plot in self.plots.items():
             found: Iterable[Fault] = ()
             if isinstance(plot, General):
                 if self.options is not None:
-                    found = _general(plot, str(asked), self.options, values)
-            elif asked in plot.quantities:
+                    found = _general(plot, self.quantity, self.options, values)
+            elif self.quantity in plot.quantities:
                 found = plot.faults(values)
             else:
                 found = [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
@@ -1040,20 +978,14 @@ def _general(plot: General, quantity: str, options: Strict, values: Values) -> I
     own: dict[str, list[Any]] = {}
     variables: dict[str, Any] = {}
     others = [name for name in grid if name != QUANTITIES[quantity].over]
-    for module, dims in ((importlib.import_module(module_of(quantity)), [*grid]), (summary_of(quantity), others)):
+    for module, dims in ((module_of(quantity), [*grid]), (summary_of(quantity), others)):
         variables |= {name: (*dims, *column.dims) for name, column in getattr(module, "COLUMNS", {}).items()}
-        coordinates: Any = getattr(module, "coordinates", lambda options: {})
-        own |= {name: along.tolist() for name, (along, _) in coordinates(options).items()}
+        own |= {name: along.values.tolist() for name, along in own_coordinates(module, options).items()}
     return plot.faults_among(grid | own, variables)
 
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
-
-
-def module_of(name: str) -> str:
-    """Module that computes a quantity, of the same name."""
-    return f"disc_model.studies.grids.quantities.{name}"
 
 
 def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:

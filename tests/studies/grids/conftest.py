@@ -52,7 +52,8 @@ class Table(NamedTuple):
 def compute(quantity: Any, points: Iterable[Any], options: Any) -> Table:
     """A quantity at some points."""
     rows, messages = zip(*(run.compute(quantity, point, options) for point in points), strict=True)
-    return Table(run.arrays_of(quantity, rows, options), list(messages))
+    variables = run.variables_of(quantity, rows, options, {"point": len(rows)})
+    return Table({name: found.values for name, found in variables.items()}, list(messages))
 
 
 SCAN = {"start": 12, "stop": 15, "step": 0.5}

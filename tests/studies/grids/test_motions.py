@@ -1,6 +1,5 @@
 """Motions of which histories are kept for the explorer."""
 
-import importlib
 import json
 
 import numpy as np
@@ -14,7 +13,8 @@ from disc_model.studies.document import QUANTITIES, OutcomeOptions
 from disc_model.studies.grids.motions import CYCLES_SHOWN, LONGEST, SAMPLES, cycle_length, run_motions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import outcome
-from disc_model.studies.study import Dimension, module_of
+from disc_model.studies.grids.run import module_of
+from disc_model.studies.study import Dimension
 from tests.studies.refused import parse_grid
 
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
@@ -42,7 +42,7 @@ def test_few_values_of_an_axis_are_taken_both_ends_among_them():
 
 def test_quantities_that_have_motions_say_what_they_show():
     for name, quantity in QUANTITIES.items():
-        module = importlib.import_module(module_of(name))
+        module = module_of(name)
         assert bool(quantity.motions) == bool(quantity.motion) == hasattr(module, "state_at"), name
     assert not any(QUANTITIES[name].motions for name in ("critical_speed", "hysteresis", "stability_curves"))
 

@@ -21,7 +21,7 @@ P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 def quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     """A quantity that stands for a module."""
     columns = {"status": Column(*STATUS), "value": Column("1", "a number")}
-    return SimpleNamespace(COLUMNS=columns, coordinates=lambda options: {}, compute_point=compute_point)
+    return SimpleNamespace(COLUMNS=columns, compute_point=compute_point)
 
 
 @pytest.mark.parametrize(

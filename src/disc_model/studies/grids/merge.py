@@ -7,8 +7,6 @@ The dataset has every point of the grid with its `status`, and the results of `d
 zip is one dimension without a coordinate of its own. It is named after its parameters, which are variables along it.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -4,8 +4,7 @@ A history begins at the end of the quantity's own computation: after the late st
 stability is computed, or after the transient.
 """
 
-from __future__ import annotations
-
+import json
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -13,13 +12,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import PHASES, SERIES, Column, Variable
+from disc_model.data.variables import PHASES, SERIES, Column
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import State
-from disc_model.studies.grids.points import STATUS, Point
-from disc_model.studies.grids.run import quantity_of, run_as
+from disc_model.studies.grids.points import STATUS, Coordinate, Point
+from disc_model.studies.grids.run import module_of, run_as
 
 SAMPLES = 256
 """Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
@@ -35,7 +34,7 @@ _ALONG = ("sample",)
 
 
 class Motions:
-    """A `Quantity` for `run` that computes histories instead of the study's own quantity."""
+    """A quantity for `run` that computes histories instead of the study's own quantity."""
 
     COLUMNS: Mapping[str, Column] = {
         "status": Column(*STATUS),
@@ -43,12 +42,12 @@ class Motions:
         **{name: Column(*SERIES[name], dims=_ALONG) for name in SHOWN},
         "phase": Column("1", "phase of the motion", ("none", *PHASES), dims=_ALONG),
     }
+    COORDINATES: Mapping[str, Coordinate] = {
+        "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
+    }
 
     def __init__(self, quantity: Any) -> None:
         self.quantity = quantity
-
-    def coordinates(self, options: Any) -> dict[str, Any]:
-        return {"sample": (np.arange(SAMPLES), Variable("1", "number of the sample"))}
 
     def compute_point(self, point: Point, options: Any) -> tuple[dict[str, Any], str]:
         """The history at one point."""
@@ -64,7 +63,7 @@ class Motions:
 
 def run_motions(text: str) -> xr.Dataset:
     """Histories along `point` and `sample`, for a text from `disc_model.studies.study.GridStudy.motions`."""
-    found = run_as(text, Motions(quantity_of(text)))
+    found = run_as(text, Motions(module_of(json.loads(text)["quantity"])))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 
 

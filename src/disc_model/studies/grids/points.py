@@ -1,10 +1,7 @@
 """Results of a quantity at points: rows of values by column, a status, and the errors that make a point fail."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,18 +19,24 @@ Made = Parameters | DiscModelError
 """Parameters, or the error in their place."""
 
 
-STATIC_START = Start()
-DIRECTION = (np.array(("up", "down")), Variable("", "direction of the sweep"))
-"""Coordinate of sweeps up and down."""
-
-
-@dataclass(frozen=True)
-class Point:
+class Point(NamedTuple):
     """A point of a grid: its parameters, the start of its motion, and its sample number, if it is a sample."""
 
     parameters: Parameters
-    start: Start = STATIC_START
+    start: Start = Start()
     sample: int = 0
+
+
+class Coordinate(NamedTuple):
+    """A dimension of a quantity's own: unit, name in words, which may show options, and values for given options."""
+
+    units: str
+    long_name: str
+    values: Callable[[Any], Sequence[Any]]
+
+
+DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
+"""Coordinate of sweeps up and down."""
 
 
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)

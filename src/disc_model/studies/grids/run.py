@@ -1,13 +1,11 @@
 """Computation of one batch of a grid study: a quantity at each point, as variables with units."""
 
-from __future__ import annotations
-
 import importlib
 import json
 import logging
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Any, Protocol, cast
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,7 +13,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
-from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, attributes
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import by_motion
 from disc_model.parameters import AUTO, case_of
@@ -37,25 +35,34 @@ def run_batch(text: str) -> xr.Dataset:
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
     """
-    return run_as(text, quantity_of(text))
+    return run_as(text, module_of(json.loads(text)["quantity"]))
 
 
-def quantity_of(text: str) -> Any:
-    """The module that computes a batch's quantity."""
-    return importlib.import_module(f"disc_model.studies.grids.quantities.{json.loads(text)['quantity']}")
+def module_of(quantity: str) -> Any:
+    """The module that computes a quantity, with these names.
+
+    COLUMNS, COORDINATES : its variables, and its own dimensions, if it has any
+    compute_point(point, options) : values at one point by column (flags as words), and a message. Omitted columns are
+        missing. Lists and arrays shorter than their dimension are padded with missing values, longer ones are cut
+    compute_tile(points, options, sampled) : instead of it, rows and messages of a whole tile of a plane, whose points
+        are given by rows, at least at the places `sampled`
+    state_at(point, options) : the state in which its motions begin, if it has any
+    """
+    return importlib.import_module(f"disc_model.studies.grids.quantities.{quantity}")
 
 
-def run_as(text: str, quantity: Quantity) -> xr.Dataset:
+def run_as(text: str, quantity: Any) -> xr.Dataset:
     """Compute a batch as `run_batch` does, but with another quantity and the options of the batch's own."""
     data = json.loads(text)
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
-    options, start = entry.parted(entry.stated.model_validate(data["options"]))
+    options = entry.stated.model_validate(data["options"])
+    start = Start(**{name: getattr(options, name) for name in Start.model_fields if isinstance(options, Start)})
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data, values) for values in varied]
     began = time.process_time()
     if "tile" in data:
-        found = list(_over_tile(cast("Tiled", quantity), data, options))
+        found = list(_over_tile(quantity, data, options))
     else:
         starts = {name: Start.model_validate(stated) for name, stated in data.get("starts", {}).items()}
         each = zip(parameters, varied, strict=True)
@@ -65,10 +72,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     for values, message in zip(varied, messages, strict=True):
         if message:
             log.warning("%s: %s", values, message)
-    variables = {
-        name: xr.Variable((POINT, *quantity.COLUMNS[name].dims), array, quantity.COLUMNS[name].variable.attributes)
-        for name, array in arrays_of(quantity, rows, options).items()
-    }
+    variables = variables_of(quantity, rows, options, {POINT: len(rows)})
     if data["base"].get("n_diameters") == AUTO:
         for name in ("diameters", "circles"):  # -1 without a choice
             highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
@@ -85,7 +89,7 @@ def run_as(text: str, quantity: Quantity) -> xr.Dataset:
     return xr.Dataset(variables, coords | own_coordinates(quantity, options), attrs)
 
 
-def _over_tile(quantity: Tiled, data: Mapping[str, Any], options: Any) -> Iterator[tuple[Row, str]]:
+def _over_tile(quantity: Any, data: Mapping[str, Any], options: Any) -> Iterator[tuple[Row, str]]:
     """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order.
 
     Each combination of the other varying parameters is a tile of its own.
@@ -140,41 +144,16 @@ def describe(name: str) -> dict[str, Any]:
 # Quantities: rows of results, one for each point, as arrays
 
 
-class Described(Protocol):
-    """Interface of all quantity modules; those with dimensions of their own also have `coordinates`."""
-
-    COLUMNS: Mapping[str, Column]
-
-
-def own_coordinates(quantity: Described, options: Any) -> dict[str, xr.Variable]:
+def own_coordinates(quantity: Any, options: Any) -> dict[str, xr.Variable]:
     """Values along a quantity's own dimensions, beyond those of the grid."""
-    if not hasattr(quantity, "coordinates"):
-        return {}
-    given = quantity.coordinates(options)
-    return {name: xr.Variable(name, values, variable.attributes) for name, (values, variable) in given.items()}
+    found = {}
+    for name, (units, long_name, values) in getattr(quantity, "COORDINATES", {}).items():
+        described = Variable(units, long_name.format(options))
+        found[name] = xr.Variable(name, np.array(values(options)), described.attributes)
+    return found
 
 
-class Tiled(Described, Protocol):
-    """A quantity that needs a whole tile of a plane at once."""
-
-    def compute_tile(
-        self, points: Sequence[Sequence[Made]], options: Any, sampled: Collection[tuple[int, int]]
-    ) -> Sequence[Sequence[tuple[Row, str]]]:
-        """Compute rows and messages of a tile, whose points are given by rows, at least at the places `sampled`."""
-
-
-class Quantity(Described, Protocol):
-    """A quantity of single points."""
-
-    def compute_point(self, point: Point, options: Any) -> tuple[Row, str]:
-        """Values at one point by column (flags as words), and a message.
-
-        Omitted columns are missing. Lists and arrays shorter than their dimension are padded with missing values,
-        longer ones are cut.
-        """
-
-
-def compute(quantity: Quantity, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
+def compute(quantity: Any, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
     """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
     try:
         if isinstance(point, DiscModelError):
@@ -184,16 +163,17 @@ def compute(quantity: Quantity, point: Point | DiscModelError, options: Any) -> 
         return {"status": "failed"}, f"{type(error).__name__}: {error}"
 
 
-def arrays_of(quantity: Described, rows: Sequence[Row], options: Any) -> dict[str, NDArray[Any]]:
-    """Arrays by variable, shape (rows, ...)."""
-    own = own_coordinates(quantity, options)
-    arrays = {}
+def variables_of(quantity: Any, rows: Sequence[Row], options: Any, sizes: Mapping[str, int]) -> dict[str, xr.Variable]:
+    """Rows as variables along dimensions of these sizes, the last one fastest, and along the quantity's own."""
+    own, variables = own_coordinates(quantity, options), {}
     for name, column in quantity.COLUMNS.items():
-        arrays[name] = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
+        array = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
             if name in row:
-                _store(row[name], arrays[name], (i,), column)
-    return arrays
+                _store(row[name], array, (i,), column)
+        array = array.reshape((*sizes.values(), *array.shape[1:]))
+        variables[name] = xr.Variable((*sizes, *column.dims), array, column.variable.attributes)
+    return variables
 
 
 def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:

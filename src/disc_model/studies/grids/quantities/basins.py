@@ -5,8 +5,6 @@ the energy in its list, and i. The first starts of all energies come first, then
 leave the earlier ones unchanged.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -15,13 +13,13 @@ from typing import Any
 import numpy as np
 
 from disc_model.analysis.sobol import share
-from disc_model.data.variables import LONG_TERM_OUTCOMES, Column, Variable
+from disc_model.data.variables import LONG_TERM_OUTCOMES, Column
 from disc_model.simulation.api import make_initial_state, static_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.document import BasinsOptions
-from disc_model.studies.grids.points import STATUS, Point, listed
+from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
 """Outcomes of a start."""
@@ -66,15 +64,12 @@ COLUMNS = {
     "attractor_period": Column("s", "its period, nan if not periodic", dims=_KNOWN),
     "attractor_growth_rate": Column("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
 }
-
-
-def coordinates(options: BasinsOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "energy": (np.array(options.energies), Variable("J", "energy of the kick")),
-        "start": (np.arange(options.n_starts), Variable("1", "number of the start")),
-        "attractor_class": (np.array(CLASSES), Variable("", "what the starts come to")),
-        "attractor": (np.arange(1, ROOM + 1), Variable("1", "number of the attractor")),
-    }
+COORDINATES = {
+    "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
+    "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
+    "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
+    "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, ROOM + 1)),
+}
 
 
 def compute_point(point: Point, options: BasinsOptions) -> tuple[dict[str, Any], str]:

@@ -1,7 +1,5 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -10,7 +8,7 @@ import pandas as pd
 from scipy.stats import wasserstein_distance
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Column, Outcome, Variable
+from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Column, Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate, state_after
 from disc_model.simulation.case import Record
@@ -20,7 +18,7 @@ from disc_model.stability.attractor.outcome import FIRST_LEG, at_rest
 from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.document import BifurcationOptions
-from disc_model.studies.grids.points import STATUS, Point
+from disc_model.studies.grids.points import STATUS, Coordinate, Point
 
 REPEATS = 1e-11
 """Greatest difference of intervals of a periodic motion, s: rounding leaves 1e-13 s on a cycle."""
@@ -40,10 +38,7 @@ COLUMNS = {
     ),
     "stick_fraction": Column("1", "share of the time spent sticking, transient included"),
 }
-
-
-def coordinates(options: BifurcationOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"sample": (np.arange(options.samples), Variable("1", "number of the turn after the transient"))}
+COORDINATES = {"sample": Coordinate("1", "number of the turn after the transient", lambda o: range(1, o.samples + 1))}
 
 
 def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:

@@ -4,14 +4,12 @@ The sweep up and down starts at each value from the motion at the last one. Each
 cycle near the static start, is continued in both directions, unless a known branch passes there.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
@@ -24,7 +22,7 @@ from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import steady_sliding
 from disc_model.studies.document import BranchesOptions
-from disc_model.studies.grids.points import DIRECTION, NUMERICAL, STATUS, Point, listed
+from disc_model.studies.grids.points import DIRECTION, NUMERICAL, STATUS, Coordinate, Point, listed
 
 _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
 COLUMNS = {
@@ -41,19 +39,16 @@ COLUMNS = {
     "sweep_separation_rate": Column("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
     "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
 }
+COORDINATES = {
+    "direction": DIRECTION,
+    "sweep_value": Coordinate("", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values),
+    "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
+    "branch_point": Coordinate("1", "number of the point along the branch", lambda o: range(2 * o.max_points)),
+}
 SAME = np.array([2e-4, 0.4])
 """Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Ranges between
 points of a steep branch are known roughly; periods distinguish branches.
 """
-
-
-def coordinates(options: BranchesOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "direction": DIRECTION,
-        "sweep_value": (np.array(options.scan.values), Variable("", f"{options.parameter} in the sweep, SI units")),
-        "branch": (np.arange(options.max_branches), Variable("1", "number of the branch")),
-        "branch_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the branch")),
-    }
 
 
 def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:

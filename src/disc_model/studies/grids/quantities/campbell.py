@@ -1,17 +1,15 @@
 """Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.stability.campbell import frequencies
 from disc_model.stability.cycle import CycleStatus
 from disc_model.studies.document import CampbellOptions
-from disc_model.studies.grids.points import Point
+from disc_model.studies.grids.points import Coordinate, Point
 from disc_model.studies.grids.quantities.floquet import STATUSES
 
 KINDS = ("none", "disc", "slider")
@@ -30,10 +28,7 @@ COLUMNS = {
     "cycle_growth_rate": Column("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
     "mac": Column("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
 }
-
-
-def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"mode": (np.arange(1, options.modes + 1), Variable("1", "number of the mode, lowest frequency first"))}
+COORDINATES = {"mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))}
 
 
 def compute_point(point: Point, options: CampbellOptions) -> tuple[dict[str, Any], str]:

@@ -5,20 +5,16 @@ Where the multipliers predict how a motion departs from its cycle, only the moti
 horizon lies within this uncertainty, the motion is simulated from its start.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from disc_model.data.variables import SCALARS, Column, Variable
+from disc_model.data.variables import SCALARS, Column
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.studies.document import CriticalSpeedOptions
-from disc_model.studies.grids.points import STATUS, Point, listed
+from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 FURTHEST = 0.02
 """Distance from a cycle, over the static deflection, up to which multipliers predict the departure."""
@@ -47,20 +43,11 @@ COLUMNS = {
     "simulations": Column("1", "number of simulations", whole=True),
     "simulated_time": Column("s", "simulated time of all of them"),
 }
-
-
-def coordinates(options: CriticalSpeedOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "horizon": (np.array(options.horizons), Variable("s", "time within which separation must occur")),
-        "crossing_number": (
-            np.arange(options.max_crossings),
-            Variable("1", "number of the crossing, as the speed rises"),
-        ),
-        "scan_Omega": (
-            np.array(options.scan.values),
-            Variable("rad s-1", "speed of the drive point, in the scan"),
-        ),
-    }
+COORDINATES = {
+    "horizon": Coordinate("s", "time within which separation must occur", lambda o: o.horizons),
+    "crossing_number": Coordinate("1", "number of the crossing, as the speed rises", lambda o: range(o.max_crossings)),
+    "scan_Omega": Coordinate("rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values),
+}
 
 
 def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:

@@ -1,16 +1,14 @@
 """Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.stability.attractor.outcome import sweep
 from disc_model.studies.document import HysteresisOptions
-from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Point
+from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Coordinate, Point
 
 _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {
@@ -25,16 +23,10 @@ COLUMNS = {
     "onset_speed": Column("rad s-1", "speed at which separation first is found on the way up"),
     "offset_speed": Column("rad s-1", "lowest speed to which it persists without a gap on the way down"),
 }
-
-
-def coordinates(options: HysteresisOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "direction": DIRECTION,
-        "sweep_Omega": (
-            np.array(options.scan.values),
-            Variable("rad s-1", "speed of the drive point, in the sweep"),
-        ),
-    }
+COORDINATES = {
+    "direction": DIRECTION,
+    "sweep_Omega": Coordinate("rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values),
+}
 
 
 def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:

@@ -1,17 +1,15 @@
 """The largest Lyapunov exponents of the motion, across all its events."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.simulation.api import make_initial_state, state_after
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
 from disc_model.studies.document import LyapunovOptions
-from disc_model.studies.grids.points import STATUS, Point
+from disc_model.studies.grids.points import STATUS, Coordinate, Point
 
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)
@@ -28,10 +26,9 @@ COLUMNS = {
     "averaging_time": Column("s", "time over which the rates are averaged"),
     "separations": Column("1", "number of separations in that time", whole=True),
 }
-
-
-def coordinates(options: LyapunovOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"exponent_number": (np.arange(options.exponents), Variable("1", "number of the exponent, largest first"))}
+COORDINATES = {
+    "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))
+}
 
 
 def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:

@@ -1,7 +1,5 @@
 """Outcome of the static start within a horizon: the motion stays quiet, grows in contact, or separates."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict
 from typing import Any

@@ -1,13 +1,9 @@
 """Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
-import numpy as np
-
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -15,7 +11,7 @@ from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.result import Result, State
 from disc_model.studies.document import RampsOptions
-from disc_model.studies.grids.points import STATUS, Point, listed
+from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 _DIMS = ("rate",)
 COLUMNS = {
@@ -27,15 +23,12 @@ COLUMNS = {
         "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
     ),
 }
+COORDINATES = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
 STRETCH = 100.0
 """Length of a stretch of the way down that is simulated at once, s: the events of all of it would fill hundreds of
 megabytes.
 """
 _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
-
-
-def coordinates(options: RampsOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"rate": (np.array(options.rates.values), Variable("rad s-2", "rate of the speed's ramps"))}
 
 
 def compute_point(point: Point, options: RampsOptions) -> tuple[dict[str, Any], str]:

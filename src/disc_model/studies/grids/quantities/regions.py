@@ -11,8 +11,6 @@ the simulated ones. Two kinds of points are computed one by one. At the first, t
 quiet points. At the second, it follows no cycle, on a strip thinner than the grid.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise, product

@@ -6,8 +6,6 @@ Saltelli et al. (2010) for first-order and total indices, see `disc_model.analys
 seed and its own number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -17,12 +15,12 @@ from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from disc_model.data.variables import SCALARS, Column, Variable
+from disc_model.data.variables import SCALARS, Column
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.studies.document import Distribution, SensitivityOptions
-from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Point
+from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Coordinate, Point
 
 Array = NDArray[np.float64]
 
@@ -38,17 +36,15 @@ COLUMNS = {
     "outcome": Column("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
     "first_separation": Column(*SCALARS["first_separation"]),
 }
-
-
-def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "sample_matrix": (np.array(DRAWS), Variable("", "one of the two draws of a sample")),
-        "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
-        "variant": (
-            np.array([*DRAWS, *sorted(options.distributions)]),
-            Variable("", "draw A, draw B, or A with this parameter taken from B"),
-        ),
-    }
+COORDINATES = {
+    "sample_matrix": Coordinate("", "one of the two draws of a sample", lambda o: DRAWS),
+    "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
+    "variant": Coordinate(
+        "",
+        "draw A, draw B, or A with this parameter taken from B",
+        lambda o: (*DRAWS, *sorted(o.distributions)),
+    ),
+}
 
 
 def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, Any], str]:

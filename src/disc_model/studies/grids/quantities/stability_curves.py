@@ -1,16 +1,12 @@
 """Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Any
 
-import numpy as np
-
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.stability.curves import StabilityCurve, stability_curves
 from disc_model.studies.document import StabilityCurvesOptions
-from disc_model.studies.grids.points import STATUS, Point, listed
+from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
@@ -32,13 +28,10 @@ COLUMNS = {
     "resonance_sign": Column("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
     "resonance_detuning": Column("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
 }
-
-
-def coordinates(options: StabilityCurvesOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "curve": (np.arange(options.max_curves), Variable("1", "number of the curve")),
-        "curve_point": (np.arange(2 * options.max_points), Variable("1", "number of the point along the curve")),
-    }
+COORDINATES = {
+    "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
+    "curve_point": Coordinate("1", "number of the point along the curve", lambda o: range(2 * o.max_points)),
+}
 
 
 def compute_point(point: Point, options: StabilityCurvesOptions) -> tuple[dict[str, Any], str]:

@@ -4,29 +4,23 @@ The summary of a quantity is the module of the same name here. It is computed ag
 recomputes no batch.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from disc_model.studies.document import QUANTITIES
-from disc_model.studies.grids.points import Row
-from disc_model.studies.grids.run import Described, arrays_of, own_coordinates
+from disc_model.studies.grids.run import own_coordinates, variables_of
 
 
-class Summary(Described, Protocol):
-    """A module of a summary."""
+def summary_of(quantity: str) -> Any:
+    """The summary of a quantity, or None: a module with `COLUMNS` and `COORDINATES` as a quantity has them.
 
-    def summarise(self, cell: xr.Dataset, options: Any) -> Row:
-        """Values by column, for a merged dataset that has only the summarised dimension left."""
-
-
-def summary_of(quantity: str) -> Summary | None:
-    """The summary of a quantity, if it has one."""
+    Its function `summarise(cell, options)` returns values by column, for a merged dataset that has only the summarised
+    dimension left.
+    """
     if not QUANTITIES[quantity].over:
         return None
     # their import loads the engine, which most merges do not need
@@ -41,12 +35,7 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     if summary is None:
         return study
     checked = SimpleNamespace(**options)
-    others = [dim for dim in map(str, study["status"].dims) if dim != QUANTITIES[quantity].over]
-    sizes = [study.sizes[dim] for dim in others]
-    cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*sizes)]
-    arrays = arrays_of(summary, [summary.summarise(cell, checked) for cell in cells], checked)
-    variables = {}
-    for name, column in summary.COLUMNS.items():
-        values = arrays[name].reshape((*sizes, *arrays[name].shape[1:]))
-        variables[name] = xr.Variable((*others, *column.dims), values, column.variable.attributes)
+    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != QUANTITIES[quantity].over}
+    cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*others.values())]
+    variables = variables_of(summary, [summary.summarise(cell, checked) for cell in cells], checked, others)
     return study.assign_coords(own_coordinates(summary, checked)).assign(variables)

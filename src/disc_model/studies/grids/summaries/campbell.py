@@ -7,8 +7,6 @@ The effect is read, mode by mode, from the cycle's growth rates within a window 
 at its ends.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
@@ -17,9 +15,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import Column, Variable
+from disc_model.data.variables import Column
 from disc_model.studies.document import CampbellOptions
-from disc_model.studies.grids.points import listed
+from disc_model.studies.grids.points import Coordinate, listed
 
 Array = NDArray[np.float64]
 
@@ -47,10 +45,7 @@ COLUMNS: Mapping[str, Column] = {
     "crossing_growing_mode": Column("1", "number of the mode whose growth rate rises most", dims=_EACH, whole=True),
     "crossing_effect": Column("1", "what the growth rates do at the crossing", EFFECTS, dims=_EACH),
 }
-
-
-def coordinates(options: CampbellOptions) -> dict[str, tuple[Any, Variable]]:
-    return {"crossing": (np.arange(1, options.max_crossings + 1), Variable("1", "number of the crossing"))}
+COORDINATES = {"crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))}
 
 
 class Crossing(NamedTuple):

@@ -5,8 +5,6 @@ intervals assume independent samples. Quasi-random samples are more even, so tha
 failed sample is neither stable nor unstable: the lower and upper ends of an interval count it as one and as the other.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,9 +13,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
-from disc_model.data.variables import Column, Variable, flag_names
+from disc_model.data.variables import Column, flag_names
 from disc_model.studies.document import SensitivityOptions
-from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE
+from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE, Coordinate
 
 Array = NDArray[np.float64]
 
@@ -47,15 +45,12 @@ COLUMNS: Mapping[str, Column] = {
         "1", "share of samples that the indices leave out: an output is missing", dims=("output",)
     ),
 }
-
-
-def coordinates(options: SensitivityOptions) -> dict[str, tuple[Any, Variable]]:
-    return {
-        "cycle_class": (np.array(KNOWN), Variable("", "class of the cycle near the static start")),
-        "outcome_class": (np.array(FOLLOWED), Variable("", "what becomes of the static start")),
-        "output": (np.array(OUTPUTS), Variable("", "of what the indices are")),
-        "parameter": (np.array(sorted(options.distributions)), Variable("", "distributed parameter")),
-    }
+COORDINATES = {
+    "cycle_class": Coordinate("", "class of the cycle near the static start", lambda o: KNOWN),
+    "outcome_class": Coordinate("", "what becomes of the static start", lambda o: FOLLOWED),
+    "output": Coordinate("", "of what the indices are", lambda o: OUTPUTS),
+    "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
+}
 
 
 def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
