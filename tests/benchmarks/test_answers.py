@@ -184,8 +184,8 @@ def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_t
 def test_it_is_written(dataset: xr.Dataset) -> None:
     text = report.to_markdown(dataset)
     assert dataset.attrs["machine"] in text
-    assert "| late | tol=1 | - | - | 2 | wrong | none: no separation within 55 s |" in text
-    assert "## First separation\n\nRight to 0.1 s." in text
+    assert "| late | tol=1 | - | - | - | 0 | - | 2 | wrong | none | no separation within 55 s |" in text
+    assert "## First separation: to 0.1 s, reference to" in text
     models = report.points(dataset).query("line == 'rigid' and answer == 'first_separation'")
     assert report.right_numbers(models) == "4, 8"
 

@@ -37,12 +37,6 @@ from disc_model.simulation.result import State
 
 DATA = Path(__file__).parent / "data"
 REFERENCED = ("stick_slip", "separating", "many_modes")
-TITLES = {
-    "stick_slip": "stick-slip",
-    "separating": "separating",
-    "many_modes": "many modes",
-    "rigid": "rigid disc",
-}
 JUDGED = ("stick_slip", "separating")
 """Scenes for short comparisons of methods: a second each."""
 CONVERGED = 1e-6

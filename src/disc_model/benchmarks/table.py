@@ -8,10 +8,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
-from disc_model.benchmarks.texts import TEXTS, as_markdown
+from disc_model.benchmarks.texts import report
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) required of the other methods."""
@@ -98,31 +97,13 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
-    """The table as Markdown: a section per scene, with the machine above and the orders beside each method."""
-    frame, labels = table(dataset), {name: method.label for name, method in METHODS.items()}
-    headlines = [
-        {"title": scenes.TITLES[scene], "others": [{"label": label, "ratio": ratio} for ratio, label in others]}
-        for scene, found in headline(measured_points(dataset)).items()
-        if (others := sorted((ratio, labels[name]) for name, ratio in found.items() if name != "series"))
+    """The table as Markdown: a section per scene, with machine and `headline` above."""
+    about = [
+        f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats. `times series` is the cost over that of "
+        "the series engine at the same event-time error. A dash: events are missing or invented, or not measured."
     ]
-    shown = frame.assign(
-        method=frame["method"].map(labels),
-        verdict=frame["verdict"].str.replace("_", " "),
-        order=[*map(_order_text, frame["order_event"], frame["order_theory"])],
-    )
-    numbers = {"cost": "seconds_per_simulated_second", "event-time error (s)": "event_time_error"}
-    numbers |= {"state error": "state_error", "x series": "times_series"}
-    for title, name in numbers.items():
-        shown[title] = [f"{x:.2g}" if math.isfinite(x) else "-" for x in frame[name]]
-    columns = ["method", "setting", "verdict", *[*numbers][:3], "events", "order", "x series"]
-    sections = [
-        {"title": scenes.TITLES[str(scene)], "table": as_markdown(part[columns])}
-        for scene, part in shown.groupby("scene", sort=False)
-    ]
-    return TEXTS["table"].fill(machine=dataset.attrs["machine"], headlines=headlines, scenes=sections)
-
-
-def _order_text(found: float, theory: float) -> str:
-    if not math.isfinite(found):
-        return "-"
-    return f"{found:.1f} ({theory:.2g})" if math.isfinite(theory) else f"tol^{found:.2f}"
+    for scene, found in headline(measured_points(dataset)).items():
+        others = sorted((ratio, METHODS[name].label) for name, ratio in found.items() if name != "series")
+        listed = ", ".join(f"{label} {ratio:.3g}" for ratio, label in others)
+        about.append(f"{scene}, times the cost of the series engine, to {DEFAULT:g} s: {listed}.")
+    return report(dataset.attrs["title"], "\n\n".join(about), table(dataset), "scene")

@@ -76,14 +76,31 @@ def truncation_study(
     growth: bool = True,
 ) -> xr.Dataset:
     """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none."""
-    coords = {"normalization": normalizations, "circles": circles, "diameters": diameters}
-    study = measured(coords, VARIABLES, lambda norm, c, d: _measure(norm, d, c, horizon, growth))
-    cases = json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True)
-    return study.assign_attrs(_compared(), title="What a study needs of the modes", cases=cases)
+
+    def measure(normalization: str, circles: int, diameters: int) -> dict[str, float]:
+        size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}
+        cases = {name: Parameters(**case, **size) for name, case in CASES[normalization].items()}
+        p, modes = cases["separation"], mode_arrays(cases["separation"])
+        compliance = float(np.sum(modes.psi**2))
+        row = _of_the_modes(p, cases["growth"] if growth else None) | _separating(p, horizon, (0.0, AFTER))
+        row |= {"omega_max": float(modes.omega.max()), "compliance": compliance}
+        row |= {"impact_share": 1.0 / (1.0 + p.m * compliance)} | _contact_range(cases["range"])
+        if "separations" in row:
+            row["separations"] += 1 / AFTER  # the first one
+        return {name: value for name, value in row.items() if name in VARIABLES}
+
+    study = measured({"normalization": normalizations, "circles": circles, "diameters": diameters}, VARIABLES, measure)
+    return _described(study, "What a study needs of the modes", {name: CASES[name] for name in normalizations})
 
 
-def _compared() -> dict[str, Any]:
-    return {"Conventions": "CF-1.11", "compared_with": json.dumps(RICH), "band": BAND}
+def _described(study: xr.Dataset, title: str, cases: Mapping[str, Any], **more: Any) -> xr.Dataset:
+    more |= {
+        "title": title,
+        "cases": json.dumps(cases, sort_keys=True),
+        "band": BAND,
+        "compared_with": json.dumps(RICH),
+    }
+    return study.assign_attrs({"Conventions": "CF-1.11"} | more)
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
@@ -125,83 +142,60 @@ def contact_study(
     def measure(case: str, contact: str, model: str) -> dict[str, float]:
         diameters, circles = map(int, model.split(","))
         p = Parameters(**named[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
-        return _through_separation(p, horizon)
+        few = real_modes(diameters, circles) <= MOST_GROWTH
+        row = _of_the_modes(p, p if few else None) | _separating(p, horizon, LATE)
+        return row | {"contact_compliance": contact_compliance(p)}
 
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
-    coords = {"case": [*named], "contact": [*CONTACTS], "model": sizes}
-    return measured(coords, CONTACT_VARIABLES, measure).assign_attrs(
-        _compared(),
-        title="What residual flexibility changes",
-        cases=json.dumps(dict(named), sort_keys=True),
-        late=json.dumps(LATE),
-        most_growth=MOST_GROWTH,
-        horizon=horizon,
-        machine=machine(),
-    )
+    study = measured({"case": [*named], "contact": [*CONTACTS], "model": sizes}, CONTACT_VARIABLES, measure)
+    about = {"late": json.dumps(LATE), "most_growth": MOST_GROWTH, "horizon": horizon, "machine": machine()}
+    return _described(study, "What residual flexibility changes", dict(named), **about)
 
 
-def _through_separation(p: Parameters, horizon: float) -> dict[str, float]:
-    """A row of `contact_study`."""
-    row = _of_the_modes(p) | {"contact_compliance": contact_compliance(p)}
-    row["growth_rate"] = float(floquet(p).growth_rate) if row["modes"] <= MOST_GROWTH else math.nan
+def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]:
+    """Quantities that follow from the modes alone, and the growth rate of a cycle, if it is given."""
+    modes = mode_arrays(p)
+    return {
+        "modes": float(real_modes(p.n_diameters, p.n_circles)),
+        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))[0]),
+        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
+        "growth_rate": math.nan if growing is None else float(floquet(growing).growth_rate),
+    }
+
+
+def _separating(p: Parameters, horizon: float, late: tuple[float, float]) -> dict[str, float]:
+    """Cost of the motion up to the first separation, its time, and the motion after it, as of `_late`."""
     quiet = Record(events=False)
     simulate(p, 1e-3, record=quiet)  # compiles
     began = time.process_time()
     first = simulate(p, horizon, stop_at="first_separation", record=quiet)
-    row["cost"] = (time.process_time() - began) / first.final_state.time
+    row = {"cost": (time.process_time() - began) / first.final_state.time}
     if not math.isfinite(first.first_separation):
         return row
     row["first_separation"] = first.first_separation
-    return row | next(filter(None, (_late(p, first.final_state, tol) for tol in TOLERANCES)), {})
+    return row | next(filter(None, (_late(p, first.final_state, *late, tol) for tol in TOLERANCES)), {})
 
 
-def _late(p: Parameters, first: State, tol: float) -> dict[str, float]:
-    """Motion at a time `LATE` after the first separation; empty if the motion cannot be followed so far."""
-    began = time.process_time()
-    run = simulate(p, first.time + LATE[0], tol=tol, initial_state=first, record=Record(events=False))
-    cost = (time.process_time() - began) / LATE[0]
-    seen = _watched(p, run.final_state, LATE[1], tol) if run.status.complete else {}
-    return seen | {"cost_separating": cost, "tol_late": tol} if seen else {}
-
-
-def _watched(p: Parameters, start: State, length: float, tol: float = TOLERANCES[0]) -> dict[str, float]:
-    """Motion for ``length`` s from a state on; empty if it cannot be followed so far."""
+def _late(p: Parameters, start: State, wait: float, length: float, tol: float) -> dict[str, float]:
+    """Motion for ``length`` s, from ``wait`` s after a state on; empty if it cannot be followed so far."""
+    row = {"tol_late": tol}
+    if wait:
+        began = time.process_time()
+        run = simulate(p, start.time + wait, tol=tol, initial_state=start, record=Record(events=False))
+        row["cost_separating"], start = (time.process_time() - began) / wait, run.final_state
+        if not run.status.complete:
+            return {}
     window = Window(start=start.time, stop=start.time + length, rate=20_000.0, envelope=100)
     record = Record(events=False, windows=(window,))
     run = simulate(p, window.stop, tol=tol, initial_state=start, record=record)
     if not run.status.complete:
         return {}
     (seen,) = run.samples
-    return {
+    return row | {
         "separations": run.statistics["separations"] / length,
         "separated_share": run.statistics["time_separation"] / length,
         "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
         "force_max_separating": float(seen["P_max"].max()),
-    }
-
-
-def _measure(normalization: str, diameters: int, circles: int, horizon: float, growth: bool) -> dict[str, float]:
-    size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}
-    cases = {name: Parameters(**case, **size) for name, case in CASES[normalization].items()}
-    p = cases["separation"]
-    modes = mode_arrays(p)
-    compliance = float(np.sum(modes.psi**2))
-    row = _of_the_modes(p) | {
-        "omega_max": float(modes.omega.max()),
-        "compliance": compliance,
-        "impact_share": 1.0 / (1.0 + p.m * compliance),
-        "growth_rate": float(floquet(cases["growth"]).growth_rate) if growth else math.nan,
-    }
-    return row | _contact_range(cases["range"]) | _separating(p, horizon)
-
-
-def _of_the_modes(p: Parameters) -> dict[str, float]:
-    """Quantities that follow from the modes alone."""
-    modes = mode_arrays(p)
-    return {
-        "modes": float(real_modes(p.n_diameters, p.n_circles)),
-        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))[0]),
-        "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
     }
 
 
@@ -211,15 +205,3 @@ def _contact_range(p: Parameters) -> dict[str, float]:
     window = simulate(p, WINDOW[1], record=record).samples[0]
     cost = float(np.median([simulate(p, 1.0).statistics["wall_time"] for _ in range(11)]))
     return {"force_min": float(window["P_min"].min()), "force_max": float(window["P_max"].max()), "cost": cost}
-
-
-def _separating(p: Parameters, horizon: float) -> dict[str, float]:
-    """First separation, and the motion in the second after it."""
-    first = simulate(p, horizon, stop_at="first_separation")
-    if not math.isfinite(first.first_separation):
-        return {}
-    after = _watched(p, first.final_state, AFTER)
-    if after:
-        after["separations"] += 1 / AFTER  # the first one
-    after.pop("u_range", None)
-    return after | {"first_separation": first.first_separation}

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
-import math
 
 import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerVerdict
-from disc_model.benchmarks.texts import TEXTS, as_markdown
+from disc_model.benchmarks import texts
+from disc_model.benchmarks.answers.questions import AnswerVerdict
+from disc_model.data.variables import flag_names
 
 MODELS = ("rigid", "residual")
+COLUMNS = ["answer", "label", "at", "found", "low", "high", "cells", "error", "seconds", "verdict", "status", "message"]
+"""Columns of the report."""
 
 
 def points(dataset: xr.Dataset) -> pd.DataFrame:
@@ -36,33 +38,17 @@ def within(enough: float, units: str) -> str:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The tables as Markdown: a section per question, its correct answer and tolerance; the machine stands above."""
-    sections = []
-    for question, part in points(dataset).groupby("answer", sort=False):
-        own = json.loads(dataset.attrs["questions"])[question]
-        table = {
-            "line": part["label"],
-            "setting": part["at"],
-            f"found ({_unit(own['units'])})": [*map(_found, part["found"], part["low"], part["high"], part["cells"])],
-            "error": [_short(error, 3) for error in part["error"]],
-            "time (s)": [_short(seconds, 3) for seconds in part["seconds"]],
-            "verdict": [VERDICT_WORDS[verdict].replace("_", " ") for verdict in part["verdict"]],
-            "status": [
-                ": ".join(filter(None, (STATUS_WORDS[status].replace("_", " "), message)))
-                for status, message in zip(part["status"], part["message"], strict=True)
-            ],
-        }
-        passage = {"title": own["title"].capitalize(), "within": within(own["enough"], own["units"])}
-        sections.append({**passage, "error": own["error"], "table": as_markdown(pd.DataFrame(table))})
-    return TEXTS["answers"].fill(machine=dataset.attrs["machine"], questions=sections)
-
-
-def _found(value: float, low: float, high: float, cells: int) -> str:
-    bounds = f" ({_short(low)} to {_short(high)})" if math.isfinite(value) and low < high else ""
-    return _short(value) + bounds + (f", {cells} cells" if cells else "")
-
-
-def _short(number: float, digits: int = 8) -> str:
-    return f"{number:.{digits}g}" if math.isfinite(number) else "-"
+    about = (
+        f"Machine: {dataset.attrs['machine']}, one core. A dash: no answer. The error of the lines of modes is that of "
+        "the model, against the richest disc; that of the others is of the numbers, with nine modes."
+    )
+    titles = {
+        name: f"{own['title'].capitalize()}: to {within(own['enough'], own['units'])}, reference to {own['error']}"
+        for name, own in json.loads(dataset.attrs["questions"]).items()
+    }
+    frame = points(dataset).assign(**{name: flag_names(dataset[name]) for name in ("verdict", "status")})
+    frame["answer"] = frame["answer"].map(titles)
+    return texts.report(dataset.attrs["title"], about, frame[COLUMNS], "answer")
 
 
 def _unit(units: str) -> str:
