@@ -1,25 +1,202 @@
 """Write what README and docs say about speed and the number of modes, from the datasets of one run of the benchmark.
 
-What was not measured is left as it was.
+The numbers of the run are stored as ``docs/benchmark.json`` and ``docs/contact_truncation.json``. All passages are
+written from these files, so that one run refreshes every number, and a test detects outdated pages. What was not
+measured is left as it was.
 """
 
 import json
+import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pandas as pd
+import xarray as xr
 from docs.make_gallery import shrink
 
-from disc_model.benchmarks import pages, truncation_pages
+from disc_model.benchmarks import truncation_pages
+from disc_model.benchmarks.answers import report
+from disc_model.benchmarks.answers.questions import QUESTIONS
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.scenes import CONVERGED, JUDGED
+from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
+from disc_model.benchmarks.texts import as_markdown
 from disc_model.data.dataset import load
+from disc_model.data.texts import read_passages
 from disc_model.errors import DiscModelError, script
 
 SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
+STORED = ("benchmark", "contact_truncation")
+"""Files of the numbers of a run: on speed, and on the number of modes."""
+PAGES = ("README.md", "docs/method.md", "docs/benchmark.md", "docs/truncation.md")
+"""Pages with passages."""
+FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "contact_truncation")
+"""Figures that are shown in docs/gallery."""
+TEXTS = read_passages(Path(__file__).with_name("benchmark_texts.yaml"))
+LETTERS = dict(zip(JUDGED, "ab", strict=True))
+"""Panel letters of the scenes in the overview."""
+Rows = list[dict[str, Any]]
+Table = dict[str, dict[Any, Any]]
+"""Cells by the names of line and column."""
 
 
-def store(run: Mapping[str, Any], path: Path) -> None:
-    """Write the numbers of passages."""
+def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
+    """Numbers of a run for the pages; ``as_avx2`` is of kernels compiled for a processor with AVX2 only.
+
+    Raises
+    ------
+    disc_model.errors.DiscModelError
+        If they were not measured on the same machine.
+    """
+    machines = {dataset.attrs["machine"] for dataset in (work_precision, as_avx2, answers)}
+    if len(machines) > 1:
+        raise DiscModelError(
+            f"the datasets are of one machine each, {' and '.join(sorted(machines))}: measure all anew"
+        )
+    points, narrow = measured_points(work_precision), measured_points(as_avx2)
+    return {
+        "machine": machines.pop(),
+        "versions": json.loads(work_precision.attrs["versions"]),
+        "own": _own(points),
+        "narrow": _own(narrow),
+        "narrowly": [{"times": times["heyoka"]} for times in headline(narrow).values() if "heyoka" in times],
+        "glue": _glue(points[points["solver"] == "heyoka"]),
+        "call": _whole_call(points[points["scene"] == JUDGED[0]]),
+        "costs": _costs(points),
+        "answers": _answers(report.points(answers)),
+    }
+
+
+def _own(points: pd.DataFrame) -> Rows:
+    """Cost (ms) and error (s) of the series engine at its default, by scene."""
+    found = at_default(points[points["scene"].isin(JUDGED)])
+    return [
+        {"letter": LETTERS[p["scene"]], "ms": 1e3 * p["further"], "error": p["event_error"]}
+        for p in found.to_dict("records")
+    ]
+
+
+def _whole_call(points: pd.DataFrame) -> Rows:
+    """Milliseconds of a whole call of `simulate` for the first scene's second, and the ratio of heyoka's time to it.
+
+    heyoka's time is that of its integration alone, at the error of `headline`.
+    """
+    rival = cost_at(points[points["solver"] == "heyoka"], DEFAULT, "seconds")
+    calls = points["whole_call"].head(1)
+    return [{"ms": 1e3 * call, "times": rival / call} for call in calls if math.isfinite(rival)]
+
+
+def _glue(heyoka: pd.DataFrame) -> Rows:
+    """Percentage of heyoka's time spent in Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
+    known = heyoka[heyoka["glue"].notna() & heyoka["scene"].isin(JUDGED)]
+    off = np.abs(np.log(known["event_error"] / DEFAULT))
+    nearest = known.loc[off.groupby(known["scene"], sort=False).idxmin()]
+    return [{"letter": LETTERS[p["scene"]], "share": 100.0 * p["glue"]} for p in nearest.to_dict("records")]
+
+
+def _costs(points: pd.DataFrame) -> Table:
+    """Cost by method, cheapest first: times that of the series engine, and on the almost rigid disc in ms a second."""
+    times = {f"({LETTERS[scene]}), times": pd.Series(found) for scene, found in headline(points).items()}
+    rigid = points[points["scene"] == "rigid"].groupby("solver")
+    stiff = pd.Series({name: 1e3 * cost_at(line, CONVERGED, "cost") for name, line in rigid}, dtype=float)
+    table = pd.DataFrame({**times, "(d), ms": stiff})
+    table = table.assign(least=table[[*times]].min(axis=1)).sort_values(["least", "(d), ms"]).drop(columns="least")
+    return {METHODS[str(name)].label: line.dropna().to_dict() for name, line in table.iterrows() if line.notna().any()}
+
+
+def _answers(found: pd.DataFrame) -> Table:
+    """By line and question: cheapest correct answer, and settings that answer wrongly without a warning.
+
+    Of models: the numbers of nodal diameters with which they answer correctly.
+    """
+    table: Table = {}
+    for (label, line, name), part in found.groupby(["label", "line", "answer"], sort=False):
+        best = part[part["correct"]].nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
+        cell = {"wrong": part["setting"][part["wrong"]].tolist()} | (best[0] if best else {})
+        table.setdefault(str(label), {})[name] = report.right_numbers(part) if line in report.MODELS else cell
+    return table
+
+
+# ----------------------------------------------------------------------------------------------------
+# Passages
+
+
+def passages(run: Mapping[str, Any]) -> dict[str, str]:
+    """Texts by the name that pages refer to."""
+    costs, answers = run["costs"], run["answers"]
+    first = answers["series (this package)"]["first_separation"]
+    cycle = answers["series, from the cycle itself"]["growth_rate"]
+    heads = [*(f"({own['letter']}), times" for own in run["own"]), "(d), ms"]
+    asked = {
+        name: f"{own.title}, to {report.within(own.enough, own.units)}"
+        for name, own in QUESTIONS.items()
+        if any(name in line for line in answers.values())
+    }
+    known = {name: run[name] for name in ("machine", "own", "narrow", "narrowly", "glue", "call")}
+    return {
+        "machine": run["machine"],
+        "first_separation": f"{1e3 * first['seconds']:.0f} ms with `{first['at']}`",
+        "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
+        "speed": TEXTS["speed"].fill(**known, errors=run["own"], table=_printed(costs, {head: head for head in heads})),
+        "answers": f"\n\n{_printed(answers, asked)}\n",
+    }
+
+
+def stored_passages(docs: Path) -> dict[str, str]:
+    """All passages of the stored run, those on the number of modes among them."""
+    speed, modes = (json.loads((docs / f"{name}.json").read_text(encoding="utf-8")) for name in STORED)
+    return passages(speed) | truncation_pages.passages(modes)
+
+
+def _printed(table: Table, titles: Mapping[str, str]) -> str:
+    rows = ({title: _cell(line.get(name)) for name, title in titles.items()} for line in table.values())
+    return as_markdown(pd.DataFrame([{"method": label} | row for label, row in zip(table, rows, strict=True)]))
+
+
+def plain(number: float) -> str:
+    """A number with two digits, without a power of ten."""
+    return f"{float(f'{number:.2g}'):,.10g}"
+
+
+def _cell(found: Any) -> str:
+    """A cost, the cheapest answer with its setting, or numbers of diameters."""
+    if found is None or isinstance(found, float):
+        return "-" if found is None else plain(found)
+    if isinstance(found, str):
+        return found or "no number"
+    wrong = f"wrong at {', '.join(f'{setting:g}' for setting in found['wrong'])}" if found["wrong"] else ""
+    if "seconds" not in found:
+        return wrong or "no answer"
+    return f"{plain(found['seconds'])} s ({'; '.join(filter(None, (found['at'], wrong)))})"
+
+
+def fill(text: str, known: Mapping[str, str]) -> str:
+    """A page whose passages, ``<!-- bench NAME -->...<!-- end -->``, are written anew.
+
+    Raises
+    ------
+    disc_model.errors.DiscModelError
+        For a name that is not known.
+    """
+
+    def passage(match: re.Match[str]) -> str:
+        name = match["name"]
+        if name not in known:
+            raise DiscModelError(f"no passage of the benchmark is called {name!r}; there are {', '.join(known)}")
+        return f"<!-- bench {name} -->{known[name]}<!-- end -->"
+
+    return re.sub(r"<!-- bench (?P<name>\w+) -->.*?<!-- end -->", passage, text, flags=re.DOTALL)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Files
+
+
+def _store(run: Mapping[str, Any], path: Path) -> None:
     path.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
@@ -32,14 +209,14 @@ def main(bench: str = "results/bench", root: str = "") -> None:
         raise DiscModelError(f"{bench} holds no measurements: make bench")
     docs = top / "docs"
     if there.keys() >= SPEED:
-        run = pages.summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
-        store(run, docs / "benchmark.json")
+        run = summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
+        _store(run, docs / "benchmark.json")
     if "contact_truncation" in there:
-        store(truncation_pages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
-    known = pages.stored_passages(docs)
-    for page in (top / name for name in pages.PAGES):
-        page.write_text(pages.fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")
-    for name in pages.FIGURES:
+        _store(truncation_pages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
+    known = stored_passages(docs)
+    for page in (top / name for name in PAGES):
+        page.write_text(fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")
+    for name in FIGURES:
         source = folder / "figures" / f"{name}.png"
         if source.is_file():  # else the picture stays as it was
             shrink(source, docs / "gallery" / f"{name}.png")

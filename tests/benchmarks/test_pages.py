@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import pages
 from disc_model.errors import DiscModelError
+from docs import write_benchmark_pages as pages
 from tests.benchmarks.conftest import dataset, known
 from tests.benchmarks.test_answers import dataset as answers
 

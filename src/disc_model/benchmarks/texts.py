@@ -1,4 +1,4 @@
-"""The texts of passages and reports, read from ``texts.yaml``, and what stands in them."""
+"""The texts of passages, read from ``texts.yaml``, and tables and reports in Markdown."""
 
 from __future__ import annotations
 
@@ -11,11 +11,6 @@ from disc_model.data.dataset import markdown_table
 from disc_model.data.texts import read_passages
 
 TEXTS = read_passages(Path(__file__).with_name("texts.yaml"))
-
-
-def plain(number: float) -> str:
-    """A number with two digits, without a power of ten."""
-    return f"{float(f'{number:.2g}'):,.10g}"
 
 
 def as_markdown(frame: pd.DataFrame) -> str:
