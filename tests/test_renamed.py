@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 import disc_model
 from disc_model import cli
-from disc_model.data.variables import SCALARS, Column
+from disc_model.data.variables import SCALARS, Variable
 from disc_model.errors import faults_of
 from disc_model.figures.kinds import KINDS, Mark
 from disc_model.renamed import RENAMED, renamed
@@ -19,7 +19,7 @@ from disc_model.studies.grids.summaries import summary_of
 MODELS: list[type[BaseModel]] = [*(entry.stated for entry in QUANTITIES.values()), *KINDS.values(), Mark, RecordSpec]
 
 
-def columns(quantity: str) -> dict[str, Column]:
+def columns(quantity: str) -> dict[str, Variable]:
     """Variables of the datasets of a quantity."""
     module = importlib.import_module(f"disc_model.studies.grids.quantities.{quantity}")
     summary = summary_of(quantity)

@@ -82,10 +82,10 @@ def choose_modes(
     """
     quantity, faults = checked_quantity("quantity", quantity)
     tolerance, more = checked_tolerance("tolerance", CHOSEN_BY.get(quantity, 1.0) if tolerance is None else tolerance)
-    counts = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
+    pair = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
     others = violations(
         (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
-        (counts, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
+        (pair, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
         (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
     )
     raise_faults([*faults, *more, *others])

@@ -265,18 +265,10 @@ class Checked(Strict, metaclass=_OwnNames):
     @classmethod
     def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
         """A signature of plain types, without the machinery that checks them."""
-        types = get_type_hints(cls)
-        fields = {
-            name: inspect.Parameter.empty if field.is_required() else field.default
-            for name, field in cls.model_fields.items()
-        }
-        named = inspect.Parameter.KEYWORD_ONLY
-        cls.__signature__ = inspect.Signature(
-            [
-                inspect.Parameter(name, named, default=default, annotation=types[name])
-                for name, default in fields.items()
-            ]
-        )
+        types, named, none = get_type_hints(cls), inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.empty
+        fields = {name: none if field.is_required() else field.default for name, field in cls.model_fields.items()}
+        named_ones = [inspect.Parameter(name, named, default=x, annotation=types[name]) for name, x in fields.items()]
+        cls.__signature__ = inspect.Signature(named_ones)
 
     def __init__(self, /, *unnamed: Any, **data: Any) -> None:
         if unnamed:

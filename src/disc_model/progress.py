@@ -38,7 +38,6 @@ def simulating(progress: Progress, t_end: float) -> Iterator[Callable[[float], o
         reached = min(float(now), t_end)
         if line is None and time.perf_counter() - began > PATIENCE:
             line = _Line(f"simulating {t_end:g} s", t_end)
-            line.start()
         if line is not None:
             line.show(f"simulating: {reached:.2f} of {t_end:g} s", reached)
 
@@ -83,8 +82,6 @@ class _Kernels(event.Listener):
         self.depth += 1
         if self.depth == 1:
             self.began = time.perf_counter()
-            if self.line is not None:
-                self.line.start()
         self._show()
 
     def on_end(self, found: Any) -> None:
@@ -99,7 +96,6 @@ class _Kernels(event.Listener):
     def _show(self) -> None:
         if self.line is None and self.seconds + time.perf_counter() - self.began > UNNOTICED:
             self.line = _Line(COMPILING)
-            self.line.start()
         if self.line is not None:
             self.line.show(f"{COMPILING}, {self.count} parts done", self.count)
 
@@ -109,7 +105,7 @@ class _Kernels(event.Listener):
 
 
 class _Line:
-    """Progress in one line, from `start` to `stop`, which may repeat, and finally `close`.
+    """Progress in one line, by `show` and `stop`, which may repeat, and finally `close`.
 
     Parameters
     ----------
@@ -138,13 +134,10 @@ class _Line:
         else:
             print(text, file=sys.stderr, flush=True)
 
-    def start(self) -> None:
+    def show(self, text: str, count: float) -> None:
+        """Start or continue the display, with this text and count."""
         if self.bar is not None:
             self.bar.start()
-
-    def show(self, text: str, count: float) -> None:
-        """Update the text and the count."""
-        if self.bar is not None:
             self.bar.update(self.task, description=text, completed=count)
         elif self.handle is not None:
             filled = round(WIDTH * count / self.total) if self.total else 0

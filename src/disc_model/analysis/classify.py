@@ -193,17 +193,14 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     # half a period of the dominant oscillation
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
-    share, lowest, speed = [], [], []
-    for i in starts:
-        cycle = height[max(0, i - half) : i + half + 1]
-        swing = float(np.ptp(cycle)) or 1.0
-        share.append((height[i] - cycle.min()) / swing)
-        ahead = height[i : i + half + 1]
-        lowest.append((height[i] - ahead.min()) / swing)
-        speed.append(velocity[i])
-    if not share:
+    if not len(starts):
         raise ValueError("no separation")
-    where, drop, moving = (float(np.median(x)) for x in (share, lowest, speed))
+    found = []
+    for i in starts:
+        cycle, ahead = height[max(0, i - half) : i + half + 1], height[i : i + half + 1]
+        swing = float(np.ptp(cycle)) or 1.0
+        found.append(((height[i] - cycle.min()) / swing, (height[i] - ahead.min()) / swing, velocity[i]))
+    where, drop, moving = np.median(found, axis=0).tolist()
     if where <= bound:
         kind = "at the lowest position"
     elif where >= 1 - bound:

@@ -53,11 +53,17 @@ OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETT
 
 
 class Variable(NamedTuple):
-    """Unit, name in words and, for a flag, the words that its values stand for."""
+    """Unit, name in words and, for a flag, the words that its values stand for.
+
+    dims : dimensions beyond those of the grid, for a variable that is computed at the points of a grid
+    whole : whether its values are whole numbers
+    """
 
     units: str
     long_name: str
     flags: tuple[str, ...] = ()
+    dims: tuple[str, ...] = ()
+    whole: bool = False
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -68,20 +74,6 @@ class Variable(NamedTuple):
             found["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
             found["flag_meanings"] = " ".join(self.flags)
         return found
-
-
-class Column(NamedTuple):
-    """A `Variable` that is computed at the points of a grid, with its dimensions beyond the grid's."""
-
-    units: str
-    long_name: str
-    flags: tuple[str, ...] = ()
-    dims: tuple[str, ...] = ()
-    whole: bool = False
-
-    @property
-    def variable(self) -> Variable:
-        return Variable(self.units, self.long_name, self.flags)
 
     @property
     def dtype(self) -> type[np.generic]:
@@ -165,14 +157,6 @@ EXCLUDED = "excluded"
 """Flag of points that a grid's rule leaves out; other variables have no value there."""
 SAMPLE = "sample"
 """The dimension of a grid that numbers the samples of distributed parameters."""
-_CF_UNITS = {
-    "N m s": "N m s",
-    "N s/m": "N s m-1",
-    "N/m": "N m-1",
-    "m/N": "m N-1",
-    "kg/m^3": "kg m-3",
-    "rad/s": "rad s-1",
-}
 
 
 def attributes(name: str) -> dict[str, Any]:
@@ -194,8 +178,8 @@ def flag_names(variable: Any) -> np.ndarray:
 
 def _parameter_variable(name: str) -> Variable:
     field = Parameters.model_fields[name]
-    unit = Parameters.unit(name) or "1"
-    return Variable(_CF_UNITS.get(unit, unit), field.description or name, CHOICES.get(name, ()))
+    unit = re.sub(r"/(\w+?)\^?(\d?)$", lambda below: f" {below[1]}-{below[2] or 1}", Parameters.unit(name) or "1")
+    return Variable(unit, field.description or name, CHOICES.get(name, ()))
 
 
 def typeset(text: str) -> str:

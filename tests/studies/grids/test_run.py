@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.studies.document import QUANTITIES
@@ -20,7 +20,7 @@ P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 
 def quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     """A quantity that stands for a module."""
-    columns = {"status": Column(*STATUS), "value": Column("1", "a number")}
+    columns = {"status": STATUS, "value": Variable("1", "a number")}
     return SimpleNamespace(COLUMNS=columns, compute_point=compute_point)
 
 

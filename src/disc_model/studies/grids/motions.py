@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import PHASES, SERIES, Column
+from disc_model.data.variables import PHASES, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
@@ -36,11 +36,11 @@ _ALONG = ("sample",)
 class Motions:
     """A quantity for `run` that computes histories instead of the study's own quantity."""
 
-    COLUMNS: Mapping[str, Column] = {
-        "status": Column(*STATUS),
-        "length": Column("s", "length of the history"),
-        **{name: Column(*SERIES[name], dims=_ALONG) for name in SHOWN},
-        "phase": Column("1", "phase of the motion", ("none", *PHASES), dims=_ALONG),
+    COLUMNS: Mapping[str, Variable] = {
+        "status": STATUS,
+        "length": Variable("s", "length of the history"),
+        **{name: SERIES[name]._replace(dims=_ALONG) for name in SHOWN},
+        "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=_ALONG),
     }
     COORDINATES: Mapping[str, Coordinate] = {
         "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))

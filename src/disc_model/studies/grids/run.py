@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
-from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Column, Variable, attributes
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import by_motion
 from disc_model.parameters import AUTO, case_of
@@ -172,11 +172,11 @@ def variables_of(quantity: Any, rows: Sequence[Row], options: Any, sizes: Mappin
             if name in row:
                 _store(row[name], array, (i,), column)
         array = array.reshape((*sizes.values(), *array.shape[1:]))
-        variables[name] = xr.Variable((*sizes, *column.dims), array, column.variable.attributes)
+        variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
     return variables
 
 
-def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Column) -> None:
+def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Variable) -> None:
     """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
     room = array.shape[len(place) :]
     if isinstance(value, list):

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.analysis.sobol import share
-from disc_model.data.variables import LONG_TERM_OUTCOMES, Column
+from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.api import make_initial_state, static_start
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
@@ -37,32 +37,34 @@ _EACH, _SHARES, _POOLED, _KNOWN = (
 )
 
 
-def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Column]:
+def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
     bounds = {"": "", "_low": ", lower end of its confidence interval", "_high": ", upper end of it"}
-    return {f"{what}{end}": Column("1", f"share of the starts{that}{more}", dims=dims) for end, more in bounds.items()}
+    return {
+        f"{what}{end}": Variable("1", f"share of the starts{that}{more}", dims=dims) for end, more in bounds.items()
+    }
 
 
 COLUMNS = {
-    "status": Column(*STATUS),
-    "kind": Column("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
-    "attractor_index": Column("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
-    "simulated_time": Column("s", "simulated time until that was known", dims=_EACH),
-    "lost_contact": Column("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
+    "status": STATUS,
+    "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
+    "attractor_index": Variable("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
+    "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
+    "lost_contact": Variable("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("basin_fraction_by_energy", _SHARES),
     **_share("basin_fraction", _POOLED),
     **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
-    "critical_energy": Column("J", "least energy found that leads to lasting separation, by bisection"),
-    "critical_energy_lower": Column("J", "greatest energy below it, in the same direction, that does not"),
-    "critical_energy_sampled": Column("J", "least energy among the starts that come to lasting separation"),
-    "attractor_kind": Column("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
-    "attractor_starts": Column("1", "number of starts that reach it", dims=_KNOWN, whole=True),
-    "attractor_range": Column("m", "range of the slider's height on it", dims=_KNOWN),
-    "attractor_separation_rate": Column("s-1", "separations per second on it", dims=_KNOWN),
-    "attractor_stick_fraction": Column("1", "share of the time spent sticking on it", dims=_KNOWN),
-    "attractor_separation_fraction": Column("1", "share of the time spent separated on it", dims=_KNOWN),
-    "attractor_releases": Column("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
-    "attractor_period": Column("s", "its period, nan if not periodic", dims=_KNOWN),
-    "attractor_growth_rate": Column("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
+    "critical_energy": Variable("J", "least energy found that leads to lasting separation, by bisection"),
+    "critical_energy_lower": Variable("J", "greatest energy below it, in the same direction, that does not"),
+    "critical_energy_sampled": Variable("J", "least energy among the starts that come to lasting separation"),
+    "attractor_kind": Variable("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
+    "attractor_starts": Variable("1", "number of starts that reach it", dims=_KNOWN, whole=True),
+    "attractor_range": Variable("m", "range of the slider's height on it", dims=_KNOWN),
+    "attractor_separation_rate": Variable("s-1", "separations per second on it", dims=_KNOWN),
+    "attractor_stick_fraction": Variable("1", "share of the time spent sticking on it", dims=_KNOWN),
+    "attractor_separation_fraction": Variable("1", "share of the time spent separated on it", dims=_KNOWN),
+    "attractor_releases": Variable("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
+    "attractor_period": Variable("s", "its period, nan if not periodic", dims=_KNOWN),
+    "attractor_growth_rate": Variable("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
 }
 COORDINATES = {
     "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),

@@ -8,7 +8,7 @@ import pandas as pd
 from scipy.stats import wasserstein_distance
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Column, Outcome
+from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate, state_after
 from disc_model.simulation.case import Record
@@ -24,19 +24,21 @@ REPEATS = 1e-11
 """Greatest difference of intervals of a periodic motion, s: rounding leaves 1e-13 s on a cycle."""
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
-    "status": Column(*STATUS),
-    **{name: Column(*SERIES[name], dims=("sample",)) for name in SAMPLED},
-    "phase": Column("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
-    "first_separation": Column(*SCALARS["first_separation"]),
-    "separations": Column("1", "number of separations, transient included", whole=True),
-    "transient_time": Column("s", "time left out before the samples"),
-    "stationary": Column("1", "whether two stretches of samples, at switches, were alike", STEADY),
-    "kind": Column("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
-    "period_events": Column("1", "number of events after which the motion repeats, 0 if that is not shown", whole=True),
-    "period_residual": Column(
+    "status": STATUS,
+    **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
+    "phase": Variable("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
+    "first_separation": SCALARS["first_separation"],
+    "separations": Variable("1", "number of separations, transient included", whole=True),
+    "transient_time": Variable("s", "time left out before the samples"),
+    "stationary": Variable("1", "whether two stretches of samples, at switches, were alike", STEADY),
+    "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
+    "period_events": Variable(
+        "1", "number of events after which the motion repeats, 0 if that is not shown", whole=True
+    ),
+    "period_residual": Variable(
         "s", "largest difference between an interval and the one a period later: what is left of the approach"
     ),
-    "stick_fraction": Column("1", "share of the time spent sticking, transient included"),
+    "stick_fraction": Variable("1", "share of the time spent sticking, transient included"),
 }
 COORDINATES = {"sample": Coordinate("1", "number of the turn after the transient", lambda o: range(1, o.samples + 1))}
 

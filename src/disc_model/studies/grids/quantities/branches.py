@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
@@ -26,18 +26,18 @@ from disc_model.studies.grids.points import DIRECTION, NUMERICAL, STATUS, Coordi
 
 _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
 COLUMNS = {
-    "status": Column(*STATUS),
-    "n_branches": Column("1", "number of branches found", whole=True),
-    "n_continuation_failures": Column("1", "number of cycles that could not be followed", whole=True),
-    "releases": Column("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
-    "separations": Column("1", "separations in a period of the branch", dims=_ONE, whole=True),
-    "value": Column("", "parameter along the branch, SI units", dims=_EACH),
-    "period": Column("s", "period of the cycle", dims=_EACH),
-    "range": Column("m", "range of the slider's height over a period", dims=_EACH),
-    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
-    "sweep_range": Column("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
-    "sweep_separation_rate": Column("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
-    "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
+    "status": STATUS,
+    "n_branches": Variable("1", "number of branches found", whole=True),
+    "n_continuation_failures": Variable("1", "number of cycles that could not be followed", whole=True),
+    "releases": Variable("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
+    "separations": Variable("1", "separations in a period of the branch", dims=_ONE, whole=True),
+    "value": Variable("", "parameter along the branch, SI units", dims=_EACH),
+    "period": Variable("s", "period of the cycle", dims=_EACH),
+    "range": Variable("m", "range of the slider's height over a period", dims=_EACH),
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
+    "sweep_range": Variable("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
+    "sweep_separation_rate": Variable("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
+    "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
 }
 COORDINATES = {
     "direction": DIRECTION,

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.stability.campbell import frequencies
 from disc_model.stability.cycle import CycleStatus
 from disc_model.studies.document import CampbellOptions
@@ -15,18 +15,18 @@ from disc_model.studies.grids.quantities.floquet import STATUSES
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)
 COLUMNS = {
-    "status": Column("1", "what was found near the static start", STATUSES),
-    "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
-    "stick_slip_frequency": Column("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
-    "rotation_frequency": Column("Hz", "turns of the drive per second, f_Omega"),
-    "mode_kind": Column("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
-    "diameters": Column("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
-    "forward_wave_fraction": Column("1", "share of their energy in waves that travel with the slider", dims=_EACH),
-    "sliding_frequency": Column("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
-    "sliding_growth_rate": Column("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
-    "cycle_frequency": Column("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
-    "cycle_growth_rate": Column("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
-    "mac": Column("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
+    "status": Variable("1", "what was found near the static start", STATUSES),
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+    "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
+    "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
+    "mode_kind": Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
+    "diameters": Variable("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
+    "forward_wave_fraction": Variable("1", "share of their energy in waves that travel with the slider", dims=_EACH),
+    "sliding_frequency": Variable("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
+    "sliding_growth_rate": Variable("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
+    "cycle_frequency": Variable("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
+    "cycle_growth_rate": Variable("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
+    "mac": Variable("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
 }
 COORDINATES = {"mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))}
 

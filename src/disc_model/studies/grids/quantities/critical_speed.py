@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from disc_model.data.variables import SCALARS, Column
+from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.studies.document import CriticalSpeedOptions
@@ -25,23 +25,23 @@ preload it is 0.014 at most.
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 COLUMNS = {
-    "status": Column(*STATUS),
-    "critical_speed": Column(
+    "status": STATUS,
+    "critical_speed": Variable(
         "rad s-1",
         "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
         dims=_EACH,
     ),
-    "n_crossings": Column(
+    "n_crossings": Variable(
         "1", "number of speeds found at which separation within the horizon begins or ends", dims=_EACH, whole=True
     ),
-    "crossing": Column(
+    "crossing": Variable(
         "rad s-1", "a speed at which separation begins or ends, upper end of the last interval", dims=_CROSSINGS
     ),
-    "crossing_kind": Column("1", "whether separation begins or ends as the speed rises", KINDS, dims=_CROSSINGS),
-    "scan_first_separation": Column(*SCALARS["first_separation"], dims=("scan_Omega",)),
-    "scan_status": Column(*STATUS, dims=("scan_Omega",)),
-    "simulations": Column("1", "number of simulations", whole=True),
-    "simulated_time": Column("s", "simulated time of all of them"),
+    "crossing_kind": Variable("1", "whether separation begins or ends as the speed rises", KINDS, dims=_CROSSINGS),
+    "scan_first_separation": SCALARS["first_separation"]._replace(dims=("scan_Omega",)),
+    "scan_status": STATUS._replace(dims=("scan_Omega",)),
+    "simulations": Variable("1", "number of simulations", whole=True),
+    "simulated_time": Variable("s", "simulated time of all of them"),
 }
 COORDINATES = {
     "horizon": Coordinate("s", "time within which separation must occur", lambda o: o.horizons),

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, floquet
 from disc_model.studies.document import FloquetOptions
@@ -11,13 +11,13 @@ from disc_model.studies.grids.points import Point
 
 STATUSES = (*(status.value for status in CycleStatus), "failed")
 COLUMNS = {
-    "status": Column("1", "what was found near the static start", STATUSES),
-    "growth_rate": Column("s-1", "growth rate of disturbances of the stick-slip cycle"),
-    "period": Column("s", "period of the stick-slip cycle"),
-    "stick_fraction": Column("1", "share of the period spent sticking"),
-    "multiplier_re": Column("1", "real part of the leading multiplier"),
-    "multiplier_im": Column("1", "imaginary part of the leading multiplier"),
-    "sliding_growth_rate": Column("s-1", "growth rate of disturbances of steady sliding"),
+    "status": Variable("1", "what was found near the static start", STATUSES),
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+    "period": Variable("s", "period of the stick-slip cycle"),
+    "stick_fraction": Variable("1", "share of the period spent sticking"),
+    "multiplier_re": Variable("1", "real part of the leading multiplier"),
+    "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
+    "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
 }
 
 

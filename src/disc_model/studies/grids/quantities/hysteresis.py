@@ -5,23 +5,23 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.stability.attractor.outcome import sweep
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Coordinate, Point
 
 _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {
-    "status": Column(*STATUS),
-    "sweep_status": Column(*STATUS, dims=_DIMS),
-    "separation_rate": Column("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
-    "P_min": Column("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
-    "P_max": Column("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
-    "stick_fraction": Column("1", "share of the time spent sticking", dims=_DIMS),
-    "slip_fraction": Column("1", "share of the time spent slipping", dims=_DIMS),
-    "separation_fraction": Column("1", "share of the time spent separated", dims=_DIMS),
-    "onset_speed": Column("rad s-1", "speed at which separation first is found on the way up"),
-    "offset_speed": Column("rad s-1", "lowest speed to which it persists without a gap on the way down"),
+    "status": STATUS,
+    "sweep_status": STATUS._replace(dims=_DIMS),
+    "separation_rate": Variable("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
+    "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
+    "P_max": Variable("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
+    "stick_fraction": Variable("1", "share of the time spent sticking", dims=_DIMS),
+    "slip_fraction": Variable("1", "share of the time spent slipping", dims=_DIMS),
+    "separation_fraction": Variable("1", "share of the time spent separated", dims=_DIMS),
+    "onset_speed": Variable("rad s-1", "speed at which separation first is found on the way up"),
+    "offset_speed": Variable("rad s-1", "lowest speed to which it persists without a gap on the way down"),
 }
 COORDINATES = {
     "direction": DIRECTION,

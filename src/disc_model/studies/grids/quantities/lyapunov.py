@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.simulation.api import make_initial_state, state_after
 from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
@@ -14,17 +14,17 @@ from disc_model.studies.grids.points import STATUS, Coordinate, Point
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)
 COLUMNS = {
-    "status": Column(*STATUS),
-    "exponent": Column(
+    "status": STATUS,
+    "exponent": Variable(
         "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
     ),
-    "exponent_error": Column(
+    "exponent_error": Variable(
         "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
     ),
-    "converged": Column("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
-    "trivial_exponent": Column("s-1", "exponent along the motion: 0 but for what the time is too short for"),
-    "averaging_time": Column("s", "time over which the rates are averaged"),
-    "separations": Column("1", "number of separations in that time", whole=True),
+    "converged": Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
+    "trivial_exponent": Variable("s-1", "exponent along the motion: 0 but for what the time is too short for"),
+    "averaging_time": Variable("s", "time over which the rates are averaged"),
+    "separations": Variable("1", "number of separations in that time", whole=True),
 }
 COORDINATES = {
     "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Column, Outcome
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.api import make_initial_state
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome
@@ -16,22 +16,22 @@ from disc_model.studies.grids.points import STATUS, Point
 FEWEST = 4
 """Least number of checks of a motion that give a rate."""
 COLUMNS = {
-    "status": Column(*STATUS),
-    "outcome": Column("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
-    "first_separation": Column(*SCALARS["first_separation"]),
-    "settling_time": Column("s", "time at which the motion was left because it had settled, nan if it was not"),
-    "time_reached": Column(*SCALARS["time_reached"]),
-    "cycle_distance": Column("1", "relative distance from the cycle where the motion was left for it"),
-    "return_map_residual": Column("1", "relative difference of successive cycles at the last probe"),
-    "return_map_residual_rate": Column("s-1", "growth rate of that difference over the last probes"),
-    "P_min": Column("N", "least contact force over the late stretch"),
-    "P_max": Column("N", "greatest contact force over the late stretch"),
-    "u_min": Column("m", "lowest position of the slider over the late stretch, from static equilibrium"),
-    "u_max": Column("m", "highest position of the slider over the late stretch, from static equilibrium"),
-    "stick_fraction": Column("1", "share of the late stretch spent sticking"),
-    "slip_fraction": Column("1", "share of the late stretch spent slipping"),
-    "separation_fraction": Column("1", "share of the late stretch spent separated"),
-    "separation_rate": Column("s-1", "separations per second over the late stretch"),
+    "status": STATUS,
+    "outcome": Variable("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+    "first_separation": SCALARS["first_separation"],
+    "settling_time": Variable("s", "time at which the motion was left because it had settled, nan if it was not"),
+    "time_reached": SCALARS["time_reached"],
+    "cycle_distance": Variable("1", "relative distance from the cycle where the motion was left for it"),
+    "return_map_residual": Variable("1", "relative difference of successive cycles at the last probe"),
+    "return_map_residual_rate": Variable("s-1", "growth rate of that difference over the last probes"),
+    "P_min": Variable("N", "least contact force over the late stretch"),
+    "P_max": Variable("N", "greatest contact force over the late stretch"),
+    "u_min": Variable("m", "lowest position of the slider over the late stretch, from static equilibrium"),
+    "u_max": Variable("m", "highest position of the slider over the late stretch, from static equilibrium"),
+    "stick_fraction": Variable("1", "share of the late stretch spent sticking"),
+    "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
+    "separation_fraction": Variable("1", "share of the late stretch spent separated"),
+    "separation_rate": Variable("s-1", "separations per second over the late stretch"),
 }
 
 

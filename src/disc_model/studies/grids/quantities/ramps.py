@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -15,11 +15,11 @@ from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 _DIMS = ("rate",)
 COLUMNS = {
-    "status": Column(*STATUS),
-    "rate_status": Column(*STATUS, dims=_DIMS),
-    "onset_speed": Column("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
-    "top_separation_rate": Column("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
-    "offset_speed": Column(
+    "status": STATUS,
+    "rate_status": STATUS._replace(dims=_DIMS),
+    "onset_speed": Variable("rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS),
+    "top_separation_rate": Variable("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
+    "offset_speed": Variable(
         "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
     ),
 }

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Column, Outcome
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
@@ -45,23 +45,23 @@ METHODS = ("none", "multipliers", "simulation", "inferred")
 JOINED = ("no", "yes")
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 COLUMNS = {
-    "status": Column(*STATUS),
-    "outcome": Column("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
-    "method": Column("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
-    "first_separation": Column(*SCALARS["first_separation"]),
-    "simulated_time": Column("s", "simulated time"),
-    "cycle": Column("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
-    "growth_rate": Column("s-1", "growth rate of disturbances of the cycle that the static start follows"),
-    "period": Column("s", "period of the cycle"),
-    "releases": Column("1", "number of stick releases in its period", whole=True),
-    "period_ratio": Column("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
-    "branch_continues_first": Column(
+    "status": STATUS,
+    "outcome": Variable("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+    "method": Variable("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
+    "first_separation": SCALARS["first_separation"],
+    "simulated_time": Variable("s", "simulated time"),
+    "cycle": Variable("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle that the static start follows"),
+    "period": Variable("s", "period of the cycle"),
+    "releases": Variable("1", "number of stick releases in its period", whole=True),
+    "period_ratio": Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
+    "branch_continues_first": Variable(
         "1", "whether the cycle continues into the next point's along the plane's first dimension", JOINED
     ),
-    "branch_continues_second": Column(
+    "branch_continues_second": Variable(
         "1", "whether the cycle continues into the next point's along the plane's second dimension", JOINED
     ),
-    "other_cycles": Column("1", "number of other cycles known, followed from neighbours", whole=True),
+    "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
 }
 
 FINE = 2

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
 
-from disc_model.data.variables import SCALARS, Column
+from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
@@ -25,16 +25,16 @@ from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAM
 Array = NDArray[np.float64]
 
 COLUMNS = {
-    "status": Column(*STATUS),
-    "parameter_values": Column(
+    "status": STATUS,
+    "parameter_values": Variable(
         "", "values of the distributed parameters, SI units", dims=("sample_matrix", "parameter")
     ),
-    "cycle": Column("1", "class of the cycle near the static start", SAMPLE_CYCLES, dims=("variant",)),
-    "growth_rate": Column(
+    "cycle": Variable("1", "class of the cycle near the static start", SAMPLE_CYCLES, dims=("variant",)),
+    "growth_rate": Variable(
         "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
     ),
-    "outcome": Column("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
-    "first_separation": Column(*SCALARS["first_separation"]),
+    "outcome": Variable("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
+    "first_separation": SCALARS["first_separation"],
 }
 COORDINATES = {
     "sample_matrix": Coordinate("", "one of the two draws of a sample", lambda o: DRAWS),

@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import Any
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.stability.curves import StabilityCurve, stability_curves
 from disc_model.studies.document import StabilityCurvesOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
@@ -12,21 +12,21 @@ KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
 _ONE, _EACH = ("curve",), ("curve", "curve_point")
 COLUMNS = {
-    "status": Column(*STATUS),
-    "n_curves": Column("1", "number of curves found", whole=True),
-    "n_continuation_failures": Column("1", "number of places at which a curve could not be followed", whole=True),
-    "kind": Column("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE),
-    "x": Column("", "first parameter along the curve, SI units", dims=_EACH),
-    "y": Column("", "second parameter along the curve, SI units", dims=_EACH),
-    "adjoins_stable_cycle": Column("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
-    "period": Column("s", "period of the cycle on the curve", dims=_EACH),
-    "multiplier_re": Column("1", "real part of the leading multiplier", dims=_EACH),
-    "multiplier_im": Column("1", "imaginary part of the leading multiplier", dims=_EACH),
-    "resonance_harmonic": Column("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
-    "resonance_frequency": Column("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
-    "resonance_diameters": Column("1", "l of that resonance", dims=_ONE, whole=True),
-    "resonance_sign": Column("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
-    "resonance_detuning": Column("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
+    "status": STATUS,
+    "n_curves": Variable("1", "number of curves found", whole=True),
+    "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
+    "kind": Variable("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE),
+    "x": Variable("", "first parameter along the curve, SI units", dims=_EACH),
+    "y": Variable("", "second parameter along the curve, SI units", dims=_EACH),
+    "adjoins_stable_cycle": Variable("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
+    "period": Variable("s", "period of the cycle on the curve", dims=_EACH),
+    "multiplier_re": Variable("1", "real part of the leading multiplier", dims=_EACH),
+    "multiplier_im": Variable("1", "imaginary part of the leading multiplier", dims=_EACH),
+    "resonance_harmonic": Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
+    "resonance_frequency": Variable("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
+    "resonance_diameters": Variable("1", "l of that resonance", dims=_ONE, whole=True),
+    "resonance_sign": Variable("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
+    "resonance_detuning": Variable("Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE),
 }
 COORDINATES = {
     "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import Column
+from disc_model.data.variables import Variable
 from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.points import Coordinate, listed
 
@@ -31,19 +31,19 @@ LIKE = 0.75
 conjugate as much, and has 0.5 at most.
 """
 _EACH = ("crossing",)
-COLUMNS: Mapping[str, Column] = {
-    "n_crossings": Column("1", "number of crossings found", whole=True),
-    "crossing_Omega": Column("rad s-1", "speed of the crossing", dims=_EACH),
-    "crossing_frequency": Column("Hz", "frequency of the crossing", dims=_EACH),
-    "crossing_mode": Column("1", "number of the mode", dims=_EACH, whole=True),
-    "crossing_line": Column("1", "what the line is a multiple of", LINES, dims=_EACH),
-    "crossing_multiple": Column("1", "which multiple; half-integer where a period may double", dims=_EACH),
-    "crossing_growth_rate": Column("s-1", "largest growth rate of the cycle within the window", dims=_EACH),
-    "crossing_rise": Column(
+COLUMNS: Mapping[str, Variable] = {
+    "n_crossings": Variable("1", "number of crossings found", whole=True),
+    "crossing_Omega": Variable("rad s-1", "speed of the crossing", dims=_EACH),
+    "crossing_frequency": Variable("Hz", "frequency of the crossing", dims=_EACH),
+    "crossing_mode": Variable("1", "number of the mode", dims=_EACH, whole=True),
+    "crossing_line": Variable("1", "what the line is a multiple of", LINES, dims=_EACH),
+    "crossing_multiple": Variable("1", "which multiple; half-integer where a period may double", dims=_EACH),
+    "crossing_growth_rate": Variable("s-1", "largest growth rate of the cycle within the window", dims=_EACH),
+    "crossing_rise": Variable(
         "s-1", "largest rise of a mode's growth rate within the window over that at its ends", dims=_EACH
     ),
-    "crossing_growing_mode": Column("1", "number of the mode whose growth rate rises most", dims=_EACH, whole=True),
-    "crossing_effect": Column("1", "what the growth rates do at the crossing", EFFECTS, dims=_EACH),
+    "crossing_growing_mode": Variable("1", "number of the mode whose growth rate rises most", dims=_EACH, whole=True),
+    "crossing_effect": Variable("1", "what the growth rates do at the crossing", EFFECTS, dims=_EACH),
 }
 COORDINATES = {"crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))}
 

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import share, sobol_intervals
-from disc_model.data.variables import Column, flag_names
+from disc_model.data.variables import Variable, flag_names
 from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE, Coordinate
 
@@ -27,21 +27,21 @@ OUTPUTS = ("instability", "growth_rate")
 _INDEX = ("output", "parameter")
 
 
-def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Column]:
+def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Variable]:
     given = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
-    return {key: Column("1", value, dims=dims) for key, value in given.items()}
+    return {key: Variable("1", value, dims=dims) for key, value in given.items()}
 
 
-COLUMNS: Mapping[str, Column] = {
-    "n_known_cycles": Column("1", "number of draws, A and B, whose cycle is known", whole=True),
-    "n_known_outcomes": Column("1", "number of draws whose outcome is known", whole=True),
+COLUMNS: Mapping[str, Variable] = {
+    "n_known_cycles": Variable("1", "number of draws, A and B, whose cycle is known", whole=True),
+    "n_known_outcomes": Variable("1", "number of draws whose outcome is known", whole=True),
     **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
     **_with_interval("probability_separation", "probability of separation within the horizon"),
     **_with_interval("cycle_fraction", "share of the draws near whose static start there is this", ("cycle_class",)),
     **_with_interval("outcome_fraction", "share of the followed draws that have this outcome", ("outcome_class",)),
     **_with_interval("sobol_first", "first-order Sobol index", _INDEX),
     **_with_interval("sobol_total", "total Sobol index", _INDEX),
-    "excluded_fraction": Column(
+    "excluded_fraction": Variable(
         "1", "share of samples that the indices leave out: an output is missing", dims=("output",)
     ),
 }
