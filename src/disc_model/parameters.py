@@ -324,7 +324,7 @@ class Checked(Strict, metaclass=_OwnNames):
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
-        return type(self)(**{**{name: getattr(self, name) for name in type(self).model_fields}, **changes})
+        return type(self)(**{**dict(self), **changes})
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -14,10 +14,10 @@ from PIL import Image
 
 from disc_model import Parameters, Poincare, Record, Window, simulate
 from disc_model.data.dataset import Missing, events_dataset
-from disc_model.data.variables import PERTURBATIONS, SHOWN
+from disc_model.data.variables import PERTURBATIONS, SHOWN, values_text
 from disc_model.figures import parts
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
-from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of, parameters_text
+from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of
 from disc_model.figures.paper.disc import film, motion_of
 from disc_model.figures.parts import COLUMN, PAGE, save
 from tests.claims.made_up import DAMAGES, EACH_DAMAGE, damaged
@@ -220,8 +220,8 @@ def test_captions_name_the_parameters_and_the_modes(name: str) -> None:
 def test_parameters_that_are_words_are_said_as_words() -> None:
     """A case with another law of contact ended the whole study: words have no format of numbers."""
     p = Parameters(N=200, Omega=20, contact_compliance="residual", contact_force="normal")
-    assert parameters_text(p) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
-    assert parameters_text(p.replace(contact_compliance=1e-7, contact_force="vertical")).endswith("= 1e-07 m/N")
+    assert values_text(dict(p)) == "N = 200 N, Ω = 20 rad/s, contact_compliance = residual, contact_force = normal"
+    assert values_text(dict(p.replace(contact_compliance=1e-7, contact_force="vertical"))).endswith("= 1e-07 m/N")
 
 
 def test_every_number_that_varies_has_a_symbol() -> None:

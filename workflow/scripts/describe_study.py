@@ -9,9 +9,8 @@ import xarray as xr
 
 from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import load_inputs
-from disc_model.data.variables import STATUSES
+from disc_model.data.variables import STATUSES, values_text
 from disc_model.errors import script
-from disc_model.figures.paper.catalogue import parameters_text
 from disc_model.parameters import Parameters
 
 WORDS = (
@@ -41,7 +40,7 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
                 "Case": name,
                 "Title": str(row["title"].item()),
                 "Place in the paper": str(row["reference"].item()),
-                "Parameters": f"{parameters_text(p)}, {p.contact}, {p.normalization}",
+                "Parameters": f"{values_text(dict(p))}, {p.contact}, {p.normalization}",
                 "Length (s)": float(row["time_reached"]),
                 "First separation (s)": float(row["first_separation"]),
                 "Separations": int(row["n_separations"]),

@@ -14,7 +14,7 @@ from disc_model.claims.measures import CaseView
 from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, Claim
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
-from disc_model.figures.paper.catalogue import parameters_text
+from disc_model.data.variables import values_text
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, plate_modes
 
@@ -156,7 +156,7 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
 
 def _parameters(case: CaseView) -> str:
     p = case.parameters
-    return parameters_text(p) + (", separation ignored" if p.contact == "bonded" else "")
+    return values_text(dict(p)) + (", separation ignored" if p.contact == "bonded" else "")
 
 
 def _first(case: CaseView) -> str:

@@ -255,11 +255,11 @@ def _figures(chosen: Study, grids: Grids, state: StateOf) -> Rows:
 
 
 def _cases(chosen: Study, grids: Grids, state: StateOf) -> Rows:
-    from disc_model.figures.paper.catalogue import parameters_text
+    from disc_model.data.variables import values_text
 
     for name, case in chosen.cases.items():
         made = state(f"results/{chosen.name}/cases/{name}.nc")
-        yield name, case.title, parameters_text(chosen.specs[name].parameters), f"{case.t_end:g}", made
+        yield name, case.title, values_text(dict(chosen.specs[name].parameters)), f"{case.t_end:g}", made
 
 
 LISTS = {

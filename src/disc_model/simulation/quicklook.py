@@ -65,7 +65,7 @@ def quicklook(result: Sampled) -> Figure:
         _mark_separation(axes[:, column], window["time"], result.first_separation)
         axes[-1, column].set_xlabel("Time (s)")
     p = result.parameters
-    figure.suptitle(typeset(f"{values_text(p.model_dump())}, {p.normalization.replace('_', ' ')}, {p.contact}"))
+    figure.suptitle(typeset(f"{values_text(dict(p))}, {p.normalization.replace('_', ' ')}, {p.contact}"))
     return figure
 
 

@@ -25,11 +25,11 @@ from typing import Any, NamedTuple
 import yaml
 from pydantic import ValidationError, create_model
 
-from disc_model.data.variables import PERTURBATIONS, SAMPLE
+from disc_model.data.variables import PERTURBATIONS, SAMPLE, values_text
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, faults_of, suggestion
 from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
-from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking, parameters_text
+from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
@@ -226,7 +226,7 @@ class Study:
         """A figure of cases or of the paper, by its name."""
         if (plot := self.plots.get(name)) is not None:
             stated = plot.caption or f"{plot.title or name}: {plot.case}"
-            stated = f"{stated}, {parameters_text(self.specs[plot.case].parameters)}"
+            stated = f"{stated}, {values_text(dict(self.specs[plot.case].parameters))}"
             return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, stated)
         entry, specs = CATALOGUE[name], self.specs.items()
         stated = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})

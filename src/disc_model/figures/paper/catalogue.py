@@ -122,7 +122,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
     text = entry.caption.format(**_numbers(entry, windows or {}))
     texts: list[str] = []
     for case in entry.cases:
-        values = parameters_text(parameters[case])
+        values = values_text(dict(parameters[case]))
         if values not in texts:
             texts.append(values)
     modes = {parameters[case].normalization for case in entry.cases}
@@ -148,8 +148,3 @@ _MODES = {
     "as_published": "modes scaled as in the published results",
     "orthonormal": "modes normalised as Eq. (17) says",
 }
-
-
-def parameters_text(p: Parameters) -> str:
-    """N, Omega and all values that differ from Table 1, with units."""
-    return values_text({name: getattr(p, name) for name in Parameters.model_fields})
