@@ -3,7 +3,7 @@
 import pytest
 import xarray as xr
 
-from disc_model.claims import measures
+from disc_model.claims import energy, measures
 from tests.claims import made_up
 
 
@@ -15,5 +15,6 @@ def told() -> xr.DataTree:
 
 @pytest.fixture
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Growth rates that fit it, without a search for cycles."""
+    """Growth rates and energies that fit it, without a search for cycles and a simulation."""
+    monkeypatch.setattr(energy, "course", made_up.course_as_told)
     monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)

@@ -17,6 +17,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
+from disc_model.claims.energy import Powers
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
@@ -124,6 +125,23 @@ def cycle_to_the_contrary(p: Parameters) -> Any:
     return SimpleNamespace(
         growth_rate=-told.growth_rate, stick_fraction=1 - told.stick_fraction, multipliers=(-1.1 + 0j,)
     )
+
+
+def _course(p: Parameters, supplied: float) -> tuple[Powers, ...]:
+    """Powers in W by the square of the width in mm: maintained contact supplies twice what damping takes."""
+    if p.contact == "bonded":
+        return tuple(Powers(1e-3 * x, 2.0 * x**2, 0.0, x**2, x**2) for x in range(1, 9))
+    return (Powers(3.5e-3, 12.25 * supplied, 0.0, 12.25, 0.0),) * 4
+
+
+def course_as_told(p: Parameters, until: float) -> tuple[Powers, ...]:
+    """Separation withholds the surplus."""
+    return _course(p, 1.0)
+
+
+def course_to_the_contrary(p: Parameters, until: float) -> tuple[Powers, ...]:
+    """Impacts take the surplus."""
+    return _course(p, 2.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -352,6 +370,8 @@ def scans(
     windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
     damped: str = "separation",
     strong: str = "",
+    soft: tuple[str, ...] = ("separation",) * 3,
+    faster: float = 0.3,
 ) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
 
@@ -359,6 +379,8 @@ def scans(
     discs : outcome on the softest, a softer and the usual one
     windows : rad/s, where separation begins and ends, at three preloads or more
     damped, strong : outcome at large preloads with in-plane damping, and with more of it; growth falls if they separate
+    soft : outcome with the softest spring at 10, 11.25 and 20 rad/s
+    faster : share of stick beyond 15.25 rad/s
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
@@ -370,7 +392,14 @@ def scans(
     map_E = xr.Dataset(
         {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
         {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-        {"base": '{"N": 200}', "options": '{"horizon": 1000}'},
+        {"study": "map_E", "base": '{"N": 200}', "options": '{"horizon": 1000}'},
+    )
+    springs = np.full((3, 3, 1), kinds.index("separation"), dtype=np.int8)
+    springs[:, 2, 0], springs[:, 0, 0] = kinds.index("quiet"), [kinds.index(kind) for kind in soft]
+    map_k = xr.Dataset(
+        {"outcome": (("Omega", "k", "normalization"), springs, flags)},
+        {"Omega": [10.0, 11.25, 20.0], "k": [1e4, 2e4, 1e5], "normalization": ["as_published"]},
+        {"study": "map_k", "base": '{"N": 200}'},
     )
     kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
     crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}
@@ -401,10 +430,13 @@ def scans(
             "growth_rate": (("N", "c_p", "normalization"), np.tile(falls[:, None], (5, 1, 1))),
         },
         {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": dampers},
-        {"base": '{"Omega": 15}', "options": '{"horizon": 1000}'},
+        {"study": "map_c_p", "base": '{"Omega": 15}', "options": '{"horizon": 1000}'},
     )
     plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})
-    return {"bonded": plain, "critical_speed": critical_speed, "map_E": map_E, "map_c_p": map_c_p}
+    sticks = {"stick_fraction": ("Omega", [0.31, 0.3, faster, faster])}
+    diagram = xr.Dataset(sticks, {"Omega": [15.0, 15.25, 15.5, 16.0]})
+    found = {"bonded": plain, "critical_speed": critical_speed, "bifurcation_Omega": diagram}
+    return found | {"map_E": map_E, "map_c_p": map_c_p, "map_k": map_k}
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:

@@ -71,7 +71,7 @@ def test_cases_are_those_that_the_texts_speak_of() -> None:
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:
-    assert sorted({name for claim in CLAIMS for name in claim.texts.scans}) == sorted(SCANS)
+    assert sorted({name for claim in CLAIMS for name in claim.texts.scans + claim.texts.beside}) == sorted(SCANS)
 
 
 @pytest.mark.compiled

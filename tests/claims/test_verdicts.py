@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.analysis import classify
-from disc_model.claims import disc, ledger, measures, section44
+from disc_model.claims import disc, energy, ledger, measures, section44
 from disc_model.claims.ledger import CLAIMS, views
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED, Claim, Finding
@@ -37,6 +37,7 @@ class World:
 
     stories: Mapping[str, Story]
     cycle: Callable[[Parameters], Any] = made_up.cycle_as_told
+    course: Callable[[Parameters, float], Any] = made_up.course_as_told
     scans: Mapping[str, xr.Dataset] = field(default_factory=made_up.scans)
     disc: Mapping[str, Callable[[Parameters], Any]] = field(default_factory=dict)
     claims: tuple[str, ...] = tuple(BY_NAME)
@@ -44,6 +45,7 @@ class World:
     def verdicts(self) -> dict[str, str]:
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(measures, "cycle_of", self.cycle)
+            patch.setattr(energy, "course", self.course)
             for name, function in self.disc.items():
                 for module in (disc, section44):
                     patch.setattr(module, name, function)
@@ -79,6 +81,7 @@ WORLDS = {
     "to the contrary": World(
         made_up.to_the_contrary(),
         made_up.cycle_to_the_contrary,
+        made_up.course_to_the_contrary,
         made_up.scans(0.0, True, ("separation",) * 3, ((20, 21), (15, 16), (10, 11)), "quiet"),
     ),
     "a slower disc": a_disc("P01", "P01h", "P07", plate_modes=slower),
@@ -250,6 +253,10 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
         # "with further increase" has no end
         ("F15a", {}, {}, HOLDS, "of 5..24 rad/s"),
         ("F15a", {"windows": tuple((v, np.nan) for v in (20, 10, 15, 19, 12))}, {}, UNDECIDED, "up to 500 N it does"),
+        # the remark named the speeds of one study, and left some out
+        ("S43k", {}, {}, REMARK, "at 200 N, 20 rad/s, chosen by this study"),
+        ("S43k", {"soft": ("quiet", "quiet", "separation")}, {}, REMARK, "at 10..11.25 rad/s, a spring separates and"),
+        ("S43k", {"soft": ("separation", "quiet", "separation")}, {}, REMARK, "200 N, at 11.25 rad/s, a spring"),
         # a separation that does not end is not short
         ("F03b", None, {}, HOLDS, "0.74 ms, 5 % of the"),
         ("F03c", None, {"F02": without_the_last_reattachment}, FAILS, "the last one of F02 lasts since"),
@@ -430,6 +437,27 @@ def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
     names = ("F02free", "F07free", "F17free")
     sticks = {name: made_up.tell(made_up.SPECS[name], GROWING.but(first=0.01)) for name in names}
     assert judged("C3", xr.DataTree.from_dict({**dict(told.children), **sticks})).verdict == HOLDS
+
+
+def test_lines_and_points_of_another_motion_are_counted() -> None:
+    """A remark said that they were not."""
+    stories = some("F02", "F04", "F06", "F07", "F02free", "F07free")
+    found = judged("S41c", made_up.made_up(stories))
+    assert found.ours.count("; begun in the separated motion of 385 N, 15.1 rad/s: N = 200 N: ") == 1
+    assert "otherwise" not in found.remark
+    fewer = {name: stories[name].but(signal=made_up.few) for name in ("F02free", "F07free")}
+    found = judged("S41c", made_up.made_up(stories | fewer))
+    assert (found.verdict, "it is otherwise" in found.remark) == (REMARK, True)
+    assert "; begun in the separated motion" in judged("S41p", made_up.made_up(stories)).ours
+
+
+@pytest.mark.parametrize("faster", [0.3, 0.15])
+def test_a_jump_that_modes_may_move_is_looked_for(faster: float) -> None:
+    """Its numbers stood in the text."""
+    stories = some("F13", "P03l5", "P03l6", "P03l8") | some("P03l4c1", stick=0.15)
+    found = judged("P03", made_up.made_up(stories), made_up.scans(faster=faster))
+    assert found.verdict == FAILS
+    assert ("from 30.0 to 15.0 %, between 15.25 and 15.50 rad/s" in found.remark) == (faster == 0.15)
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.integrate import fixed_quad
 
-from disc_model.claims.measures import CaseView, phase_share, rate_of
+from disc_model.claims.measures import phase_share, rate_of
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
@@ -41,7 +43,8 @@ def nine_modes() -> Answer:
 
 
 @CHECKS("P03")
-def truncation(*cases: CaseView, seconds: float, share: float) -> Answer:
+def truncation(*evidence: Any, seconds: float, share: float) -> Answer:
+    *cases, speeds = evidence
     first = [case["first_separation"] for case in cases]
     coupled = [coupled_natural_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
     nine, more, circles = (
@@ -56,7 +59,18 @@ def truncation(*cases: CaseView, seconds: float, share: float) -> Answer:
         coupled=coupled,
         changes="" if alike else "not ",
         circles_change="" if with_circles else "not ",
+        jump=[] if speeds is None else _like_jumps(speeds, nine[2], circles[2], share),
     )
+
+
+def _like_jumps(study: xr.Dataset, before: float, after: float, share: float) -> list[dict[str, float]]:
+    """Neighbouring speeds of a diagram between which the share of stick changes as much, to a fraction of both."""
+    speed, stick = study["Omega"].values, study["stick_fraction"].values
+    found = np.isclose(stick[:-1], before, rtol=share, atol=0) & np.isclose(stick[1:], after, rtol=share, atol=0)
+    return [
+        {"before": 100 * stick[i], "after": 100 * stick[i + 1], "low": speed[i], "high": speed[i + 1]}
+        for i in np.flatnonzero(found)
+    ]
 
 
 @CHECKS("P04")

@@ -40,7 +40,7 @@ class Absent(Missing):
 
 
 class Range(NamedTuple):
-    """Least and greatest value; formatted as ``low..high``."""
+    """Least and greatest value; formatted as ``low..high``, or as one number."""
 
     low: float
     high: float
@@ -50,7 +50,7 @@ class Range(NamedTuple):
         return self.high - self.low
 
     def __format__(self, spec: str) -> str:
-        return f"{self.low:{spec}}..{self.high:{spec}}"
+        return f"{self.low:{spec}}" + (f"..{self.high:{spec}}" if self.high != self.low else "")
 
 
 @dataclass(frozen=True)
@@ -83,6 +83,11 @@ class CaseView:
     def bonded(self) -> bool:
         """Whether separation is ignored."""
         return self.parameters.contact == "bonded"
+
+    @property
+    def from_rest(self) -> bool:
+        """Whether it begins with the static start."""
+        return "start" not in self.node.attrs
 
     @property
     def place(self) -> str:
@@ -285,15 +290,14 @@ def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | 
     return besides and motion.kind is kind, ""
 
 
-def another_motion(*pairs: tuple[CaseView, CaseView]) -> list[str]:
-    """Cases that stick although another start leads to a motion that does not, with that motion.
-
-    pairs : a case from the static start, and the same parameters started in a separating motion
-    """
+def another_motion(*cases: CaseView) -> list[str]:
+    """Cases that stick although another start leads to a motion with the same parameters that does not; it is told."""
+    begun = {case.parameters: case for case in cases if not case.from_rest and case.separates}
+    both = [(case, begun[case.parameters]) for case in cases if case.from_rest and case.parameters in begun]
     return [
         f"at {case.place} {_by_separations(other)}"
-        for case, other in pairs
-        if other.separates and stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
+        for case, other in both
+        if stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
 
 
@@ -323,6 +327,13 @@ def extent(values: Iterable[float]) -> Range:
     """Least and greatest of some numbers."""
     found = np.asarray(values)
     return Range(float(found.min()), float(found.max()))
+
+
+def runs(values: Array, inside: NDArray[np.bool_]) -> list[Range]:
+    """The ranges of ascending values that lie inside, each as long as none between them lies outside."""
+    sides = np.diff(np.pad(inside.astype(int), 1))
+    ends = zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1) - 1, strict=True)
+    return [Range(float(values[first]), float(values[last])) for first, last in ends]
 
 
 def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:

@@ -99,6 +99,7 @@ class Text(BaseModel):
     computed : whether it is judged again with each of their parameters changed, which must not need other runs
     simulated : whether it is judged again with each changed in new simulations of the cases, up to their times
     scans : the grid studies that the check is given besides
+    beside : further ones, for remarks only: None instead of one that is missing
     ours : what we found
     remark, remarks : what should be known besides: in any case; where the value of that name is true
     undecided : by name, reasons why the evidence may decide nothing
@@ -120,6 +121,7 @@ class Text(BaseModel):
     computed: bool = False
     simulated: bool = False
     scans: tuple[str, ...] = ()
+    beside: tuple[str, ...] = ()
     ours: str
     remark: str = ""
     remarks: dict[str, str] = {}
@@ -191,7 +193,8 @@ class Claim:
             if quiet:
                 text = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(text, NOT_TESTABLE)
-            scans = [cases[name].node.to_dataset() for name in self.texts.scans]
+            wanted = (*self.texts.scans, *self.texts.beside)
+            scans = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
             found = self._found(self.check(*needed.values(), *scans, **self.numbers), needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:

@@ -11,8 +11,8 @@ import xarray as xr
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.analysis.poincare import distinct_points
-from disc_model.claims import measures
-from disc_model.claims.measures import Absent, Array, CaseView, is_kind, pairs
+from disc_model.claims import energy, measures
+from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
 from disc_model.claims.model import CHECKS, Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
@@ -93,7 +93,7 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
         within=0 < length <= shown,
         irregular=motion.kind is Outcome.IRREGULAR,
         nearby=measures.nearby(motion, beside),
-        another=motion.kind is not Outcome.UNDECIDED and measures.another_motion((case, other)),
+        another=motion.kind is not Outcome.UNDECIDED and measures.another_motion(case, other),
     )
 
 
@@ -134,24 +134,27 @@ def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
 
 
 def _slope_power(case: CaseView) -> tuple[float, float]:
-    """Mean power P f B fed by the contact force into transverse motion, while it is positive and negative, W.
-
-    f B is the velocity of the contact point less that of the disc's material under it. The latter follows from as many
-    angles as the disc has modes.
-    """
-    p = case.parameters
-    windows = [case.samples(f"field{i}") for i in range(2 * p.n_diameters + 1)]
-
-    def waves(angle: Array) -> Array:
-        orders = np.arange(1, p.n_diameters + 1)[:, None] * angle
-        return np.concatenate([np.ones((1, angle.size)), np.cos(orders), np.sin(orders)])
-
+    """Mean power P f B fed by the contact force into transverse motion, while it is positive and negative, W."""
+    windows = [case.samples(f"field{i}") for i in range(2 * case.parameters.n_diameters + 1)]
     theta = np.array([window.attrs["theta"] for window in windows])
-    shares = np.linalg.solve(waves(theta).T, np.stack([window["w_point_velocity"] for window in windows]))
-    one = windows[0]
-    force, angle = one["P"].values, p.Omega * one["time"].values - one["psi"].values
-    power = force * (one["u_velocity"].values - np.sum(shares * waves(angle), axis=0))
-    return float(np.mean(power * (force > 0))), float(np.mean(power * (force < 0)))
+    found = energy.powers(case.parameters, case["u_0"], theta, windows)
+    return found.pushes, found.pulls
+
+
+@CHECKS("F10e")
+def excites_less(*cases: CaseView, part: float) -> Answer:
+    """Whether separation withholds energy that maintained contact supplies, at the amplitude that separation allows."""
+    rows, withheld = [], []
+    for free, bonded in pairs(cases):
+        held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
+        kept = energy.course(bonded.parameters, bonded["time_reached"])
+        there, cycle = energy.at_width(kept, held.width), 1 / measures.rate_of(free, "separation")
+        withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
+        mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
+        mJ |= {"damped": held.damped, "impacts": held.impacts}
+        widths = {"mm": 1e3 * held.width, "most": 1e3 * kept[-1].width}
+        rows.append({"case": free, **widths, **{name: 1e3 * power * cycle for name, power in mJ.items()}})
+    return Answer(min(withheld) >= part, pairs=rows, impacts=max(withheld) < part)
 
 
 def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
@@ -172,8 +175,16 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
         free, bonded = (
             len(spectra.lines(w["time"].values, w["w_point"].values, above=1.0, floor=floor)) for w in windows
         )
-        rows.append({"case": pair[0], "free": free, "bonded": bonded})
-    return Answer(all(row["free"] > row["bonded"] for row in rows), pairs=rows)
+        rows.append({"case": pair[0], "free": free, "bonded": bonded, "more": free > bonded})
+    published, another = _by_start(rows)
+    more, too = (all(row["more"] for row in found) for found in (published, another))
+    return Answer(more, pairs=published, another=another, otherwise=more and not too)
+
+
+def _by_start(rows: Sequence[dict[str, Any]]) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Rows of cases from the static start, and of those from another one."""
+    published = [row["case"].from_rest for row in rows]
+    return [[row for row, at in zip(rows, published, strict=True) if at is kind] for kind in (True, False)]
 
 
 @CHECKS("S41p")
@@ -188,12 +199,13 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
         common, common_full = (distinct_points(section, larger) for section in sections)
         counts = {"points": ours, "full": full, "common": common, "common_full": common_full}
         found.append({"case": free, **counts})
-        more += [ours >= factor * full, common >= factor * common_full]
+        more += [ours >= factor * full, common >= factor * common_full] if free.from_rest else []
         if full > FULL * distinct_points(measures.late_section(bonded, points // 2)):
             filling.append(bonded.name)
-    if filling:
-        return Answer(None, "filling", pairs=found, filling=filling)
-    return Answer(more[0] if len({*more}) == 1 else None, "scale", pairs=found)
+    published, another = _by_start(found)
+    holds = None if filling or len({*more}) > 1 else more[0]
+    why = "filling" if filling else "scale"
+    return Answer(holds, why, pairs=published, another=another, filling=[*dict.fromkeys(filling)])
 
 
 @CHECKS("S41d", "F18t")
@@ -202,7 +214,7 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
 
     The control is the case without separation over the same times. A change that occurs there too decides nothing.
     """
-    published = [case for case in cases if "start" not in case.node.attrs]
+    published = [case for case in cases if case.from_rest]
     found, changes, own = [], [], []
     for case, bonded in pairs(published):
         first, end = case["first_separation"], case["time_reached"]
@@ -213,19 +225,22 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
         own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
         stick = {name: 100 * one.stick for name, one in (("stick", before), ("then", after), ("ignored", control))}
         found.append({"case": case, "before": before.width, "after": after.width, "control": control.width, **stick})
-    another = measures.another_motion(*zip(published, cases[len(published) :], strict=False))
+    another = measures.another_motion(*cases)
     return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found, another=another)
 
 
 @CHECKS("C3d")
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
-    rows = _ranges(cases)
-    for row, (case, ignored) in zip(rows, pairs(cases), strict=True):
+    published = [case for case in cases if case.from_rest]
+    rows = _ranges(published)
+    for row, (case, ignored) in zip(rows, pairs(published), strict=True):
         row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in (case, ignored))
     differ = [max(a, b) >= factor * min(a, b) for row in rows for a, b in [(row["stick"], row["without"])]]
     return Answer(
-        any(row["ratio"] * factor <= 1 and stick for row, stick in zip(rows, differ, strict=True)), pairs=rows
+        any(row["ratio"] * factor <= 1 and stick for row, stick in zip(rows, differ, strict=True)),
+        pairs=rows,
+        another=measures.another_motion(*cases),
     )
 
 
@@ -251,7 +266,7 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
 def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
     """Whether the in-plane motion has no short period; ``other`` as in `is_quasi_periodic`."""
     motion, _ = measures.late_motion(case)
-    another = measures.another_motion((case, other))
+    another = measures.another_motion(case, other)
     return Answer(not 0 < motion.period < fewest, periodic=motion.period > 0, another=another)
 
 

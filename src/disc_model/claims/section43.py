@@ -225,10 +225,16 @@ def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
 
 
 @CHECKS("S43k")
-def normal_stiffness(*cases: CaseView) -> Answer:
+def normal_stiffness(*evidence: Any) -> Answer:
+    *cases, study = evidence
     times = [case["first_separation"] for case in cases[:3]]
     sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    return Answer(sooner and not cases[3].separates and not _grew(cases[3]))
+    holds = sooner and not cases[3].separates and not _grew(cases[3])
+    if study is None:
+        return Answer(holds, returns=[])
+    speed, _, apart = _map(study, "Omega", "k")
+    returns = np.any(np.diff(apart.astype(int)) > 0, axis=1)  # by rising stiffness
+    return Answer(holds, N=json.loads(study.attrs["base"])["N"], returns=measures.runs(speed, returns))
 
 
 @CHECKS("F22")
@@ -293,7 +299,7 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
 @CHECKS("C4N")
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
     """Whether, from some preload on, all separate with any damper that do not without it: the largest decide."""
-    loads, damping, apart, _ = _separations(study)
+    loads, damping, apart = _map(study, "N", "c_p")
     quiet, dampers = ~apart[:, damping == 0][:, 0], damping[damping > 0]
     newly, compared = apart[quiet][:, damping > 0], loads[quiet][-int(few) :]
     largest = newly[-int(few) :]
@@ -318,21 +324,27 @@ def _horizon(study: xr.Dataset) -> float:
     return float(json.loads(study.attrs["options"])["horizon"])
 
 
-def _separations(study: xr.Dataset) -> tuple[Array, Array, NDArray[np.bool_], Array]:
-    """Preloads (N,), in-plane dampers (c_p,), whether the static start separates, and growth rates: (N, c_p)."""
-    study = study.sel(normalization="as_published").sortby(["N", "c_p"])
-    outcome = flag_names(study["outcome"].transpose("N", "c_p"))
-    if np.any(outcome == "failed"):
-        raise Missing("study map_c_p has points that failed")
-    rates = study["growth_rate"].transpose("N", "c_p").values
-    return study["N"].values, study["c_p"].values, outcome == "separation", rates
+def _map(study: xr.Dataset, *names: str) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Values of two parameters, ascending, and whether the static start separates: (first, second)."""
+    outcome = _published(study, "outcome", *names)
+    words = flag_names(outcome)
+    if np.any(words == "failed"):
+        raise Missing(f"study {study.attrs['study']} has points that failed")
+    one, other = (outcome[name].values for name in names)
+    return one, other, words == "separation"
+
+
+def _published(study: xr.Dataset, variable: str, *names: str) -> xr.DataArray:
+    """A variable of a map with the published modes, by ascending values of the map's parameters."""
+    return study[variable].sel(normalization="as_published").sortby(list(names)).transpose(*names)
 
 
 @CHECKS("C4m")
 def not_monotonous(*evidence: Any) -> Answer:
     """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
     *cases, study = evidence
-    loads, damping, apart, growth = _separations(study)
+    loads, damping, apart = _map(study, "N", "c_p")
+    growth = _published(study, "growth_rate", "N", "c_p").values
     newly = (apart & ~apart[:, :1]).any(axis=1)
     growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
     lowered = growing & (growth[:, -1] < growth[:, 0])
@@ -379,13 +391,8 @@ def stiffer_spring(case: CaseView) -> Answer:
 
 @CHECKS("C4E")
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
-    study = study.sel(normalization="as_published").sortby(["E", "Omega"])
-    outcome = flag_names(study["outcome"].transpose("E", "Omega"))
-    if np.any(outcome == "failed"):
-        raise Missing("study map_E has points that failed")
-    E, Omega = study["E"].values / 1e9, study["Omega"].values
-    at = Omega == slow
-    apart = outcome == "separation"
+    E, Omega, apart = _map(study, "E", "Omega")
+    E, at = E / 1e9, Omega == slow
     some = apart.any(axis=1)
     quiet = int(np.argmin(some))  # the softest disc without separation, if some separate
     mixed = some.any() and not some.all()
@@ -442,8 +449,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     shares = [measures.phase_share(case, "stick") for case in cases[:5]]
     texts = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
-    another = measures.another_motion(*zip((*cases[:2], cases[4]), cases[5:], strict=True))
-    return Answer(min(shares) <= share, shares="; ".join(texts), another=another)
+    return Answer(min(shares) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
 
 
 @CHECKS("C1")
