@@ -248,7 +248,9 @@ def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     faster = growth_or_nan(base.parameters) > growth_or_nan(soft.parameters)
-    return Answer(sooner and faster and not stiff.separates and not _grew(stiff))
+    rates, _ = _stiffened(base.parameters, "k_p")
+    changes = np.count_nonzero(np.diff(np.sign(rates[np.isfinite(rates)])))
+    return Answer(sooner and faster and not stiff.separates and not _grew(stiff), between=changes > 1 and changes)
 
 
 @CHECKS("F23")
