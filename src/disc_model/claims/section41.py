@@ -148,7 +148,7 @@ def excites_less(*cases: CaseView, part: float) -> Answer:
     for free, bonded in pairs(cases):
         held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
         kept = energy.course(bonded.parameters, bonded["time_reached"])
-        there, cycle = energy.at_width(kept, held.width), 1 / measures.rate_of(free, "separation")
+        there, cycle = energy.at_width(kept, held.width), float(measures.separation_intervals(free).mean())
         withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
         mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
         mJ |= {"damped": held.damped, "impacts": held.impacts}
@@ -182,9 +182,9 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
 
 
 def _by_start(rows: Sequence[dict[str, Any]]) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Rows of cases from the static start, and of those from another one."""
-    published = [row["case"].from_rest for row in rows]
-    return [[row for row, at in zip(rows, published, strict=True) if at is kind] for kind in (True, False)]
+    """Rows of cases from the static start, and of those from another one that separate."""
+    others = [row for row in rows if not row["case"].from_rest and row["case"].separates]
+    return [row for row in rows if row["case"].from_rest], others
 
 
 @CHECKS("S41p")
