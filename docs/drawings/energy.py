@@ -14,8 +14,8 @@ from disc_model import Parameters
 from disc_model.claims.energy import course, in_the_end
 
 FONT = {"font.size": 9, "mathtext.fontset": "cm", "svg.hashsalt": "energy", "font.family": "DejaVu Sans"}
-PAIRS = {(200, 20): (800, 1000), (300, 20): (480, 400), (200, 50): (400, 800)}
-"""Preload and speed of Figs. 4 to 9, with the times in s of the paper's cases with separation and without."""
+PAIRS = {(200, 20): (800, 1000), (300, 20): (480, 400), (200, 50): (400, 240)}
+"""Preload and speed of Figs. 4 to 9, with times in s by which motions with separation and without are steady."""
 CYCLE = 1e3 / 135.42
 """mJ per cycle of the coupled mode for a W."""
 BLUE, GREY, ORANGE = "#0072B2", "#767676", "#D55E00"
@@ -33,6 +33,9 @@ def draw(ax: plt.Axes, p: Parameters, free: float, bonded: float) -> None:
     ax.plot(at, CYCLE * end.damped, "s", color=ORANGE, mfc="none", label="taken by damping, with separation")
     ax.plot([at, at], [CYCLE * end.damped, CYCLE * end.supplied], color=ORANGE, label="taken by impacts")
     ax.set(xscale="log", yscale="log", title=f"{p.N:g} N, {p.Omega:g} rad/s", xlabel="Range of the height (mm)")
+    ax.set_xticks([5, 10, 20, 50, 100, 200], labels=["5", "10", "20", "50", "100", "200"])
+    ax.set_xticks([], minor=True)
+    ax.set_xlim(3, 200)
 
 
 def main() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +13,8 @@ from disc_model.claims.measures import Absent, Array
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
 
-STAGES, LENGTH, RATE = 60, 2.0, 1000.0
-"""Stages of a run; time in s at the end of each over which powers are averaged, and samples per s there."""
+STAGES, LENGTH, RATE = 60, 5.0, 400.0
+"""Stages of a run; greatest time in s at the end of each over which powers are averaged, and samples per s there."""
 
 
 class Powers(NamedTuple):
@@ -78,8 +79,9 @@ def course(p: Parameters, until: float) -> tuple[Powers, ...]:
 
     theta = 2 * np.pi * np.arange(2 * p.n_diameters + 1) / (2 * p.n_diameters + 1)
     state, found = None, []
-    for end in np.linspace(0.0, until, STAGES + 1)[1:].tolist():
-        seen = Record(windows=tuple(Window(start=end - LENGTH, stop=end, rate=RATE, theta=at) for at in theta.tolist()))
+    for begin, end in pairwise(np.linspace(0.0, until, STAGES + 1).tolist()):
+        start = max(begin, end - LENGTH)
+        seen = Record(windows=tuple(Window(start=start, stop=end, rate=RATE, theta=at) for at in theta.tolist()))
         run = simulate(p, end, initial_state=state, record=seen).raise_for_status()
         state = run.final_state
         found.append(powers(p, run.u_0, theta, run.samples))
