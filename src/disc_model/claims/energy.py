@@ -41,7 +41,7 @@ class Powers(NamedTuple):
         return self.supplied - self.damped - self.gained
 
 
-def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[str, Any]]) -> Powers:
+def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[Any, Any]]) -> Powers:
     """Mean powers from samples of the disc at as many angles as it has modes, which give its whole motion.
 
     f B is the velocity of the contact point less that of the disc's material under it.
@@ -61,8 +61,9 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[st
     energy = np.sum((speed / psi) ** 2 + (omega * place / psi) ** 2, axis=0)
     energy += p.m * velocity**2 + p.k * (u - u_0) ** 2 + 2 * p.N * (u - u_0)
     damped = np.sum(damping * (speed / psi) ** 2, axis=0) + p.c * velocity**2
-    means = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
-    return Powers(float(np.ptp(u)), *means, float(energy[-1] - energy[0]) / 2 / float(time[-1] - time[0]))
+    pushes, pulls, taken = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
+    gained = float(energy[-1] - energy[0]) / 2 / float(time[-1] - time[0])
+    return Powers(float(np.ptp(u)), pushes, pulls, taken, gained)
 
 
 def _waves(angle: Array, most: int) -> Array:
