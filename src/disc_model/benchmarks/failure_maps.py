@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -43,6 +44,7 @@ VARIABLES = {
 }
 FACTS = {
     "modes": Variable("1", "number of real modes"),
+    "right": Variable("s", "first separation"),
     "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
     "step_limit": Variable("s", "linear stability limit of RK4, 2 sqrt(2)/omega_max"),
     "observed_limit": Variable("s", "largest step at which RK4 does not blow up, observed"),
@@ -74,11 +76,15 @@ def failure_map(
         return {"verdict": found.verdict, "event_error": found.event_time, "longest_step": result.longest_step}
 
     dataset = map_of(method, truncations, own.map_values if values is None else values, VARIABLES, measure)
-    dataset.attrs |= {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
     facts = [_facts(scene, diameters, observed=method == "RK4") for diameters in truncations]
+    return _explained(dataset, facts, scene=scene, budget=own.map_budget, span=SPANS[scene])
+
+
+def _explained(found: xr.Dataset, facts: Sequence[Mapping[str, float]], **about: Any) -> xr.Dataset:
+    """The map with `FACTS` along diameters and further attributes."""
     for name in facts[0]:
-        dataset[name] = ("diameters", [fact[name] for fact in facts], FACTS[name].attributes)
-    return dataset
+        found[name] = ("diameters", [fact[name] for fact in facts], FACTS[name].attributes)
+    return found.assign_attrs(about)
 
 
 def map_of(
@@ -194,14 +200,10 @@ def answer_map(
             "seconds": found.seconds,
         }
 
-    dataset = map_of(
-        method, diameters, _thinned(own.map_values) if values is None else values, ANSWER_VARIABLES, measure
-    )
-    dataset.attrs |= {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
-    modes = [real_modes(count, 0) for count in diameters]
-    dataset["modes"] = ("diameters", modes, Variable("1", "number of real modes").attributes)
-    dataset["right"] = ("diameters", [*right.values()], Variable("s", "first separation").attributes)
-    return dataset
+    values = _thinned(own.map_values) if values is None else values
+    dataset = map_of(method, diameters, values, ANSWER_VARIABLES, measure)
+    facts = [{"modes": real_modes(count, 0), "right": time} for count, time in right.items()]
+    return _explained(dataset, facts, budget=BUDGET, horizon=HORIZON, parameters=CASE.canonical_json)
 
 
 def _thinned(values: Sequence[float]) -> Sequence[float]:

@@ -303,7 +303,8 @@ def _map_panels(
 ) -> Figure:
     """Panels with the shades of verdicts, and a legend of those that occur and of the borders by line style."""
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
-    for ax, dataset, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+    for ax, one, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+        dataset = one.sortby("value")
         _verdict_cells(ax, dataset, [shade for _, shade in verdicts.values()])
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
         parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
@@ -334,11 +335,10 @@ def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
 
 def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None:
     """Draw the cells of a map, one colour per verdict; fine settings, which cost more, on the right."""
-    order = np.argsort(dataset["value"].values)
-    edges = _log_edges(dataset["value"].values[order])
+    edges = _log_edges(dataset["value"].values)
     rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
     norm = BoundaryNorm(np.arange(-0.5, len(shades)), len(shades))
-    ax.pcolormesh(edges, rows, dataset["verdict"].values[:, order], cmap=ListedColormap(shades), norm=norm)
+    ax.pcolormesh(edges, rows, dataset["verdict"].values, cmap=ListedColormap(shades), norm=norm)
     ax.set_xscale("log")
     ax.set_xlim(edges[-1], edges[0])
     ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
@@ -356,11 +356,8 @@ def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
 
 def _crossing(dataset: xr.Dataset) -> np.ndarray:
     """Coarsest setting per row whose steps are no longer than the shortest phase; beyond the axis without one."""
-    order = np.argsort(dataset["value"].values)
-    value = dataset["value"].values[order]
-    longest = dataset["longest_step"].values[:, order]
-    found = []
-    for row, shortest in zip(longest, dataset["shortest_phase"].values, strict=True):
+    value, found = dataset["value"].values, []
+    for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
         fine = np.flatnonzero(row <= shortest)
         found.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
     return np.array(found)

@@ -145,8 +145,6 @@ def stored() -> Mapping[str, Any]:
 
 def reference(name: str) -> Reference:
     """The correct answer to a question, or ``fold``."""
-    if name == "region":
-        return Reference(0.0, stored()["region"]["error"], stored()["region"]["by"])
     return Reference(**stored()["references"][name])
 
 
@@ -157,7 +155,7 @@ def start(name: str) -> State:
 
 def region() -> NDArray[np.bool_]:
     """Separation in each cell, shape (`SIDE`, `SIDE`), loads along the first axis."""
-    return np.array([[letter == "1" for letter in row] for row in stored()["region"]["rows"]])
+    return np.array([[letter == "1" for letter in row] for row in stored()["region"]])
 
 
 def cell(place: int) -> Parameters:

@@ -8,13 +8,12 @@ through three step ends, so that a loss of contact much shorter than a step is m
 from __future__ import annotations
 
 import math
-import time as clock
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
@@ -46,20 +45,13 @@ class FixedStep(Method):
         limit = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
         phase = PHASES.index(start.phase)
         heights = np.array([math.inf, -math.inf])
-        case = (modes, c, phase, start.direction)
+        case, meter = (modes, c, phase, start.direction), Meter(problem, physics, budget)
         kernels.rk4_run(*case, y.copy(), 0.0, value, 1, problem.stop, times, kinds, heights)  # compiles
-        began = clock.thread_time()
-        why, t, phase, direction, n, steps = kernels.rk4_run(
-            *case, y, problem.span, value, limit, problem.stop, times, kinds, heights
-        )  # fmt: skip
-        seconds = clock.thread_time() - began
-        return MethodResult(
-            times=start.time + times[:n],
-            kinds=tuple(EVENT_KINDS[kind] for kind in kinds[:n]),
-            final=physics.unpack(start.time + t, PHASES[phase], direction, y),
-            seconds=seconds,
-            work=4 * steps,
-            outcome=(RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why],
-            longest_step=value,
-            heights=(float(heights[0]), float(heights[1])),
-        )
+        with meter.running():
+            why, t, phase, direction, n, steps = kernels.rk4_run(
+                *case, y, problem.span, value, limit, problem.stop, times, kinds, heights
+            )  # fmt: skip
+        meter.outcome = (RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why]
+        meter.work, meter.longest_step, (meter.low, meter.high) = 4 * steps, value, heights.tolist()
+        final = physics.unpack(start.time + t, PHASES[phase], direction, y)
+        return meter.result(times[:n], [EVENT_KINDS[kind] for kind in kinds[:n]], final)
