@@ -10,39 +10,25 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
+from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patch
 from disc_model.figures.kinds import BasinShares
-from disc_model.figures.parts import (
-    BLACK,
-    BLUE,
-    BROWN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PAGE,
-    PURPLE,
-    SEPARATED,
-    SKY,
-    new_figure,
-)
+from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SEPARATED, new_figure
 
-COLOURS = {
-    "quiet": BLUE,
-    "other_cycle": ORANGE,
-    "separating": SEPARATED,
-    "quasi_periodic": SKY,
-    "irregular": BROWN,
-    "steady_sliding": PURPLE,
-    "at_rest": GREEN,
-    "undecided": GREY,
-    "failed": BLACK,
+LOOKS = {
+    "quiet": OUTCOME_LOOKS["quiet"],
+    "other_cycle": OUTCOME_LOOKS["other_cycle"],
+    "separating": OUTCOME_LOOKS["separation"]._replace(label="separating"),
+    "quasi_periodic": Look("quasi-periodic", "#b5dcf2", 4 * "\\"),
+    "irregular": Look("irregular", BROWN, 4 * "/"),
+    "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
+    "at_rest": OUTCOME_LOOKS["at_rest"],
+    "undecided": OUTCOME_LOOKS["undecided"]._replace(hatch=4 * "."),
+    "failed": OUTCOME_LOOKS["failed"],
 }
-HATCHES = {"irregular": "////", "undecided": "...."}
-"""Of outcomes that are as dark as others in grey print."""
-WORDS = {"other_cycle": "another cycle in contact", "quasi_periodic": "quasi-periodic"}
+"""Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
 LETTERS = "abcdefghijkl"
@@ -58,7 +44,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     figure = new_figure(PAGE, 4.6)
     above, below = np.asarray(figure.subfigures(2, 1))
     axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
-    classes = [class_ for class_ in COLOURS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
+    classes = [class_ for class_ in LOOKS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
     for ax, energy in zip(axes, energies, strict=False):
         _shares(ax, study.sel(energy=energy), along, classes)
         ax.set_xlabel(label)
@@ -72,15 +58,11 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     for ax in axes[-2:]:
         ax.set_xlabel(label)
     options = json.loads(study.attrs["options"])
-    labels = WORDS | {"undecided": f"undecided after {options['horizon']:g} s"}
-    patches = [Patch(**_look(class_), label=labels.get(class_, class_)) for class_ in classes]
+    undecided = LOOKS["undecided"]._replace(label=f"undecided after {options['horizon']:g} s")
+    patches = [patch(undecided if class_ == "undecided" else LOOKS[class_]) for class_ in classes]
     figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
     parts.head(figure, study, plot)
     return figure
-
-
-def _look(class_: str) -> dict[str, Any]:
-    return {"facecolor": COLOURS[class_], "edgecolor": "white", "hatch": HATCHES.get(class_, ""), "linewidth": 0}
 
 
 def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) -> None:
@@ -88,7 +70,9 @@ def _shares(ax: Axes, study: xr.Dataset, along: np.ndarray, classes: list[str]) 
     low = np.zeros(len(along))
     for class_ in classes:
         share = study["basin_fraction_by_energy"].sel(attractor_class=class_).values
-        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, **_look(class_))
+        look = LOOKS[class_]
+        bars: dict[str, Any] = {"facecolor": look.face, "hatch": look.hatch, "edgecolor": BLACK, "linewidth": 0.4}
+        ax.bar(along, share, 0.9 * np.diff(along).min(initial=1.0), low, **bars)
         low = low + np.nan_to_num(share)
     ax.set(ylim=(0, 1))
 
@@ -98,10 +82,10 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     starts = study["attractor_starts"].transpose(..., "attractor").values
     ranges = 1e3 * study["attractor_range"].transpose(..., "attractor").values
     total = study.sizes["energy"] * study.sizes["start"]
-    for class_, colour in COLOURS.items():
+    for class_, look in LOOKS.items():
         point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
-        ax.scatter(along[point], ranges[point, number], area, color=colour, linewidth=0, zorder=3)
+        ax.scatter(along[point], ranges[point, number], area, color=look.face, edgecolor=BLACK, linewidth=0.4, zorder=3)
     ax.set(ylabel="Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")

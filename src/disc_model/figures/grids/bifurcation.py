@@ -76,6 +76,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
         else:
             _exponents(one, parts.without_failed(overlays["lyapunov"], "exponent", "exponent_error"), plot.x)
     for one, letter in zip(axes, "abc", strict=False):
+        one.margins(x=0.01)  # no dot is cut at the edge
         for i, (case, value) in enumerate(plot.paper_cases.items()):
             one.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
             if one is ax:  # labels alternate: left of the first line, right of the next

@@ -19,6 +19,10 @@ JUMP = 10.0
 """Factor by which the range changes between two values of a sweep at a jump."""
 LOWEST = 1e-3
 """Least range that is distinguished from rest, mm."""
+THIN = 0.7
+"""Width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line."""
+MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
+"""Look of the marks of a sweep."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
@@ -38,7 +42,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
         _sweep(ax, along, 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0, mark)
     unstable = study["sliding_growth_rate"].values > 0
     phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
-    ax.plot(along, np.full(along.size, LOWEST), color=GREY, linewidth=0.8, linestyle="--" if unstable.all() else "-")
+    _branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
     parts.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
     for case, value in plot.paper_cases.items():
         ax.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
@@ -47,12 +51,12 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
     ax.set(
         xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)
     )
-    for color, text in ((BLACK, "in contact"), (SEPARATED, "separates")):
-        ax.plot([], [], color=color, linewidth=2, label=f"cycle, {text}, stable")
-        ax.plot([], [], color=color, linewidth=0.7, linestyle="--", label="unstable")
-    for mark, text in zip("^v", ("rising", "falling"), strict=True):
-        ax.plot([], [], mark, color=GREY, markersize=3, label=f"simulated, {text}")
-    figure.legend(loc="outside lower center", ncols=6)
+    for color, text in ((BLACK, "in contact"), (SEPARATED, "separating")):
+        ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
+    ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
+    for mark, color, text in (("^", BLACK, "rising"), ("v", BLACK, "falling"), ("^", SEPARATED, "separating")):
+        ax.plot([], [], mark, color=color, label=f"simulated, {text}", **MARK)
+    figure.legend(loc="outside lower center", ncols=3)
     parts.head(figure, study, plot)
     return figure
 
@@ -60,7 +64,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
 def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str) -> None:
     there = np.isfinite(x)
     x, y, stable = x[there], y[there], stable[there]
-    ax.plot(x, y, color=color, linewidth=0.7, linestyle="--")
+    ax.plot(x, y, color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in parts.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
@@ -70,8 +74,7 @@ def _sweep(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: 
     """Draw the marks of a sweep, and an arrow at each jump."""
     shown = np.maximum(y, LOWEST)
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
-        look: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
-        ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **look)
+        ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
     for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP)):

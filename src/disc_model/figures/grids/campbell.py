@@ -16,10 +16,12 @@ from scipy.optimize import isotonic_regression
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.kinds import Campbell
-from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, SKY, SLIDER, new_figure
+from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SLIDER, new_figure
 
-COLOURS = ("#332288", BLUE, "#999933", "#882255", SKY, BROWN)
-"""Colours of the disc's modes by nodal diameters; from six on they repeat. None is that of a phase."""
+COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
+"""Colours of the disc's modes by nodal diameters, distinct in grey print; from six on they repeat. None is that of a
+phase.
+"""
 RISES = ("rises", "destabilises")
 """Effects of a crossing that are numbered."""
 LEAST = 0.01
@@ -193,8 +195,8 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
-    ticks = [-1, -0.5, 0, 0.5, 1, 10, 100]
-    ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    ax.set_yticks([-1, -0.5, 0, 0.5, 1, 10, 100])
+    ax.yaxis.set_major_formatter("{x:g}")
     ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
     ax.set_ylabel(f"Cycle's growth rates (1/s),\nlogarithmic beyond ±{LINEAR:g}")
     parts.letter(ax, "b")
@@ -234,7 +236,7 @@ def _handles(study: xr.Dataset) -> list[Line2D]:
     ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
         *(Line2D([], [], color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], color=BLUE, marker=".", markersize=4, linewidth=0.9, label="stick-slip cycle"),
+        Line2D([], [], color=_colour(2), marker=".", markersize=4, linewidth=0.9, label="stick-slip cycle"),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
         Line2D([], [], marker="o", label="numbered crossing", **ring),

@@ -50,13 +50,13 @@ OUTCOME_LOOKS = {
 }
 """Looks of outcomes in all maps and charts, from light to dark: distinct in grey print, too."""
 CYCLE_LOOKS = {
-    "steady_sliding": Look(WITHOUT_CYCLE["no_stick_slip"], "#d9cfe3"),
-    "at_rest": Look(WITHOUT_CYCLE["at_rest"], "#cfe3d6"),
+    "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
+    "at_rest": OUTCOME_LOOKS["at_rest"],
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
     "nearby_only": Look("start not on a cycle", "#f2e6a2"),
     "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
     "alone": UNRESOLVED,
-    "failed": Look("failed", "#333333"),
+    "failed": OUTCOME_LOOKS["failed"],
     EXCLUDED: Look("left out by the study's rule", "white"),
 }
 """Looks of points where no cycle is followed, and of growth rates that may be another cycle's."""
@@ -209,9 +209,8 @@ def growth_bar(figure: Figure, axes: list[Axes]) -> None:
     norm = growth_norm(np.concatenate([np.ma.asarray(mesh.get_array()).compressed() for mesh in meshes]))
     for mesh in meshes:
         mesh.set_norm(norm)
-    bar = figure.colorbar(meshes[0], ax=axes, extend="both", pad=0.01, aspect=30)
+    bar = figure.colorbar(meshes[0], ax=axes, extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
-    ticks = [-largest, -largest / 10, 0, largest / 10, largest]
-    bar.set_ticks(ticks, labels=[f"{x:g}".replace("-", "−") for x in ticks])
+    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
     bar.minorticks_off()

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
 LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
 """Colour and marker of each horizon, the longest first; all have black edges, to be seen on any area."""
-STEEPEST = 0.15
+STEEPEST = 0.2
 """Change of an onset with the load, rad/s per N, beyond which two onsets belong to different ranges of speed."""
 WIDTH = 20.0
 """Width of a bar measured at one load, N: well within the step of the sweeps."""
@@ -221,7 +221,9 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
     look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
     ax.pcolormesh(speeds, loads, np.ma.masked_where(~there, there), cmap=ListedColormap([ORANGE]), **look)
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label="quiet or separating,\nnot computed")
+    ax.fill_between(
+        [], [], [], color=ORANGE, alpha=0.25, label="the cycle is stable where the\nsweep down still separates"
+    )
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:

@@ -56,6 +56,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
         ax.set_yscale("log")
     elif plot.variable == "growth_rate":  # peaks of tens occur beside hundredths
         ax.set_yscale("symlog", linthresh=LINEAR)
+        ax.yaxis.set_major_formatter("{x:g}")
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
     if parts.spaced_by_factor(along):
         ax.set_xscale("log")

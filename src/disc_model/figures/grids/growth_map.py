@@ -62,12 +62,14 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
             continue
         x, y = (np.where(border, one[name].values, np.nan) for name in ("x", "y"))
         near = kinds[i] == "fold" and abs(float(one["resonance_detuning"])) < NEAR
-        found.append(Curve(x, y, str(kinds[i]), _resonance(one).label if near else ""))
+        found.append(Curve(x, y, str(kinds[i]), _resonance(one) if near else ""))
     return found
 
 
-def _resonance(one: xr.Dataset) -> Resonance:
-    return Resonance(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Resonance)})
+def _resonance(one: xr.Dataset) -> str:
+    """The label of a curve's resonance, with the symbol of the frequency of rotation."""
+    found = Resonance(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Resonance)})
+    return found.label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
@@ -138,11 +140,12 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
             if curve.label and np.isfinite(curve.N).any():
                 i = int(np.nanargmax(curve.N))
                 end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-                parts.say(ax, str(numbers[curve.label]), end, (0, 2), fontsize=6, annotation_clip=False)
+                look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": parts.halo()}
+                parts.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
     kinds = {curve.kind for own in curves for curve in own}
     handles = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
-    look: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
-    handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **look) for label, i in numbers.items()]
+    mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
+    handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
         counts = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]

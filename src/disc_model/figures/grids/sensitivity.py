@@ -53,16 +53,14 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
 def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
     """Probability of instability in each part of a parameter's values: middle, probability, standard error; (3, parts).
 
-    All variants of a sample count. They share values, so that errors are those of samples, not of variants.
+    The draws A and B count, as in the probability at all values; errors are those of samples.
     """
-    variants = [str(one) for one in cell["variant"].values]
     draws = cell["parameter_values"].sel(parameter=name).transpose(SAMPLE, "sample_matrix").values
-    x = np.stack([draws[:, int(one in ("B", name))] for one in variants], axis=1)
-    words = flag_names(cell["cycle"].transpose(SAMPLE, "variant"))
+    words = flag_names(cell["cycle"].sel(variant=["A", "B"]).transpose(SAMPLE, "variant"))
     known = words != "failed"
     unstable = ~np.isin(words, STABLE_CYCLES)
     edges = np.quantile(draws, np.linspace(0, 1, BINS + 1))
-    part = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, BINS - 1)
+    part = np.clip(np.searchsorted(edges, draws, side="right") - 1, 0, BINS - 1)
     found = []
     for i in range(BINS):
         here = known & (part == i)
@@ -75,11 +73,14 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
 def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     middle, share, error = probabilities(cell, name)
     ax.axhline(float(cell["probability_unstable"]), label="all values", **WHOLE)
-    label = "a third of the values, with its interval"
-    ax.errorbar(middle, share, 1.96 * error, fmt="o", color=BLUE, markersize=2.5, capsize=1.5, label=label)
+    look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markersize": 2.5, "capsize": 1.5}
+    half = np.minimum(1.96 * error, [share, 1 - share])
+    ax.errorbar(middle, share, half, label="a third of the values, with its interval", **look)
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
     _, _, unit, factor = presentation_of(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
+    for label, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):
+        label.set_horizontalalignment(side)  # clear of the next panel's
     ax.minorticks_off()
     ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
     ax.set(ylim=(-0.03, 1.03))
