@@ -82,7 +82,7 @@ class Plot(Kind):
     overlays : further studies it shows, by the role they play in it
     quantities : those that it can show, the default first
     needs : required dimensions, beside those that the file chooses as x and y
-    several : whether it has a panel for each normalization, or shows one only
+    several : whether it can show several normalizations, or is drawn from the values for one
     roles : the roles that overlays may play
     """
 
@@ -326,6 +326,7 @@ class Sensitivity(Plot):
 
     drawn_by = "grids.sensitivity.draw"
     quantities = ("sensitivity",)
+    several = True
 
     kind: Literal["sensitivity"] = "sensitivity"
 
@@ -365,6 +366,7 @@ class General(Plot):
     log : whether the scale of the variable is logarithmic
     """
 
+    several = True
     room: ClassVar[int] = MOST_PANELS
     """Greatest number of values of `by`."""
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import importlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import chain, repeat
 from pathlib import Path
 from textwrap import fill
 from typing import Any, Literal
@@ -22,7 +23,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, typeset, values_text
 from disc_model.figures import STYLE
-from disc_model.figures.kinds import CasePlot, Kind, OwnFigure, Plot
+from disc_model.figures.kinds import CasePlot, General, GrowthMap, Kind, OwnFigure, Plot, StabilityMap
 
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
@@ -88,7 +89,11 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
     with styled():
         if isinstance(plot, Plot):
             study, *others = (tree.to_dataset() for tree in inputs.values())
+            if not plot.several:
+                norm = getattr(plot, "normalization", None) or normalizations(study)[0]
+                study, *others = (of(one, norm) for one in (study, *others))
             figure: Figure = function(study, dict(zip([*inputs][1:], others, strict=True)), plot)
+            head(figure, study, plot)
         elif isinstance(plot, CasePlot):
             (case,) = inputs.values()
             figure = function(inputs, **plot.options)
@@ -216,21 +221,20 @@ def what_case(values: Mapping[str, Any], modes_in_panels: bool = False) -> str:
     return ", ".join(filter(None, [numbers, *words]))
 
 
-def head(
-    figure: Figure, study: xr.Dataset, plot: Plot, shown: xr.DataArray | None = None, modes_in_panels: bool = False
-) -> None:
-    """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary.
-
-    shown : the shown variable, if some dimensions are taken at one value
-    modes_in_panels : whether the figure's panels say the normalization
-    """
-    values = [
-        coordinate_text(shown, str(name))
-        for name, size in study.sizes.items()
-        if shown is not None and size > 1 and name in shown.coords and name not in shown.dims
-    ]
-    phrase = ", ".join(filter(None, [*values, fixed(study, modes_in_panels)]))
-    entitle(figure, plot, study.attrs.get("title", ""), phrase)
+def head(figure: Figure, study: xr.Dataset, plot: Plot) -> None:
+    """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary."""
+    values = []
+    if isinstance(plot, General):
+        shown = picked(study, plot.variable, plot.at)
+        alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
+        values = [coordinate_text(shown, name) for name in alone if name in shown.coords]
+    phrase = ", ".join(
+        filter(None, [*values, fixed(study, modes_in_panels=isinstance(plot, StabilityMap | GrowthMap))])
+    )
+    if isinstance(plot, StabilityMap):  # legends above the panels would cover a title of the figure itself
+        figure.legends[0].set_title(headline(figure, plot, study.attrs.get("title", ""), phrase))
+    else:
+        entitle(figure, plot, study.attrs.get("title", ""), phrase)
 
 
 def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
@@ -377,10 +381,10 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
     ax.set_title(f"({text}) {title}".strip(), loc="left", **look)
 
 
-def letters(axes: Sequence[Axes], titles: Sequence[str], **look: Any) -> None:
-    """Write the subject of each panel after its letter; a single panel has no letter."""
-    for ax, text, title in zip(axes, "abcdef", titles, strict=False):
-        ax.set_title(f"({text}) {title}" if len(axes) > 1 else title, loc="left", **look)
+def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
+    """Write the letters of panels, and the subjects of the first ones; a single panel has no letter."""
+    for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
+        ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
 
 
 def legend_above(ax: Axes, **look: Any) -> Legend:
@@ -399,12 +403,6 @@ def normalizations(study: xr.Dataset) -> list[str]:
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
     """Values of a grid study for one normalization."""
     return study.sel(normalization=normalization) if "normalization" in study.dims else study
-
-
-def of_one(study: xr.Dataset, others: Mapping[str, xr.Dataset]) -> tuple[xr.Dataset, dict[str, xr.Dataset]]:
-    """The values of all studies for the first normalization of a grid study."""
-    norm = normalizations(study)[0]
-    return of(study, norm), {role: of(other, norm) for role, other in others.items()}
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:

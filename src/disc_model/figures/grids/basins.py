@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patch
+from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patches
 from disc_model.figures.kinds import BasinShares
 from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SEPARATED, new_figure
 
@@ -31,14 +31,13 @@ LOOKS = {
 """Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
 LARGEST = 36.0
 """Area of the mark of an attractor that all starts reach, square points."""
-LETTERS = "abcdefghijkl"
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShares) -> Figure:
     """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below. The
     size of an attractor's mark is its fraction of all starts.
     """
-    study = parts.of_one(study, {})[0].transpose(plot.x, ...)
+    study = study.transpose(plot.x, ...)
     label, factor = parts.label_of(study[plot.x])
     along, energies = study[plot.x].values * factor, study["energy"].values
     figure = new_figure(PAGE, 4.6)
@@ -47,21 +46,18 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: BasinShare
     classes = [class_ for class_ in LOOKS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
     for ax, energy in zip(axes, energies, strict=False):
         _shares(ax, study.sel(energy=energy), along, classes)
-        ax.set_xlabel(label)
     axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
     _attractors(axes[-2], study, along)
     _kicks(axes[-1], study, along)
-    for ax, letter, shown in zip(axes, LETTERS, [*(f"{energy:g} J" for energy in energies), "", ""], strict=False):
+    parts.letters(axes, [f"{energy:g} J" for energy in energies])
+    for ax in axes:
         ax.margins(x=0.04)
-        parts.mark_failed(ax, along[parts.failed(study).values])
-        parts.letter(ax, letter, shown)
-    for ax in axes[-2:]:
         ax.set_xlabel(label)
+        parts.mark_failed(ax, along[parts.failed(study).values])
     options = json.loads(study.attrs["options"])
     undecided = LOOKS["undecided"]._replace(label=f"undecided after {options['horizon']:g} s")
-    patches = [patch(undecided if class_ == "undecided" else LOOKS[class_]) for class_ in classes]
-    figure.legend(handles=patches, loc="outside lower center", ncols=len(patches))
-    parts.head(figure, study, plot)
+    handles = patches(LOOKS | {"undecided": undecided}, classes)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 

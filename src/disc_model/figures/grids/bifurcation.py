@@ -36,7 +36,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
     A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
     events.  The further study ``lyapunov``, if given, has a panel below.
     """
-    study, overlays = parts.of_one(study, overlays)
     study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
     names = SWITCHES if options.get("section") == "event" else {}
@@ -75,19 +74,17 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
             _period(one, along[moving], study["period_events"].values[moving])
         else:
             _exponents(one, parts.without_failed(overlays["lyapunov"], "exponent", "exponent_error"), plot.x)
-    for one, letter in zip(axes, "abc", strict=False):
+    parts.letters(axes)
+    for one in axes:
         one.margins(x=0.01)  # no dot is cut at the edge
         for i, (case, value) in enumerate(plot.paper_cases.items()):
             one.axvline(value * factor, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
             if one is ax:  # labels alternate: left of the first line, right of the next
                 side = 2 * (-1) ** (i + 1)
                 parts.say(ax, case, (value * factor, 0), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
-        if below:
-            parts.letter(one, letter)
     for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
-    parts.head(figure, study, plot)
     parts.note(figure, plot, _start(options))
     return figure
 

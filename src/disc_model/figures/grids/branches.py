@@ -27,7 +27,7 @@ MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markered
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
     """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
-    study = parts.of_one(study, overlays)[0].squeeze()
+    study = study.squeeze()
     name = str(json.loads(study.attrs["options"])["parameter"])
     label, factor = parts.axis_of(name)
     figure = new_figure(PAGE, 3.6)
@@ -57,7 +57,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
     for mark, color, text in (("^", BLACK, "rising"), ("v", BLACK, "falling"), ("^", SEPARATED, "separating")):
         ax.plot([], [], mark, color=color, label=f"simulated, {text}", **MARK)
     figure.legend(loc="outside lower center", ncols=3)
-    parts.head(figure, study, plot)
     return figure
 
 

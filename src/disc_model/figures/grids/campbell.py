@@ -36,8 +36,7 @@ LINEAR = 1.0
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
     """Draw (a) frequencies, (b) growth rates by mode; events of the cycle are numbered and explained below."""
-    norm = plot.normalization or parts.normalizations(study)[0]
-    study = parts.of(study, norm).transpose("Omega", ...)
+    study = study.transpose("Omega", ...)
     met = noted(study)
     heights = [3.2, 1.9, 0.13 * (1 + len(met))]
     figure = new_figure(PAGE, sum(heights) + 1.6)
@@ -56,7 +55,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
     phrase = "\n".join([_HEADING if met else _NOTHING, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
     below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
-    parts.head(figure, study, plot)
     return figure
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Container, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +68,8 @@ WITHOUT = {
     "at_rest": "at_rest",
 }
 """Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`."""
+CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
+"""Looks of cells of outcomes."""
 
 
 def unresolved(words: Names) -> NDArray[np.bool_]:
@@ -121,10 +123,23 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> Non
     ax.pcolormesh(*edges, np.ma.masked_invalid(codes), cmap=colours, norm=norm, rasterized=True)
 
 
+def outcome_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
+    """Fill cells in the look of their outcome, hatched where unresolved; returns the used keys of `CELL_LOOKS`."""
+    words = words_of(data, "outcome", x, y)
+    words = np.where(unresolved(words), "fine", words)
+    fill(ax, edges_of(data, x, y), words, CELL_LOOKS)
+    return set(words.flat)
+
+
 def patch(look: Look) -> Patch:
     """Legend entry of a look."""
     edge = BLACK if look.hatch else GREY
     return Patch(facecolor=look.face, edgecolor=edge, hatch=look.hatch, linewidth=0.4, label=look.label)
+
+
+def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
+    """Legend entries of the looks that are among words."""
+    return [patch(look) for name, look in looks.items() if name in words]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -196,11 +211,6 @@ def alone(rate: Array) -> NDArray[np.bool_]:
     like = np.abs(place[..., None, None] - around) < UNLIKE
     # each cell equals itself
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
-
-
-def cycle_patches(words: Collection[str]) -> list[Patch]:
-    """Legend entries of points without a followed cycle, and of the hatch."""
-    return [patch(look) for name, look in CYCLE_LOOKS.items() if name in words]
 
 
 def growth_bar(figure: Figure, axes: list[Axes]) -> None:

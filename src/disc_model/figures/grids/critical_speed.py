@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOME_LOOKS, UNRESOLVED, Look, edges_of, fill, patch, unresolved, words_of
+from disc_model.figures.grids.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, new_figure
@@ -37,7 +37,6 @@ WIDTH = 20.0
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
-    study, overlays = parts.of_one(study, overlays)
     lost = parts.failed(study).values
     sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
     scan = span(study["scan_Omega"].values)
@@ -76,7 +75,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
         handles += ax.get_legend_handles_labels()[0]
     axes[0].set_ylabel(LOAD)
     figure.legend(handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0)
-    parts.head(figure, study, plot)
     return figure
 
 
@@ -178,16 +176,12 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
-    looks: Mapping[str, Look] = OUTCOME_LOOKS | {"fine": UNRESOLVED}
     if "outcome" in cycle:
-        words = words_of(cycle, "outcome", "Omega", "N")
-        words = np.where(unresolved(words), "fine", words)
-        horizon = [Patch(alpha=0, label=f"areas: within {_map_horizon(cycle):g} s")]
-    else:
-        words = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")
-        looks, horizon = {"quiet": STABLE}, []
-    fill(ax, edges_of(cycle, "Omega", "N"), words, looks)
-    return [*(patch(look) for name, look in looks.items() if name in words), *horizon]
+        words = outcome_cells(ax, cycle, "Omega", "N")
+        return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {_map_horizon(cycle):g} s")]
+    stable = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")
+    fill(ax, edges_of(cycle, "Omega", "N"), stable, {"quiet": STABLE})
+    return [*patches({"quiet": STABLE}, stable)]
 
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:

@@ -72,7 +72,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CurvePlot)
     if ax.get_legend_handles_labels()[0]:
         beside = by is not None and numbers is None and max(len(text) for text, _ in lines) < WIDEST
         figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or by else 2)
-    parts.head(figure, study, plot, found)
     return figure
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import cycle_patches, cycles_of, growth_bar, growth_cells
+from disc_model.figures.grids.cells import CYCLE_LOOKS, cycles_of, growth_bar, growth_cells, patches
 from disc_model.figures.kinds import GrowthMap
 from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
 from disc_model.stability.resonances import Resonance
@@ -179,9 +179,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
     axes[0].set_ylabel(LOAD)
     handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if other else [])]
-    handles += cycle_patches(gaps)
+    handles += patches(CYCLE_LOOKS, gaps)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
     growth_bar(figure, axes)
-    parts.head(figure, study, plot, modes_in_panels=True)
     return figure

@@ -17,15 +17,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import (
-    CYCLE_LOOKS,
-    cycle_patches,
-    cycles_of,
-    growth_bar,
-    growth_cells,
-    patch,
-    scale_of,
-)
+from disc_model.figures.grids.cells import CYCLE_LOOKS, cycles_of, growth_bar, growth_cells, patch, patches, scale_of
 from disc_model.figures.kinds import HeatMap
 from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure
 
@@ -70,7 +62,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
     _name(figure, axes, [text for text, _ in panels], found, plot)
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
-    parts.head(figure, study, plot, found)
     return figure
 
 
@@ -96,7 +87,7 @@ def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | No
         words |= set(cycles_of(data, plot.x, plot.y).flat)
         for axis, name in plot.axes.items():
             ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
-    return cycle_patches(words)
+    return patches(CYCLE_LOOKS, words)
 
 
 def _empty(ax: Axes, left_out: xr.DataArray, plot: HeatMap) -> None:

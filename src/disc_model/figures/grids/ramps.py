@@ -20,7 +20,6 @@ BEYOND = "none up to the highest speed"
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """Draw one point; with the further study ``curves``, also the speed at which the cycle ends."""
-    study, overlays = parts.of_one(study, overlays)
     study = study.squeeze()
     options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
@@ -40,7 +39,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpee
     ax.margins(x=0.04)
     ax.set(xlabel="Ramp rate (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
     figure.legend(loc="outside lower center", ncols=1)
-    parts.head(figure, study, plot)
     return figure
 
 

@@ -17,7 +17,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.grids import cells
 from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted
-from disc_model.figures.grids.stability_map import finish, legend_below_head
+from disc_model.figures.grids.stability_map import finish, legend_above
 from disc_model.figures.kinds import RegionMap
 from disc_model.figures.parts import PAGE, new_figure
 
@@ -31,29 +31,21 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     figure = new_figure(PAGE, 5.6)
     axes = figure.subplots(2, len(norms), sharex=True, sharey=True, squeeze=False)
     lines: list[Artist] = []
-    hatched = False
+    outcomes: set[str] = set()
     gaps: set[str] = set()
+    parts.letters(axes.ravel(), [parts.MODES[norm] for norm in norms])
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
-        edges, words = cells.edges_of(one, plot.x, plot.y), cells.words_of(one, "outcome", plot.x, plot.y)
-        fine = cells.unresolved(words)
-        cells.fill(
-            axes[0, column], edges, np.where(fine, "fine", words), cells.OUTCOME_LOOKS | {"fine": cells.UNRESOLVED}
-        )
-        hatched |= bool(fine.any())
+        outcomes |= cells.outcome_cells(axes[0, column], one, plot.x, plot.y)
         cells.growth_cells(axes[1, column], one, plot.x, plot.y)
         gaps |= {*cells.cycles_of(one, plot.x, plot.y).flat} - {"alone"}
-        for row in range(2):
-            ax = axes[row, column]
-            parts.letter(ax, "abcd"[row * len(norms) + column], "" if row else parts.MODES[norm])
+        for ax in axes[:, column]:
             lines += _curves(ax, one, overlays) if "curves" in overlays else _borders(ax, one, plot)
-    above: list[Artist] = [cells.patch(cells.OUTCOME_LOOKS[name]) for name in cells.OUTCOME_LOOKS
-                           if name in flag_names(study["outcome"])]  # fmt: skip
-    above += [cells.patch(cells.UNRESOLVED)] * hatched
+    above: list[Artist] = [*cells.patches(cells.CELL_LOOKS, outcomes)]
     above += {line.get_label(): line for line in lines}.values()
-    legend_below_head(figure, study, plot, [*above, *finish(axes, study, plot)])
+    legend_above(figure, [*above, *finish(axes, study, plot)])
     cells.growth_bar(figure, list(axes[1]))
-    below: list[Artist] = list(cells.cycle_patches(gaps))
+    below: list[Artist] = list(cells.patches(cells.CYCLE_LOOKS, gaps))
     below.append(Line2D([], [], linestyle="", label="\n".join(_captions(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)
     return figure

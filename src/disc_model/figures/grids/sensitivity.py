@@ -46,7 +46,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
         axes[0].set_ylabel("P(unstable)")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     parts.note(figure, plot, spreads(options["distributions"]))
-    parts.head(figure, study, plot)
     return figure
 
 
@@ -79,8 +78,9 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
     _, _, unit, factor = presentation_of(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
-    for label, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):
-        label.set_horizontalalignment(side)  # clear of the next panel's
+    first, last = ax.get_xticklabels()
+    first.set_horizontalalignment("left")  # clear of the neighbours
+    last.set_horizontalalignment("right")
     ax.minorticks_off()
     ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
     ax.set(ylim=(-0.03, 1.03))

@@ -19,7 +19,15 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOME_LOOKS, cycle_patches, cycles_of, growth_bar, growth_cells, scale_of
+from disc_model.figures.grids.cells import (
+    CYCLE_LOOKS,
+    OUTCOME_LOOKS,
+    cycles_of,
+    growth_bar,
+    growth_cells,
+    patches,
+    scale_of,
+)
 from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
@@ -55,12 +63,12 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
     handles = finish(axes, study, plot)
     if "growth" in overlays:
         growth_bar(figure, list(axes[0]))
-        handles = [Line2D([], [], **parts.border("neutral")), *cycle_patches(gaps), *handles]
+        handles = [Line2D([], [], **parts.border("neutral")), *patches(CYCLE_LOOKS, gaps), *handles]
     present = set(flag_names(study["outcome"]).flat)
     look: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
     marks = [name for name in MARKS if name in present]
     empty = [axes[0, 0].scatter([], [], label=OUTCOME_LOOKS[name].label, **look, **MARKS[name]) for name in marks]
-    legend_below_head(figure, study, plot, [*empty, *handles])
+    legend_above(figure, [*empty, *handles])
     return figure
 
 
@@ -160,8 +168,7 @@ def _round_values(values: np.ndarray) -> list[float]:
     return [*([0.0] if values[0] == 0 else []), *inside.tolist()]
 
 
-def legend_below_head(figure: Figure, study: xr.Dataset, plot: StabilityMap, handles: Iterable[Artist]) -> None:
-    """Draw a legend over all panels, below `head`, which a title of the figure itself would cover."""
-    text = parts.headline(figure, plot, study.attrs.get("title", ""), parts.fixed(study, modes_in_panels=True))
+def legend_above(figure: Figure, handles: Iterable[Artist]) -> None:
+    """Draw a legend over all panels; `parts.head` is its title."""
     shown = list(handles)
-    figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title=text, title_fontsize=8)
+    figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title_fontsize=8)

@@ -25,7 +25,8 @@ def history(
         time = found["time"].values
         if time.size < 2:  # the run ended before it
             raise dataset.Missing(f"has {time.size} samples in {window}, at least 2 are needed")
-        for ax, name, letter in zip(axes, variables, "abcdefgh", strict=False):
+        parts.letters(axes)
+        for ax, name in zip(axes, variables, strict=True):
             label, factor, colour = parts.sampled(name, found)
             if f"{name}_min" in found:
                 parts.envelope(ax, found, name, scale=factor, color=colour)
@@ -34,8 +35,6 @@ def history(
                 ax.set_xlim(time[0], time[-1])
             ax.set_ylabel(label)
             parts.mark_first_separation(ax, case)
-            if len(variables) > 1:
-                parts.letter(ax, letter)
         axes[-1].set_xlabel("Time (s)")
         axes[-1].locator_params(axis="x", nbins=6)
     figure.align_ylabels()

@@ -44,7 +44,8 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
         samples = dataset.samples(case, window, at_least=1)
         first, end = float(case["first_separation"]), float(case["time_reached"])
         found = stages(samples["time"].values, samples["phase"].values, first, end)
-        for ax, name, letter in ((slider, "psi", "a"), (disc, "w_point", "b")):
+        parts.letters((slider, disc))
+        for ax, name in ((slider, "psi"), (disc, "w_point")):
             pair = (name, f"{name}_velocity")
             (across, in_x, _), (up, in_y, _) = (parts.sampled(one, samples) for one in pair)
             room = [dataset.samples(other, window, at_least=1) for other in others] if ax is slider else []
@@ -52,7 +53,6 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
             _limit(ax, *(np.concatenate([each[one] for each in (samples, *room)]) * by
                          for one, by in zip(pair, (in_x, in_y), strict=True)))  # fmt: skip
             ax.set(xlabel=across, ylabel=up)
-            parts.letter(ax, letter)
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
         _legend(figure, disc, found, first, bonded)
     return figure
@@ -101,7 +101,7 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure = new_figure(PAGE, 2.6)
     axes = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
-    for ax, (name, case), letter in zip(axes, cases.items(), "abcd", strict=False):
+    for ax, case in zip(axes, cases.values(), strict=True):
         with parts.blank_if_missing(ax):
             events = dataset.events(case)
             released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
@@ -113,7 +113,7 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
             ax.plot(counts, differences, ".", color=BLACK, markersize=3)
             ax.set(xscale="log", yscale="log", xlabel="Releases n")
             ax.margins(0.04)
-        parts.letter(ax, letter, name)
+    parts.letters(axes, cases)
     axes[0].set_ylabel("Largest difference (s)")
     return figure
 

@@ -107,8 +107,7 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
         displacements(both, part, start, float(case["u_0"]))
         gap.plot((part["time"].values - start) * 1e3, (part["u"] - part["w"]).values * 1e6, color=BLACK)
         gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
-        parts.letter(both, "a")
-        parts.letter(gap, "b")
+        parts.letters((both, gap))
         parts.legend_above(both)
     figure.align_ylabels()
     return figure
