@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
-from matplotlib.collections import QuadMesh
 from matplotlib.colors import AsinhNorm, BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -160,17 +159,17 @@ def growth_norm(rates: Array) -> AsinhNorm:
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> QuadMesh:
+def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
     """Draw `growth_rate` (1/s) over two parameters, or the status where no cycle is followed; isolated cells are
-    hatched. `growth_bar` sets the scale of all panels.
+    hatched. `growth_bar` sets the scale of all panels. Returns the used keys of `CYCLE_LOOKS`, and "".
 
     data : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
     edges, words = edges_of(data, x, y), cycles_of(data, x, y)
     shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
-    mesh = ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=AsinhNorm(), rasterized=True)
+    ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=AsinhNorm(), rasterized=True)
     fill(ax, edges, words, CYCLE_LOOKS)
-    return mesh
+    return set(words.flat)
 
 
 def stability_of(data: xr.Dataset, x: str, y: str) -> Names:

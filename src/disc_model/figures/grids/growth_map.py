@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, cycles_of, growth_bar, growth_cells, patches
+from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_bar, growth_cells, patches
 from disc_model.figures.kinds import GrowthMap
 from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
 from disc_model.stability.resonances import Resonance
@@ -168,8 +168,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     gaps: set[str] = set()
     for i, (ax, norm) in enumerate(zip(axes, norms, strict=True)):
         grid = parts.of(study, norm)
-        growth_cells(ax, grid, "Omega", "N")
-        gaps |= set(cycles_of(grid, "Omega", "N").flat)
+        gaps |= growth_cells(ax, grid, "Omega", "N")
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
         own, others_here = parted(curves_of(data[i]) if data else [], grid)
         shown.append(own)

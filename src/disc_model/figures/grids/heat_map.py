@@ -17,7 +17,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, cycles_of, growth_bar, growth_cells, patch, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_bar, growth_cells, patch, patches, scale_of
 from disc_model.figures.kinds import HeatMap
 from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure
 
@@ -83,8 +83,7 @@ def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | No
     words: set[str] = set()
     for i, ax in enumerate(axes):
         data = xr.Dataset({name: panels[i][1] for name, panels in picked.items()})
-        growth_cells(ax, data, plot.x, plot.y)
-        words |= set(cycles_of(data, plot.x, plot.y).flat)
+        words |= growth_cells(ax, data, plot.x, plot.y)
         for axis, name in plot.axes.items():
             ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
     return patches(CYCLE_LOOKS, words)

@@ -37,8 +37,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     for column, norm in enumerate(norms):
         one = parts.of(study, norm)
         outcomes |= cells.outcome_cells(axes[0, column], one, plot.x, plot.y)
-        cells.growth_cells(axes[1, column], one, plot.x, plot.y)
-        gaps |= {*cells.cycles_of(one, plot.x, plot.y).flat} - {"alone"}
+        gaps |= cells.growth_cells(axes[1, column], one, plot.x, plot.y) - {"alone"}
         for ax in axes[:, column]:
             lines += _curves(ax, one, overlays) if "curves" in overlays else _borders(ax, one, plot)
     above: list[Artist] = [*cells.patches(cells.CELL_LOOKS, outcomes)]

@@ -19,15 +19,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import (
-    CYCLE_LOOKS,
-    OUTCOME_LOOKS,
-    cycles_of,
-    growth_bar,
-    growth_cells,
-    patches,
-    scale_of,
-)
+from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_bar, growth_cells, patches, scale_of
 from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
@@ -56,9 +48,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
     for ax, norm in zip(axes[0], norms, strict=True):
         if "growth" in overlays:
             growth = parts.of(overlays["growth"], norm)
-            growth_cells(ax, growth, plot.x, plot.y)
+            gaps |= growth_cells(ax, growth, plot.x, plot.y)
             _neutral_line(ax, growth, plot)
-            gaps |= set(cycles_of(growth, plot.x, plot.y).flat)
         _points(ax, parts.of(study, norm), plot)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
