@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.text import Annotation
 
-from disc_model.figures.parts import BLACK, SEPARATED
+from disc_model.figures.parts import BLACK, GREY, SEPARATED
 from disc_model.studies.grids.quantities import branches
 from tests.figures.grids.reading import draw
 from tests.studies.grids.conftest import computed
@@ -21,16 +21,25 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "growth_rate": [[-0.1, -0.1, -0.01, 0.2], [-0.1, -0.1]],
         "sweep_range": np.array([[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2e-2, 3e-2]]),
         "sweep_separation_rate": np.array([[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
-        "sliding_growth_rate": [0.1] * 5,
+        "sliding_growth_rate": [0.1, 0.1, -0.1, -0.1, -0.1],
     }
     monkeypatch.setattr(branches, "compute_point", lambda *_, **__: (values, ""))
     options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "evaluation_time": 1}
     study = computed(quantity="branches", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
-    (ax,) = draw("branches", study, paper_cases={"F11": 12}, title="t").axes
+    figure = draw("branches", study, paper_cases={"F11": 12}, title="t")
+    (ax,) = figure.axes
     thick = [line for line in ax.lines if line.get_linewidth() == 2 and len(line.get_xdata())]
     assert [(line.get_color(), [*line.get_xdata()]) for line in thick] == [
         (BLACK, [10, 12, 13]),
         (SEPARATED, [11, 14]),
+        (GREY, [12, 13, 14]),  # steady sliding, which the text called thick and was not
     ]
+    drawn = {
+        (line.get_color(), line.get_marker(), line.get_markerfacecolor()) for line in ax.lines if len(line.get_xdata())
+    }
+    named = {
+        (line.get_color(), line.get_marker(), line.get_markerfacecolor()) for line in figure.legends[0].get_lines()
+    }
+    assert named <= drawn, "filled triangles and a vermilion dashed line stood in the legend alone"
     arrows = [text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch is not None]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(13, 14), (11, 10)]

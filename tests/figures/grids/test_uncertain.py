@@ -5,9 +5,10 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 
 from disc_model.figures.grids import sensitivity
-from disc_model.figures.grids.campbell import gaps, noted, spread
+from disc_model.figures.grids.campbell import COLOURS, gaps, noted, spread
 from disc_model.studies.grids.summaries.campbell import EFFECTS
 from tests.figures.grids.reading import draw
 from tests.studies.grids.quantities import test_sensitivity as uncertain
@@ -21,6 +22,7 @@ def test_instability_against_each_parameter() -> None:
     pick = [0, 1, 0, 1]  # of A, B, A with k from B, A with mu_s from B
     words = study["cycle"].attrs["flag_meanings"].split()
     states = np.where(drawn[..., pick, 1] > middle, words.index("unstable"), words.index("stable"))
+    states[..., 2:] = words.index("unstable")  # the probability at all values is that of A and B, as the thirds are
     study["cycle"] = (("N", "sample", "variant"), states.astype(np.int8), study["cycle"].attrs)
     for N in range(study.sizes["N"]):
         _, share, error = sensitivity.probabilities(study.isel(N=N), "mu_s")
@@ -46,6 +48,12 @@ def test_instability_against_each_parameter() -> None:
 def test_distributions_are_said(distribution: str, relative: bool, numbers: dict[str, float], phrase: str) -> None:
     how = {"distribution": distribution, "relative": relative, **numbers}
     assert sensitivity.spreads({"k": how}) == f"k {phrase}"
+
+
+def test_modes_are_distinct_in_grey_print() -> None:
+    """Three pairs of colours were as dark as each other."""
+    grey = [np.dot(to_rgb(colour), (0.299, 0.587, 0.114)) for colour in COLOURS[:5]]
+    assert np.diff(grey).min() > 0.1, "of 0 to 4 diameters, from dark to light"
 
 
 def made_up_crossings() -> xr.Dataset:
