@@ -335,6 +335,8 @@ class Trials:
 
     def _try(self, mutant: Mutant, items: dict[str, pytest.Item], function: FunctionType, caches: list[Any]) -> None:
         def change() -> None:
+            # an endless loop is ended by a signal
+            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
             function.__code__ = mutant.code()
             for cache in caches:
                 cache.cache_clear()
@@ -354,8 +356,6 @@ class Trials:
         read, self._pipe = os.pipe()
         child = os.fork()
         if child == 0:
-            # an endless loop is ended by a signal
-            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
             prepare()
             for item, following in zip(items, [*items[1:], None], strict=True):
                 item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)

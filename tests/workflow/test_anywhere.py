@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -77,12 +78,19 @@ def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:
     ]
 
 
-def test_a_dry_run_is_a_few_lines(elsewhere: Path) -> None:
+@pytest.fixture
+def edit(elsewhere: Path) -> Iterator[Callable[[str], int]]:
+    """Writes another text to the file of the study, which is as before afterwards."""
+    yield (elsewhere / "mine.yaml").write_text
+    (elsewhere / "mine.yaml").write_text(STUDY)
+
+
+def test_a_dry_run_is_a_few_lines(elsewhere: Path, edit: Callable[[str], int]) -> None:
     done = disc_model(elsewhere, "study", "mine.yaml", "-n").stdout
     assert done.splitlines()[1:] == ["nothing was run: --dry-run"]
     assert done.startswith("Nothing to be done")
-    (elsewhere / "more.yaml").write_text(STUDY.replace("[0.3, 0.4]", "[0.3, 0.5]"))
-    planned = disc_model(elsewhere, "study", "more.yaml", "-n").stdout
+    edit(STUDY.replace("[0.3, 0.4]", "[0.3, 0.5]"))
+    planned = disc_model(elsewhere, "study", "mine.yaml", "-n").stdout
     assert re.search(r"^compute_batch +1$", planned, re.M)
     assert planned.count("\n") < 12
 
@@ -106,10 +114,10 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
     assert re.search(r"^simulate_case +1$", phrase, re.M), "the paper's study, if none is given"
 
 
-def test_what_is_stale_is_listed(elsewhere: Path) -> None:
+def test_what_is_stale_is_listed(elsewhere: Path, edit: Callable[[str], int]) -> None:
     def listed(text: str) -> str:
-        (elsewhere / "asked.yaml").write_text(text)
-        return disc_model(elsewhere, "list", "outdated", "asked.yaml").stdout
+        edit(text)
+        return disc_model(elsewhere, "list", "outdated", "mine.yaml").stdout
 
     assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
     another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))
