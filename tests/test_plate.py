@@ -31,10 +31,8 @@ def test_table_has_a_row_for_each_mode() -> None:
 
 
 def test_frequencies_of_the_free_disc_agree_with_the_paper() -> None:
-    # The paper cuts, it does not round: 1491.927 is printed as 1491.92.
     omega = plate_modes(P).omega.to_numpy()
     assert_allclose(omega, [1491.927, 1516.757, 1823.881, 2774.194, 4383.044], rtol=0, atol=5.1e-4)
-    assert_allclose(omega, [1491.92, 1516.76, 1823.88, 2774.19, 4383.04], rtol=0, atol=1e-2)
 
 
 def test_published_amplitudes() -> None:
@@ -48,11 +46,6 @@ def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
     # Section 4.4 prints nine numbers for the slider at rest and repeats the highest of the free disc.
     paper = [850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04]
     assert [f"{value:.2f}" for value in coupled_natural_frequencies(P)] == [f"{value:.2f}" for value in paper]
-
-
-def test_slider_at_rest_with_orthonormal_modes() -> None:
-    own = [1178.65, 1500.28, 1723.08, 2575.73, 4111.83]
-    assert_allclose(coupled_natural_frequencies(ORTHONORMAL)[[0, 1, 3, 5, 7]], own, rtol=0, atol=5.1e-3)
 
 
 def coupled(p: Parameters) -> np.ndarray:
@@ -101,23 +94,6 @@ def test_modal_damping_is_twice_the_share_of_critical_damping_times_the_frequenc
     given = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0], damping_ratio=[1e-3, 0.0])
     assert_allclose(modal_damping(P.replace(damping_ratio=1e-3)), 2e-3 * mode_arrays(P).omega)
     assert_allclose(modal_damping(Parameters(N=385, Omega=15.1, disc=given)), [2.0, 0.0])
-
-
-def test_slider_at_rest_solves_the_secular_equation() -> None:
-    p = ORTHONORMAL.replace(n_diameters=10, n_circles=2)
-    modes = plate_modes(p)
-    free = modes.omega[modes.diameters > 0].to_numpy()
-    coupled = np.array([x for x in coupled_natural_frequencies(p) if np.min(np.abs(free / x - 1)) > 1e-12])
-    terms = modes.psi.to_numpy() ** 2 / (modes.omega.to_numpy() ** 2 - coupled[:, None] ** 2)
-    weight = (p.k - p.m * coupled**2)[:, None]
-    assert coupled.size == len(modes)
-    assert np.all(np.abs(1 + np.sum(weight * terms, axis=1)) < 1e-7 * np.sum(np.abs(weight * terms), axis=1))
-
-
-def test_without_slider_the_disc_keeps_its_frequencies() -> None:
-    modes = plate_modes(P)
-    expected = np.sort(np.concatenate([modes.omega, modes.omega[modes.diameters > 0]]))
-    assert_allclose(coupled_natural_frequencies(P.replace(m=1e-12, k=0)), expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("inner", [0.02, 0.3667, 0.9])
@@ -187,12 +163,6 @@ def test_orthonormal_shapes_satisfy_eq_17() -> None:
     assert_allclose(gram, np.tile(np.eye(3), (4, 1, 1)), atol=1e-12)
 
 
-def test_published_shapes_differ_by_a_factor_only() -> None:
-    r = np.linspace(0.05, 0.12, 5)
-    ratio = shape_on_nodes(P, r) / shape_on_nodes(ORTHONORMAL, r)
-    assert_allclose(ratio, np.tile(ratio[0], (5, 1)), rtol=1e-10)
-
-
 def test_published_shape_has_unit_coefficient_of_j() -> None:
     """Fit J, Y, I, K to the shape: the first coefficient must be 1."""
     r = np.linspace(0.045, 0.12, 30)
@@ -242,7 +212,7 @@ def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
         plate_modes(P.replace(nu=0.2123))
 
 
-def test_overflow_of_the_published_normalisation_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_overflow_of_the_published_normalisation_is_an_error() -> None:
     shapes = plate_module._shapes(0.3, 0.3, 2, 0)
     coefficients = shapes.coefficients.copy()
     coefficients[0, 1] = 0.0

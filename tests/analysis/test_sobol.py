@@ -67,13 +67,3 @@ def test_what_is_unknown_counts_against_both_ends() -> None:
     assert found.low == share(9, 45).low < share(9, 40).low
     assert found.high == share(14, 45).high > share(9, 40).high
     assert share(0, 0, unknown=3)[1:] == (0, 1)
-
-
-def test_shares_of_quasi_random_samples_are_within_the_interval_at_least_as_often() -> None:
-    """Of a corner of the cube, whose true share is known."""
-    inside = [
-        np.count_nonzero((qmc.Sobol(4, rng=np.random.default_rng(seed)).random(64) < 0.8).all(axis=1))
-        for seed in range(40)
-    ]
-    held = [low <= 0.8**4 <= high for _, low, high in (share(hits, 64) for hits in inside)]
-    assert np.mean(held) >= 0.95

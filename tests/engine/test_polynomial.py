@@ -81,13 +81,7 @@ def test_known_root_at_the_start_is_divided_out() -> None:
     assert first(gap, 0.4, low=3) == NO_ROOT
 
 
-def test_negative_at_the_start_is_a_root_there() -> None:
-    assert first([-1.0, 3.0]) == 0.0
-
-
-def test_zero_polynomial_has_no_root() -> None:
-    assert first([0.0]) == NO_ROOT
-
-
-def test_root_at_the_very_end_belongs_to_the_step() -> None:
-    assert first([1.0, -1.0], 1.0) == pytest.approx(1.0, abs=1e-15)
+@pytest.mark.parametrize(("coefficients", "root"), [([-1.0, 3.0], 0.0), ([0.0], NO_ROOT), ([1.0, -1.0], 1.0)])
+def test_roots_at_either_end_of_a_step_belong_to_it(coefficients: list[float], root: float) -> None:
+    """Negative at the start is a root there; zero throughout is none."""
+    assert first(coefficients) == pytest.approx(root, abs=1e-15)

@@ -63,16 +63,6 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
         assert closed.x[layout.U_VELOCITY] == pytest.approx(taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit)
 
 
-def test_advances_compose() -> None:
-    """Two advances in closed form are one of their sum, however far: 300 units are 48 turns of the fastest mode."""
-    model = engine_case(Parameters(N=385, Omega=1.0, **VARIANTS["dampers"])).model
-    s, once, twice = layout.build_series(model, ORDER), _lively(model), _lively(model)
-    _propagate(model, s, once, 300.3)
-    _propagate(model, s, twice, 123.1)
-    _propagate(model, s, twice, 300.3 - 123.1)
-    np.testing.assert_allclose(twice.disc, once.disc, rtol=0, atol=1e-13 * np.abs(once.disc).max())
-
-
 @pytest.mark.parametrize(
     "variant",
     [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS],

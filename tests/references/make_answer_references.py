@@ -22,9 +22,8 @@ from disc_model.benchmarks.methods.base import Problem
 from disc_model.errors import script
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import State
 from disc_model.stability.continuation import continue_cycle
-from tests.references.stored import load
+from tests.references.stored import as_json, load
 
 TIGHT, TIGHTER = 1e-13, 1e-15
 ENGINE = 1e-14
@@ -36,10 +35,7 @@ LONG = "long-double Taylor series (tests/references)"
 
 def state_at(p: Parameters, time: float) -> dict[str, Any]:
     """The engine's state, as JSON holds it."""
-    state: State = simulate(p, time, tol=ENGINE).raise_for_status().final_state
-    fields = ("time", "phase", "direction", "psi", "f", "u", "u_velocity", "a", "b", "alpha", "beta")
-    values = {name: getattr(state, name) for name in fields}
-    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+    return as_json(simulate(p, time, tol=ENGINE).raise_for_status().final_state)
 
 
 def by_heyoka(tol: float) -> Solve:

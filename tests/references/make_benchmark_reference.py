@@ -9,26 +9,11 @@ code with the engine.  Each run is repeated with a tighter tolerance; the larger
 import json
 from pathlib import Path
 
-import numpy as np
-
-from disc_model import plate_modes
 from disc_model.benchmarks.scenes import REFERENCED, problem
 from disc_model.errors import script
-from disc_model.parameters import Parameters
 from tests.references.make_stored_references import decimal, repeated
-from tests.references.stored import reference_state
-from tests.references.taylor import Reference, problem_of
-
-FIELDS = ("time", "phase", "direction", "psi", "f", "u", "u_velocity", "a", "b", "alpha", "beta")
-
-
-def final(run: Reference, p: Parameters) -> dict[str, object]:
-    """The state with the signs of `plate_modes`, as doubles."""
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    state = vars(run.state())
-    modal = {name: [float(x) for x in sign * np.array(state[name], float)] for name in FIELDS[7:]}
-    scalars = {name: float(state[name]) for name in ("time", "psi", "f", "u", "u_velocity")}
-    return scalars | {"phase": state["phase"], "direction": int(state["direction"])} | modal
+from tests.references.stored import as_json, engine_state, reference_state, rounded
+from tests.references.taylor import problem_of
 
 
 def reference(name: str) -> dict[str, object]:
@@ -41,7 +26,7 @@ def reference(name: str) -> dict[str, object]:
         "largest_difference_to_check_run": difference,
         "kinds": [e["kind"] for e in run.events],
         "times": [decimal(e["time"]) for e in run.events],
-        "final": final(run, task.parameters),
+        "final": as_json(engine_state(rounded(run.state()), task.parameters)),
     }
 
 

@@ -73,6 +73,12 @@ def engine_state(state, p):
     return EngineState(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
 
 
+def as_json(state):
+    """disc_model's state, as files of references hold it."""
+    values = {name: getattr(state, name) for name in State.__annotations__}
+    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+
+
 def reference_state(state, p):
     """The other way round."""
     sign = np.sign(plate_modes(p)["psi"].to_numpy())

@@ -108,3 +108,21 @@ def test_an_envelope_is_a_whole_number(value, wanted):
             Window(rate=1, envelope=value)
     else:
         assert Window(rate=1, envelope=value).envelope == wanted
+
+
+def test_a_window_is_counted_from_the_end_of_the_run() -> None:
+    result = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000), Window(start=0.04, rate=1000))))
+    late, rest = (samples["time"] for samples in result.samples)
+    assert np.allclose(late, np.arange(0.03, 0.0505, 0.001))
+    assert np.allclose(rest, np.arange(0.04, 0.0505, 0.001))
+    assert result.record.windows[0].stop == 0.05, "the record says what was kept"
+    with pytest.raises(ParameterError, match=r"record.windows.0.start=1: must be < t_end=0.05"):
+        simulate(P, 0.05, record=Record(windows=(Window(start=1, rate=10),)))
+
+
+def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:
+    """So that the address of a case's content stays what it was."""
+    assert Window(start=0, stop=1, rate=5).model_dump() == {
+        "start": 0.0, "stop": 1.0, "rate": 5.0, "theta": 1.0, "envelope": None,
+    }  # fmt: skip
+    assert Window(last=1, rate=5).model_dump()["last"] == 1.0

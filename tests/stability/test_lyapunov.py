@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, floquet, plate_modes, simulate, steady_sliding
-from disc_model.simulation.result import State
 from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
-from disc_model.stability.sliding import SteadySliding
 from tests.stability.test_attractor import paradox
+from tests.stability.test_sliding import state_of
 
 STICK = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
 """Of a slow drive, for seconds."""
@@ -54,17 +53,10 @@ def test_exponents_of_steady_sliding_are_its_eigenvalues(n_diameters: int, c_p: 
     p = Parameters(N=100, Omega=40, n_diameters=n_diameters, c_p=c_p, D_star=1e-3)
     sliding = steady_sliding(p)
     assert sliding.stable
-    found = lyapunov_exponents(p, 2.0, count=4, interval=interval, initial_state=sliding_state(p, sliding))
+    found = lyapunov_exponents(p, 2.0, count=4, interval=interval, initial_state=state_of(p, sliding))
     # either of a pair oscillates, which leaves a fraction of 2 s
     pairs = sliding.eigenvalues.real[:4].reshape(2, 2).sum(axis=1)
     np.testing.assert_allclose(found.exponents.reshape(2, 2).sum(axis=1), pairs, atol=0.05)
-
-
-def sliding_state(p: Parameters, sliding: SteadySliding) -> State:
-    """The equilibrium as a state."""
-    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
-    height = float(plate_modes(p)["psi"] @ sliding.a)
-    return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
 
 
 @pytest.mark.parametrize("transient", [0.0, 0.1])
@@ -178,7 +170,7 @@ def test_exponents_of_random_motions_are_known_otherwise(motion: str, seed: int)
             sliding = steady_sliding(p)
             if not sliding.growth_rate < -0.5:
                 continue
-            start, expected, stage = sliding_state(p, sliding), sliding.eigenvalues.real, 2
+            start, expected, stage = state_of(p, sliding), sliding.eigenvalues.real, 2
         else:
             p = random_case(rng, Omega=rng.uniform(2, 20), c_p=rng.uniform(0, 0.2))
             cycle = floquet(p)

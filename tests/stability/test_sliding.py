@@ -8,7 +8,7 @@ import pytest
 from disc_model import Parameters, plate_modes, steady_sliding
 from disc_model.engine import exit_codes
 from disc_model.simulation.result import State
-from disc_model.stability.sliding import SlidingStatus
+from disc_model.stability.sliding import SlidingStatus, SteadySliding
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
 
@@ -16,15 +16,20 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
 BASE = Parameters(N=200, Omega=20)
 
 
-def check_against_flow(p: Parameters, apart: float) -> None:
-    """The equilibrium stays where it is, and its eigenvalues are those of a flight from there; multipliers `apart`."""
-    sliding, modes = steady_sliding(p), plate_modes(p)
-    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
+def state_of(p: Parameters, sliding: SteadySliding) -> State:
+    """The equilibrium as a state."""
+    modes = plate_modes(p)
     w, slope = float(modes["psi"] @ sliding.a), float((modes["diameters"] * modes["psi"]) @ sliding.b)
     share = 1 - p.mu_k * slope / p.r_0 if p.contact_force == "normal" else 1.0
     height = w - p.contact_compliance * share * sliding.contact_force
-    start = State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
-    run, duration = Full(p, start, scalars=4 if p.contact_compliance else 2), 1e-3
+    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
+    return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
+
+
+def check_against_flow(p: Parameters, apart: float) -> None:
+    """The equilibrium stays where it is, and its eigenvalues are those of a flight from there; multipliers `apart`."""
+    sliding, duration = steady_sliding(p), 1e-3
+    run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
     assert run.fly(duration) == exit_codes.TIME_OVER
     np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))

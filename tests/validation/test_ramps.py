@@ -82,17 +82,3 @@ def test_the_drive_goes_on_turning():
             turn = modes["diameters"].to_numpy() * (theta - phi[i])
             w = float(modes["psi"] @ (state.a * np.cos(turn) + state.b * np.sin(turn)))
             assert window["w_point"][i] == pytest.approx(w, abs=1e-12)
-
-
-@pytest.mark.compiled
-def test_energy_balances_over_a_brake_stop():
-    p = Parameters(N=385.0, Omega=15.1)
-    start = stored.engine_state(taylor.violent_start(1.3), p)
-    ramps = (Ramp(parameter="Omega", to=5.0, start=1.0, end=8.0), Ramp(parameter="N", to=150.0, start=3.0, end=9.0))
-    found = simulate(
-        p, 10.0, tol=1e-14, initial_state=start, ramps=ramps, record=Record(audit_every_step=True, events=False)
-    )
-    statistics = found.statistics
-    assert statistics["audited_steps"] == statistics["steps"]
-    assert statistics["separations"] > 100
-    assert max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12

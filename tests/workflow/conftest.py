@@ -176,6 +176,11 @@ class Project:
         shutil.copytree(self.folder, folder, symlinks=True)
         return replace(self, folder=folder)
 
+    def forget(self) -> None:
+        """Remove all that was made."""
+        for made in ("results", ".snakemake"):
+            shutil.rmtree(self.folder / made)
+
     def change(self, path: str) -> None:
         """Change what a source does, as far as anyone can tell without running it: a comment would not count."""
         with (self.folder / path).open("a") as file:

@@ -9,7 +9,6 @@ see `disc_model.engine.compile`); Python rounds twice.
 """
 
 import os
-import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -24,8 +23,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 
 def test_one_and_two_cores(project: Project, finished: Project) -> None:
-    for made in ("results", ".snakemake"):
-        shutil.rmtree(project.folder / made)
+    project.forget()
     threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
     replace(project, variables=threads).complete("-j1")
     assert project.products() == finished.products()

@@ -21,15 +21,10 @@ def assert_recovered(project: Project, finished: Project) -> None:
     assert not {name for name in wanted.keys() - found.keys() if "/cases/" not in name and "/batches/" not in name}
 
 
-def forget(project: Project) -> None:
-    for made in ("results", ".snakemake"):
-        shutil.rmtree(project.folder / made)
-
-
 @pytest.mark.parametrize("run", range(3))
 def test_a_run_killed_at_random(run: int, project: Project, finished: Project) -> None:
     """What a power failure does: Snakemake and its jobs are gone at once, and its lock stays."""
-    forget(project)
+    project.forget()
     process = project.start("-j2")
     # by what is done, and not by the clock alone: where jobs are quick, all was done before
     while len(project.products()) < 3 * run:
@@ -46,7 +41,7 @@ def test_a_run_killed_at_random(run: int, project: Project, finished: Project) -
 
 def test_two_workflows_without_lock(project: Project, finished: Project) -> None:
     """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
-    forget(project)
+    project.forget()
     both = [project.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
     for process in both:
         process.wait(timeout=900)

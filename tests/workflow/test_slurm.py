@@ -2,7 +2,6 @@
 
 import os
 import re
-import shutil
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -49,8 +48,7 @@ def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cluster
 
 
 def test_a_study_is_computed_by_the_cluster(cluster: Cluster, project: Project, finished: Project) -> None:
-    for made in ("results", ".snakemake"):
-        shutil.rmtree(project.folder / made)
+    project.forget()
     (project.folder / "src" / "sitecustomize.py").write_text(HANG)
     project.edit(f"{PROFILE}/config.yaml", "runtime: 30 * attempt", "runtime: 1 * attempt")
     process = project.start("--workflow-profile", PROFILE, prepare=slurm.die_with_parent)
