@@ -31,17 +31,10 @@ class Outer(Checked):
     cycle_tol: CycleTolerance = 1e-12
 
 
-def phrase(make: Any, **values: Any) -> list[str]:
-    """The faults of an attempt to make something."""
-    with pytest.raises(ParameterError) as caught:
-        make(**values)
-    return list(caught.value.faults)
-
-
 @pytest.mark.parametrize("value", [-1, -1.0, "-1", "-1e0", np.float32(-1)])
 def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
-    assert phrase(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
-    assert phrase(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
+    assert faults_of(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
+    assert faults_of(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
     case = {"title": "", "t_end": value, "parameters": {"N": 1, "Omega": 1}}
     assert faults_of(parse_study, {"study": "s", "cases": {"here": case}}) == ["cases.here.t_end = -1: must be > 0"]
 
@@ -58,15 +51,15 @@ def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
     ],
 )
 def test_faults_of_nested_values(values: dict[str, Any], fault: str) -> None:
-    assert phrase(Outer, **values) == [fault]
+    assert faults_of(Outer, **values) == [fault]
 
 
 @pytest.mark.parametrize("name", ["Inner", "bool", "[key]", "list[Inner]", "Span"])
 def test_a_path_keeps_names_that_pydantic_gives_to_branches_of_a_union(name: str) -> None:
     """Steps called "Span", "bool" or "[key]" were dropped from the path, wherever they stood."""
-    assert phrase(Outer, several={name: {"size": "big"}}) == [f"several.{name}.size='big': must be a number"]
-    assert f"choice.{name}=3: unknown key (known: size)" in phrase(Outer, choice={name: 3, "size": 1})
-    assert phrase(Outer, choice={name: 3, "size": "big"})[1] == "choice.size='big': must be a number"
+    assert faults_of(Outer, several={name: {"size": "big"}}) == [f"several.{name}.size='big': must be a number"]
+    assert f"choice.{name}=3: unknown key (known: size)" in faults_of(Outer, choice={name: 3, "size": 1})
+    assert faults_of(Outer, choice={name: 3, "size": "big"})[1] == "choice.size='big': must be a number"
 
 
 def test_a_fault_is_its_text_and_knows_its_parts() -> None:
@@ -94,8 +87,8 @@ def test_what_is_no_json_or_no_mapping_is_said_to_be_none(make: Any) -> None:
 def test_a_changed_copy_is_checked() -> None:
     record = Record(windows=(Window(**WINDOW),))
     assert record.replace(audit_every_step=True).windows == record.windows
-    assert phrase(record.replace, audit_every_step=3) == ["audit_every_step=3: must be true or false"]
-    assert phrase(record.windows[0].model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
+    assert faults_of(record.replace, audit_every_step=3) == ["audit_every_step=3: must be true or false"]
+    assert faults_of(record.windows[0].model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
 
 
 # ---- statuses

@@ -1,17 +1,18 @@
-"""What is said of a study file that is refused, and the grid of one that is right."""
+"""What is said of a study file, or of arguments, that are refused, and the grid of a file that is right."""
 
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+from disc_model import ParameterError
 from disc_model.studies.study import GridStudy, StudyError, parse_study
 
 
-def faults_of(parse: Callable[..., object], *arguments: Any) -> list[str]:
+def faults_of(parse: Callable[..., object], *arguments: Any, **named: Any) -> list[str]:
     """All faults that come in the one error."""
-    with pytest.raises(StudyError) as error:
-        parse(*arguments)
+    with pytest.raises((StudyError, ParameterError)) as error:
+        parse(*arguments, **named)
     return list(error.value.faults)
 
 
