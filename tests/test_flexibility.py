@@ -28,18 +28,6 @@ def test_modal_sums_approach_the_total_from_below(diameters: int, circles: int, 
     assert 0 < flexibility.residual < 0.003 * flexibility.total
 
 
-def test_each_harmonic_is_the_sum_over_its_circles() -> None:
-    """A sum up to c circles leaves a rest of c^-3, extrapolated here from 10 and 20 circles."""
-    l, sums = np.arange(5), []
-    for circles in (10, 20):
-        modes = plate_modes(P.replace(n_circles=circles))
-        sums.append(((modes.psi / modes.omega) ** 2).groupby(modes.diameters).sum().to_numpy())
-    limit = sums[1] + (sums[1] - sums[0]) / (2**3 - 1)
-    own = harmonic_flexibility(l, P.a / P.b, P.r_0 / P.b, P.nu) * P.b**2 / P.D / np.where(l == 0, 2 * np.pi, np.pi)
-    # the terms of the sum swing with the mode's amplitude at r_0: the extrapolation wins one digit, not more
-    np.testing.assert_allclose(own, limit, rtol=1e-5)
-
-
 def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -> float:
     """Deflection of the harmonic at a unit load by Chebyshev collocation on both sides of it, in units of b^2 / D."""
     matrix, right, size = [], [], degree + 1

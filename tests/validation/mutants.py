@@ -25,6 +25,7 @@ import json
 import os
 import resource
 import sys
+import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from itertools import accumulate
@@ -141,7 +142,7 @@ EQUIVALENT: dict[str, str] = {
 PATIENCE = 100
 """s of the processor; all that is tried takes a fraction of that."""
 BUDGET = 20.0
-"""s; as many of a module's tests as take this together are tried, the quickest."""
+"""s of the processor; as many of a module's tests as take this together are tried, the quickest."""
 
 
 class Mutant(NamedTuple):
@@ -303,11 +304,13 @@ class Trials:
         self.modules, self.survivors, self.tried = tuple(modules), list[str](), list[str]()
         self._noticed: defaultdict[str, list[str]] = defaultdict(list)
         self._spent: Counter[str] = Counter()
-        self._pipe = 0
+        self._until, self._pipe = 0.0, 0
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """A failure ends the fork."""
-        self._spent[report.nodeid] += report.duration
+        """A failure ends the fork; seconds are the processor's, so that other work beside it leaves no test out."""
+        until = time.process_time()
+        self._spent[report.nodeid] += until - self._until
+        self._until = until
         if report.failed:
             os.write(self._pipe, report.nodeid.encode())
             os._exit(1)
