@@ -11,7 +11,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import Variable, attributes
-from disc_model.parameters import Parameters
 
 TRACES = ("P", "u", "psi")
 FURTHER = {
@@ -44,7 +43,10 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "fixed": [_fixed(name, value) for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()],
+        "fixed": [
+            _named(name, FURTHER[name].attributes if name in FURTHER else attributes(name)) | {"value": value}
+            for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()
+        ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [
             _variable(found) for found in study.data_vars.values() if found.ndim and found.dtype.kind in "biuf"
@@ -107,12 +109,6 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
     """Name, label and unit of a parameter or variable."""
     return {"name": name, "title": str(attrs.get("long_name", name)), "unit": str(attrs.get("units", ""))}
-
-
-def _fixed(name: str, value: Any) -> dict[str, Any]:
-    """Contents of a parameter that does not vary."""
-    described = attributes(name) if name in Parameters.model_fields else FURTHER[name].attributes
-    return _named(name, described) | {"value": value}
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:

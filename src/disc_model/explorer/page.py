@@ -64,7 +64,10 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "title": escape(title),
         "style": _part("page.css"),
         "figures": gallery(pictures),
-        "contents": _json(contents),
+        # its texts cannot end the enclosing HTML element
+        "contents": json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace(
+            "<", "\\u003c"
+        ),
         "script": "\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     }
     # in one pass over the template, so that inserted text is not searched
@@ -100,11 +103,6 @@ def embedded(file: Path) -> str:
 
 def _colours(name: str) -> list[str]:
     return [to_hex(colour) for colour in getattr(cm, name)(range(256))]
-
-
-def _json(contents: Mapping[str, Any]) -> str:
-    """JSON whose texts cannot end the enclosing HTML element."""
-    return json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def _part(name: str) -> str:

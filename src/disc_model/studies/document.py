@@ -774,27 +774,25 @@ SomeRecord = create_model(
 
 
 _diameters = Parameters.model_fields["n_diameters"]
-_given: dict[str, Any] = {
-    "n_diameters": (
-        Annotated[
-            _diameters.annotation,
-            *_diameters.metadata,
-            WrapValidator(lambda value, check: value if value == AUTO else check(value)),
-            WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
-        ],
-        Field(None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra),
-    ),
-    "truncation_quantity": (
-        Literal[*CHOSEN_BY],
-        Field(None, description="quantity by which n_diameters: auto chooses the modes"),
-    ),
-    "truncation_tolerance": (
-        Annotated[Finite, Field(ge=TRUSTED)],
-        Field(None, description="relative tolerance of this quantity"),
-    ),
-}
-GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_given)
-"""Parameters, any of which may be left out; the number of modes may be left to each case."""
+
+
+class GivenParameters(SomeParameters):  # type: ignore[misc, valid-type]
+    """Parameters, any of which may be left out; the number of modes may be left to each case."""
+
+    n_diameters: Annotated[
+        int,
+        *_diameters.metadata,
+        WrapValidator(lambda value, check: value if value == AUTO else check(value)),
+        WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
+    ] = Field(  # type: ignore[assignment]
+        None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra
+    )
+    truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
+        None, description="quantity by which n_diameters: auto chooses the modes"
+    )
+    truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
+        None, description="relative tolerance of this quantity"
+    )
 
 
 def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
@@ -899,6 +897,11 @@ else:
 # The whole document
 
 
+def _several(value: Any) -> Any:
+    """A list, also of a single value."""
+    return value if isinstance(value, list | tuple) else [value]
+
+
 class Document(Strict):
     """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md.
 
@@ -931,17 +934,9 @@ class Document(Strict):
     axes: Columns = Columns()
     where: Annotated[
         tuple[Annotated[str, AfterValidator(checked_rule)], ...],
-        BeforeValidator(
-            lambda stated: (stated,) if isinstance(stated, str) else stated, json_schema_input_type=str | list[str]
-        ),
+        BeforeValidator(_several, json_schema_input_type=str | list[str]),
     ] = ()
-    zip: Annotated[
-        tuple[Columns, ...],
-        BeforeValidator(
-            lambda stated: stated if isinstance(stated, list) else [stated],
-            json_schema_input_type=Columns | list[Columns],
-        ),
-    ] = ()
+    zip: Annotated[tuple[Columns, ...], BeforeValidator(_several, json_schema_input_type=Columns | list[Columns])] = ()
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
@@ -950,15 +945,10 @@ class Document(Strict):
     resolution: Annotated[Count, Field(ge=1)] = 1
 
 
-def _of_quantity(name: str, quantity: Entry) -> type[Document]:
-    """The document of a grid of one quantity."""
-    options = quantity.stated
-    default = ... if any(field.is_required() for field in options.model_fields.values()) else options()
-    fields: dict[str, Any] = {"quantity": (Literal[name], ...), "options": (options, default)}
-    return create_model(f"Study_of_{name}", __base__=Document, __doc__=f"A grid of {name}.", **fields)
-
-
-DOCUMENTS = {name: _of_quantity(name, quantity) for name, quantity in QUANTITIES.items()}
+DOCUMENTS: dict[str, type[Document]] = {
+    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.stated, ...))
+    for name, entry in QUANTITIES.items()
+}
 """Models of files that give a quantity."""
 
 

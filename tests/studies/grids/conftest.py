@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.stability.attractor import outcome as attractor_outcome
-from disc_model.stability.attractor.outcome import Segment
+from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 from disc_model.studies.grids import run
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.points import STATUSES
@@ -65,7 +65,8 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         """Separation never comes below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
         never = p.Omega < 12.35 or 14.15 < p.Omega < 14.45
         first, horizon = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12), options.horizons[-1]
-        return critical_speed.Motion(first if first <= horizon else math.nan, min(first, horizon), "ok", "")
+        first_separation = first if first <= horizon else math.nan
+        return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
     def final_segment(p, state, duration, late, tol):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""

@@ -15,53 +15,50 @@ const failed = (study, place) =>
 
 function drawMap() {
   const { study, x, y, variable } = view;
-  const chosen = selectors()
-    .map((dim) => (dim.words ? dim.values[view.place[dim.name]]
-      : `${dim.name} = ${withUnit(number(dim.values[view.place[dim.name]]), dim.unit)}`));
-  element("map-title").textContent = [`${study.title}: ${variable.title}`, ...chosen].join(", ");
-  if (y === NONE) drawCurve(study.dim[x]);
-  else drawCells(study.dim[x], study.dim[y]);
-}
-
-function drawCells(across, up) {
-  const { study, variable } = view;
+  element("map-title").textContent =
+    [`${study.title}: ${variable.title}`, where(view.place, selectors())].filter(Boolean).join(", ");
   const { ink, width, height } = prepared(element("map"));
-  const [xs, ys] = [scaleOf(across), scaleOf(up)];
+  const curve = y === NONE;
   const cells = places();
-  const colours = variable.flags ? null : colouring(cells.map((cell) => value(study, variable, cell.place)));
+  const numbers = cells.map((cell) => value(study, variable, cell.place));
+  const [xs, ys] = [scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, numbers) : scaleOf(study.dim[y])];
+  const colours = curve || variable.flags ? null : colouring(numbers);
   const box = { left: widest(ink, ys.ticks()) + 14, right: width - 14, top: 26, bottom: height - (colours ? 104 : 48) };
-  const horizontal = linear(xs.borders[0], xs.borders[across.values.length], box.left, box.right);
-  const vertical = linear(ys.borders[0], ys.borders[up.values.length], box.bottom, box.top);
-  ink.fillStyle = style("--empty");
+  const horizontal = linear(xs.borders[0], xs.borders.at(-1), box.left, box.right);
+  const vertical = linear(ys.borders[0], ys.borders.at(-1), box.bottom, box.top);
+  ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
-  const dots = marks().find(([key]) => key === view.mark);
+  const dots = curve ? undefined : marks().find(([key]) => key === view.mark);
   const seen = { flags: new Set(), hatched: false, empty: false };
-  for (const { i, j, place } of cells) {
+  cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
     const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
-    const [y0, y1] = [Math.round(vertical(ys.borders[j + 1])), Math.round(vertical(ys.borders[j]))];
-    const found = value(study, variable, place);
-    if (variable.flags) seen.flags.add(found);
-    if (variable.flags || Number.isFinite(found)) {
-      ink.fillStyle = variable.flags ? flagColour(variable, found) : colours.colour(found);
+    const [y0, y1] = curve ? [box.top, box.bottom]
+      : [Math.round(vertical(ys.borders[j + 1])), Math.round(vertical(ys.borders[j]))];
+    const fill = (look) => {
+      ink.fillStyle = look;
       ink.fillRect(x0, y0, x1 - x0, y1 - y0);
-    } else if (!failed(study, place)) seen.empty = true;
-    if (variable !== study.status && failed(study, place)) {
+    };
+    const lost = failed(study, place);
+    if (!curve && variable.flags) seen.flags.add(numbers[n]);
+    if (!curve && Number.isFinite(numbers[n])) fill(variable.flags ? flagColour(variable, numbers[n]) : colours.colour(numbers[n]));
+    else if (!curve && !lost) seen.empty = true;
+    if (variable !== study.status && lost) {
       seen.hatched = true;
-      ink.fillStyle = hatch;
-      ink.fillRect(x0, y0, x1 - x0, y1 - y0);
+      fill(hatch);
     }
     if (dots && dots[1].flags[value(study, dots[1], place)] === dots[2]) {
       disc(ink, (x0 + x1) / 2, (y0 + y1) / 2, Math.max(1, Math.min(3, (x1 - x0) / 5, (y1 - y0) / 5)));
     }
-  }
+  });
   ink.fillStyle = style("--text");
-  xAxis(ink, box, xs.ticks(), horizontal, heading(across));
-  yAxis(ink, box, ys.ticks(), vertical, heading(up));
+  xAxis(ink, box, xs.ticks(), horizontal, heading(study.dim[x]));
+  yAxis(ink, box, ys.ticks(), vertical, heading(curve ? variable : study.dim[y]));
   if (colours) colourBar(ink, { left: box.left, right: box.right, top: height - 44, bottom: height - 32 }, colours);
   drawn = { box, horizontal, vertical, xs, ys };
-  markChosen(ink);
+  if (curve) drawCurve(ink, cells.map(({ i }, n) => [horizontal(xs.at[i]), vertical(numbers[n])]));
+  else markChosen(ink);
   legend(seen, dots);
 }
 
@@ -136,44 +133,28 @@ function legendEntry([look, text]) {
 
 // A curve, where one axis is chosen
 
-function drawCurve(across) {
-  const { study, variable } = view;
-  const { ink, width, height } = prepared(element("map"));
-  const xs = scaleOf(across);
-  const cells = places();
-  const numbers = cells.map((cell) => value(study, variable, cell.place));
+/** The scale of a curve's numbers, with some room above and below. */
+function scaleOfNumbers(variable, numbers) {
   const finite = numbers.filter(Number.isFinite);
   const [least, greatest] = finite.length ? [Math.min(...finite), Math.max(...finite)] : [0, 1];
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
   const ticks = variable.flags
     ? variable.flags.map((word, code) => [code, word]).filter(([code]) => code >= least && code <= greatest)
     : roundTicks(least - room, greatest + room).map((tick) => [tick, number(tick, 4)]);
-  const box = { left: widest(ink, ticks) + 14, right: width - 14, top: 26, bottom: height - 48 };
-  const horizontal = linear(xs.borders[0], xs.borders[across.values.length], box.left, box.right);
-  const vertical = linear(least - room, greatest + room, box.bottom, box.top);
-  const hatch = hatching(ink);
-  const seen = { flags: new Set(), hatched: false, empty: false };
-  const missing = variable === study.status ? [] : cells.filter((cell) => failed(study, cell.place));
-  for (const { i } of missing) {
-    seen.hatched = true;
-    ink.fillStyle = hatch;
-    const [x0, x1] = [horizontal(xs.borders[i]), horizontal(xs.borders[i + 1])];
-    ink.fillRect(x0, box.top, x1 - x0, box.bottom - box.top);
-  }
-  ink.fillStyle = style("--text");
-  xAxis(ink, box, xs.ticks(), horizontal, heading(across));
-  yAxis(ink, box, ticks, vertical, heading(variable));
-  ink.strokeStyle = style("--line");
+  return { borders: [least - room, greatest + room], ticks: () => ticks };
+}
+
+/** The curve in its frame, and a line at the chosen point. */
+function drawCurve(ink, points) {
+  const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   ink.strokeStyle = ink.fillStyle = style("--accent");
-  polyline(ink, cells.map(({ i }, n) => [horizontal(xs.at[i]), vertical(numbers[n])]), !variable.flags);
-  drawn = { box, horizontal, vertical: null, xs, ys: null };
+  polyline(ink, points, !view.variable.flags);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);
   line(ink, at, box.top, at, box.bottom);
   ink.setLineDash([]);
-  legend(seen, undefined);
 }
 
 /** Points, joined where neighbours have numbers. */

@@ -11,34 +11,24 @@ function motionPlaces(study, motion) {
   return motion.places;
 }
 
-/** The stored motion nearest the chosen point, of the same outcome if there is one. */
+/** The stored motion nearest the chosen point by places along the axes, of the same outcome if there is one. */
 function nearestMotion() {
   const { study, place } = view;
-  if (!study.motions) return null;
   const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
-  const found = (motion) => value(study, outcome, { ...place, ...motionPlaces(study, motion) });
-  const alike = outcome && nearestOf(study.motions.points.filter((motion) => found(motion) === value(study, outcome, place)));
-  const best = alike || nearestOf(study.motions.points);
-  const like = alike ? "of the same outcome" : "of another outcome";
-  if (best) best.like = outcome ? `${like}, ${outcome.flags[found(best)]}, ` : "";
-  return best;
-}
-
-/** The nearest of some motions by places along the axes; words have to agree. */
-function nearestOf(motions) {
-  const { study, place } = view;
-  let [best, least] = [null, Infinity];
-  for (const motion of motions) {
+  let best = null;
+  for (const motion of study.motions?.points ?? []) {
     const places = motionPlaces(study, motion);
-    let far = 0;
-    for (const [name, at] of Object.entries(places)) {
-      const apart = at - place[name];
-      const words = typeof Object.values(study.dim[name].parts)[0][0] === "string";
-      far += words && apart ? Infinity : (apart / Math.max(1, study.sizes[name] - 1)) ** 2;
-    }
-    if (far < least) [best, least] = [motion, far];
+    const apart = Object.entries(places).map(([name, at]) => {
+      const words = typeof Object.values(study.dim[name].parts)[0][0] === "string"; // which have to agree
+      return words && at !== place[name] ? Infinity : ((at - place[name]) / Math.max(1, study.sizes[name] - 1)) ** 2;
+    });
+    motion.far = apart.reduce((sum, one) => sum + one, 0);
+    const found = outcome && value(study, outcome, { ...place, ...places });
+    motion.other = Boolean(outcome) && found !== value(study, outcome, place);
+    motion.like = outcome ? `of ${motion.other ? "another" : "the same"} outcome, ${outcome.flags[found]}, ` : "";
+    const nearer = !best || (motion.other === best.other ? motion.far < best.far : best.other);
+    if (motion.far < Infinity && nearer) best = motion;
   }
-  if (best) best.exact = least === 0;
   return best;
 }
 
@@ -61,7 +51,7 @@ function drawMotion() {
   }
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
   const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
-  const far = motion.exact ? "At this point" : `Nearest stored motion ${motion.like}at ${where(motion.places, dims)}${ring}`;
+  const far = motion.far === 0 ? "At this point" : `Nearest stored motion ${motion.like}at ${where(motion.places, dims)}${ring}`;
   element("motion-note").textContent = `${far}. ${study.motions.text}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;

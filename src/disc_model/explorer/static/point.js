@@ -41,10 +41,10 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
-function choose(place) {
+function choose(place, pointed = place) {
   view.place = place;
   drawMap();
-  hover(place);
+  hover(pointed);
   showPoint();
   drawMotion();
 }

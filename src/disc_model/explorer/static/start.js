@@ -18,18 +18,12 @@ element("large").addEventListener("keydown", (event) => {
   if (next) enlarge(next);
 });
 
+const redraw = () => choose(view.place, null);
+
 function update() {
   fillControls();
-  drawMap();
-  hover(null);
-  showPoint();
-  drawMotion();
+  redraw();
   element("grids").ariaBusy = "false";
-}
-
-function redraw() {
-  drawMap();
-  drawMotion();
 }
 
 function listen() {

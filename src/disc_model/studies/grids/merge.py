@@ -61,7 +61,12 @@ def merge_batches(
         found = _with_excluded(variable) if (place < 0).any() else variable.variable
         values = found.values[place].reshape(*sizes.values(), *variable.shape[1:])
         data[name] = xr.Variable((*sizes, *map(str, variable.dims[1:])), values, found.attrs)
-    coords = dict(_coordinates(grid)) | {name: flat[name] for name in flat.coords if name not in names}
+    coords: dict[Any, Any] = {
+        name: xr.Variable("_".join(dim["names"]), np.array([value[i] for value in dim["values"]]), describe(name))
+        for dim in grid
+        for i, name in enumerate(dim["names"])
+    }
+    coords |= {name: flat[name] for name in flat.coords if name not in names}
     merged = xr.Dataset(data, coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
     return summarised(merged, str(merged.attrs["quantity"]), json.loads(str(merged.attrs["options"])))
@@ -103,11 +108,10 @@ def _places(
     base: Mapping[str, Any],
 ) -> np.ndarray:
     """Row of each point, in the order of the grid, last dimension fastest; -1 for points excluded by rules."""
-    rows: dict[tuple[Any, ...], int] = {}
-    for row, point in enumerate(zip(*(flat[name].values.tolist() for name in names), strict=True)):
-        if point in rows:
-            raise MergeError(f"there twice: {dict(zip(names, point, strict=True))}")
-        rows[point] = row
+    found = list(zip(*(flat[name].values.tolist() for name in names), strict=True))
+    rows = {point: row for row, point in enumerate(found)}
+    if twice := [point for row, point in enumerate(found) if rows[point] != row]:
+        raise MergeError(f"there twice: {dict(zip(names, twice[0], strict=True))}")
     points = [tuple(chain.from_iterable(point)) for point in product(*(dim["values"] for dim in grid))]
     kept = [point for point in points if not where or holds(where, {**base, **dict(zip(names, point, strict=True))})]
     if missing := [point for point in kept if point not in rows]:
@@ -115,13 +119,6 @@ def _places(
     if len(kept) != len(rows):
         raise MergeError(f"{len(rows) - len(kept)} points do not belong to the grid")
     return np.array([rows.get(point, -1) for point in points])
-
-
-def _coordinates(grid: Sequence[Mapping[str, Any]]) -> Iterator[tuple[str, xr.Variable]]:
-    for dim in grid:
-        for i, name in enumerate(dim["names"]):
-            values = np.array([value[i] for value in dim["values"]])
-            yield name, xr.Variable("_".join(dim["names"]), values, describe(name))
 
 
 def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, str]:

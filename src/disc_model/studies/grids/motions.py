@@ -18,7 +18,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import State
 from disc_model.studies.grids.points import STATUS, Coordinate, Point
-from disc_model.studies.grids.run import module_of, run_as
+from disc_model.studies.grids.run import module_of, run_batch
 
 SAMPLES = 256
 """Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
@@ -63,7 +63,7 @@ class Motions:
 
 def run_motions(text: str) -> xr.Dataset:
     """Histories along `point` and `sample`, for a text from `disc_model.studies.study.GridStudy.motions`."""
-    found = run_as(text, Motions(module_of(json.loads(text)["quantity"])))
+    found = run_batch(text, Motions(module_of(json.loads(text)["quantity"])))
     return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
 
 

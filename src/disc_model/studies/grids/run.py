@@ -30,30 +30,14 @@ log = logging.getLogger(__name__)
 POINT = "point"
 
 
-def run_batch(text: str) -> xr.Dataset:
+def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
     """Compute a batch, given as a text from `disc_model.studies.study.GridStudy.batches`.
 
-    The dataset has the quantity's variables along `point`, and the parameters that vary beside them.
+    The dataset has the quantity's variables along `point`, and the parameters that vary beside them. Another quantity
+    may be given, which is computed with the options of the batch's own.
     """
-    return run_as(text, module_of(json.loads(text)["quantity"]))
-
-
-def module_of(quantity: str) -> Any:
-    """The module that computes a quantity, with these names.
-
-    COLUMNS, COORDINATES : its variables, and its own dimensions, if it has any
-    compute_point(point, options) : values at one point by column (flags as words), and a message. Omitted columns are
-        missing. Lists and arrays shorter than their dimension are padded with missing values, longer ones are cut
-    compute_tile(points, options, sampled) : instead of it, rows and messages of a whole tile of a plane, whose points
-        are given by rows, at least at the places `sampled`
-    state_at(point, options) : the state in which its motions begin, if it has any
-    """
-    return importlib.import_module(f"disc_model.studies.grids.quantities.{quantity}")
-
-
-def run_as(text: str, quantity: Any) -> xr.Dataset:
-    """Compute a batch as `run_batch` does, but with another quantity and the options of the batch's own."""
     data = json.loads(text)
+    quantity = quantity or module_of(data["quantity"])
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
     options = entry.stated.model_validate(data["options"])
@@ -87,6 +71,19 @@ def run_as(text: str, quantity: Any) -> xr.Dataset:
         "versions": json_attribute(versions()),
     }
     return xr.Dataset(variables, coords | own_coordinates(quantity, options), attrs)
+
+
+def module_of(quantity: str) -> Any:
+    """The module that computes a quantity, with these names.
+
+    COLUMNS, COORDINATES : its variables, and its own dimensions, if it has any
+    compute_point(point, options) : values at one point by column (flags as words), and a message. Omitted columns are
+        missing. Lists and arrays shorter than their dimension are padded with missing values, longer ones are cut
+    compute_tile(points, options, sampled) : instead of it, rows and messages of a whole tile of a plane, whose points
+        are given by rows, at least at the places `sampled`
+    state_at(point, options) : the state in which its motions begin, if it has any
+    """
+    return importlib.import_module(f"disc_model.studies.grids.quantities.{quantity}")
 
 
 def _over_tile(quantity: Any, data: Mapping[str, Any], options: Any) -> Iterator[tuple[Row, str]]:

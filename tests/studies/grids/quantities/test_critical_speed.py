@@ -1,13 +1,16 @@
 """The speed of onset, and every crossing."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
+from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed
@@ -44,7 +47,8 @@ def test_a_run_that_breaks_off_is_no_quiet_run(
     whole = critical_speed.motion
 
     def motion(p, options):
-        return whole(p, options) if p.Omega != fails_at else critical_speed.Motion(math.nan, 1.0, "paradox", "why")
+        failed = SimpleNamespace(status=Status.PARADOX, message="why")
+        return whole(p, options) if p.Omega != fails_at else OutcomeResult(None, simulated=1.0, failed=failed)
 
     monkeypatch.setattr(critical_speed, "motion", motion)
     found = speeds_at(400, [1000], 12, 14, 0.5, 0.1)

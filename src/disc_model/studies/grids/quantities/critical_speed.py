@@ -6,9 +6,10 @@ horizon lies within this uncertainty, the motion is simulated from its start.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
@@ -54,7 +55,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
     """Scan and bisect the speed; the point's own Omega is not used."""
     p, scan = point.parameters, options.scan
     step = round((scan.stop - scan.start) / scan.intervals / options.precision)
-    motions: dict[int, Motion] = {}
+    motions: dict[int, OutcomeResult] = {}
     known: dict[int, float] = {}
     total = 0.0
 
@@ -73,7 +74,10 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
     for i in scanned:
         look(i)
     for horizon in options.horizons:
-        _bisect(known, look, horizon)
+        # every interval over which separation within the horizon begins or ends is halved, down to the lattice
+        while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
+            for i in wide:
+                look(i)
     failed = {i: found for i, found in motions.items() if found.status != "ok"}
     values: dict[str, Any] = {
         "status": next((found.status for found in failed.values()), "ok"),
@@ -86,47 +90,24 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
     return values, "; ".join(f"Omega={speed(i):g}: {found.message}" for i, found in failed.items())
 
 
-class Motion(NamedTuple):
-    """One motion: its first separation, s (nan: none within the longest horizon), and what was simulated for it."""
-
-    first_separation: float
-    simulated: float
-    status: str
-    message: str
-
-
-def motion(case: Parameters, options: CriticalSpeedOptions) -> Motion:
-    """The motion from the static start, up to the longest horizon."""
-    horizon, early = options.horizons[-1], options.early_end
-    found = find_outcome(case, horizon, tol=options.tol, furthest=FURTHEST, early=early)
-    simulated = found.simulated
-    if _doubtful(found, options.horizons):
-        found = find_outcome(case, horizon, tol=options.tol, furthest=0.0)
-        simulated += found.simulated
-    return Motion(found.first_separation, simulated, found.status.value, found.message)
+def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
+    """The motion from the static start, up to the longest horizon; `simulated` is all that was simulated for it."""
+    horizon = options.horizons[-1]
+    found = find_outcome(case, horizon, tol=options.tol, furthest=FURTHEST, early=options.early_end)
+    # a predicted first separation is known to a fraction of the growth time
+    doubt = 0.0 if found.departed is None else DOUBT / found.departed.growth_rate
+    if any(abs(found.first_separation - one) < doubt for one in options.horizons):
+        again = find_outcome(case, horizon, tol=options.tol, furthest=0.0)
+        return replace(again, simulated=found.simulated + again.simulated)
+    return found
 
 
-def _doubtful(found: OutcomeResult, horizons: Sequence[float]) -> bool:
-    """Whether a first separation is too close to a horizon, given its uncertainty of a fraction of the growth time."""
-    if found.departed is None:
-        return False
-    doubt = DOUBT / found.departed.growth_rate
-    return any(abs(found.first_separation - horizon) < doubt for horizon in horizons)
-
-
-def _bisect(known: dict[int, float], look: Callable[[int], None], horizon: float) -> None:
-    """Halve every interval over which separation within the horizon begins or ends, down to the lattice.
+def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
+    """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair.
 
     known : first separations by place on the lattice, s; infinite without one within the longest horizon, nan if
         unknown
     """
-    while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
-        for i in wide:
-            look(i)
-
-
-def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair."""
     return [
         (a, b)
         for a, b in pairwise(sorted(known))
