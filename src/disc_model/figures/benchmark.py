@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -185,7 +185,7 @@ def answers(dataset: xr.Dataset) -> Figure:
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
         parts.letter(ax, letter)
-        least = min(0.3 * part["error"][part["error"] > 0].min(), 0.1 * enough[name])
+        least = min(0.1 * enough[name], 0.3 * part["error"][part["error"] > 0].min())
         part = part.assign(error=part["error"].clip(lower=least))
         for line, points in part.groupby("line", sort=False):
             handles |= _answer_line(ax, str(line), points)
@@ -375,7 +375,8 @@ def _log_edges(values: np.ndarray) -> np.ndarray:
 # How many modes
 
 _LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
-"""Colour and marker of each line."""
+_MARKS: tuple[dict[str, Any], ...] = ({"linestyle": "-"}, {"linestyle": "--", "markerfacecolor": "white"})
+"""Colour and marker of each line, filled or hollow."""
 FAR = 25.0
 """Greatest difference of first separations that is shown to scale, per cent."""
 
@@ -389,18 +390,13 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     """
     first = dataset["first_separation"]
     late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
-    part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late)
-    lines = [
-        (part.isel(case=i).sel(contact=contact), look, contact == "residual")
-        for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
-        for contact in ("residual", "rigid")
-    ]
+    part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late).sel(contact=["residual", "rigid"])
     cases = json.loads(dataset.attrs["cases"])
     shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
     labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
     gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
-    handles = _look_handles(labels, gone, filled="residual", hollow="rigid")
-    figure, axes = _against_modes(lines, "contact_truncation", (1, 3, 10, 30, 100), handles=handles, ncols=3)
+    lines = _lines(part, "case", "contact")
+    figure, axes = _against_modes(lines, "contact_truncation", (1, 3, 10, 30, 100), labels, gone)
     for ax in axes.values():
         ax.autoscale(False)
     axes["late"].set_ylim(-FAR, FAR)
@@ -433,15 +429,10 @@ def truncation(dataset: xr.Dataset) -> Figure:
     need not.
     """
     part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
-    lines = [
-        (part.isel(normalization=i, circles=j), look, i == 0)
-        for i in range(part.sizes["normalization"])
-        for j, look in zip(range(part.sizes["circles"]), cycle(_LOOKS))
-    ]
     circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
     nine = Line2D([], [], color=GREY, linestyle=":", label="nine modes")
-    handles = _look_handles(circles, nine, filled="as published", hollow="orthonormal")
-    figure, axes = _against_modes(lines, "truncation", (3, 10, 30), handles=handles, ncols=len(handles))
+    lines = _lines(part, "circles", "normalization")
+    figure, axes = _against_modes(lines, "truncation", (3, 10, 30), circles, nine)
     _cut(axes["first_separation"], part["first_separation"].values)
     for name, ticks in (("impact_share", (0.05, 0.1, 0.2, 0.5)), ("separations", (20, 50, 100, 200))):
         axes[name].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
@@ -450,27 +441,38 @@ def truncation(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def _against_modes(
-    lines: Sequence[tuple[xr.Dataset, tuple[str, str], bool]], name: str, ticks: Sequence[int], **legend: Any
-) -> tuple[Figure, dict[str, Axes]]:
-    """Create eight panels over the number of real modes, by variable; ``name`` is their list in the texts.
+Line = tuple[xr.Dataset, tuple[str, str], str]
+"""Values along the models, colour and marker, and the name of the mark: the first is filled, the other hollow."""
 
-    lines : dataset of each line, its colour and marker, and whether it is filled or else hollow and dashed
+
+def _lines(part: xr.Dataset, by: str, marked: str) -> list[Line]:
+    """Lines of a colour for each value of ``by``, and of a mark for each of ``marked``."""
+    return [
+        (part.isel({by: i}).sel({marked: mark}), look, mark.replace("_", " "))
+        for i, look in zip(range(part.sizes[by]), cycle(_LOOKS))
+        for mark in part[marked].values.tolist()
+    ]
+
+
+def _against_modes(
+    lines: Sequence[Line], name: str, ticks: Sequence[int], labels: Sequence[str], further: Line2D
+) -> tuple[Figure, dict[str, Axes]]:
+    """Create eight panels over the number of real modes, by variable, and their legend.
+
+    name : of the list of panels in the texts
     ticks : numbers of modes with a label
+    labels, further : names of the colours, and the last entry of the legend
     """
     figure = new_figure(PAGE, 3.9)
-    axes = {
-        variable: ax
-        for (variable, *_), ax in zip(_TEXTS[name], np.ravel(figure.subplots(2, 4, sharex=True)), strict=True)
-    }
+    axes = {panel[0]: ax for panel, ax in zip(_TEXTS[name], figure.subplots(2, 4, sharex=True).flat, strict=True)}
+    marks = dict(zip(dict.fromkeys(mark for *_, mark in lines), _MARKS, strict=False))
     for (variable, label, log), letter in zip(_TEXTS[name], "abcdefgh", strict=True):
         ax = axes[variable]
-        for line, (color, marker), filled in lines:
+        for line, (color, marker), mark in lines:
             y = line[variable].values
             good = np.isfinite(y) & ((y > 0) | (not log))
             ax.plot(line["modes"].values[good], y[good], color=color, marker=marker, markersize=3,
-                    markerfacecolor=color if filled else "white", linestyle="-" if filled else "--",
-                    linewidth=0.8, markeredgewidth=0.7)  # fmt: skip
+                    linewidth=0.8, markeredgewidth=0.7, **marks[mark])  # fmt: skip
         ax.set(xscale="log", yscale="log" if log else "linear")
         ax.margins(x=0.06)
         parts.letter(ax, letter, label, fontsize=7)
@@ -479,20 +481,12 @@ def _against_modes(
             axis.set_minor_formatter(NullFormatter())
     for ax in [*axes.values()][4:]:
         ax.set_xlabel("Real modes")
-    figure.legend(loc="outside lower center", **legend)
+    named = [(label, *look, _MARKS[0]) for label, look in zip(labels, cycle(_LOOKS))]
+    named += [(mark, BLACK, "o", look) for mark, look in marks.items()]
+    handles = [Line2D([], [], color=color, marker=marker, markersize=4, label=label, **look)
+               for label, color, marker, look in named]  # fmt: skip
+    figure.legend(handles=[*handles, further], loc="outside lower center", ncols=6 if len(handles) < 6 else 3)
     return figure, axes
-
-
-def _look_handles(labels: Iterable[str], further: Line2D, *, filled: str, hollow: str) -> list[Line2D]:
-    """Legend entries of the colours and of filled and hollow marks."""
-    style: dict[str, Any] = {"color": BLACK, "marker": "o", "markersize": 4}
-    return [
-        *(Line2D([], [], color=color, marker=marker, markersize=4, linestyle="-", label=label)
-          for label, (color, marker) in zip(labels, cycle(_LOOKS))),
-        Line2D([], [], linestyle="-", label=filled, **style),
-        Line2D([], [], linestyle="--", markerfacecolor="white", label=hollow, **style),
-        further,
-    ]  # fmt: skip
 
 
 def _cut(ax: Axes, values: np.ndarray) -> None:
