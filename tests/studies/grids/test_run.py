@@ -13,6 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import STATUS, STATUSES, Point
 from disc_model.studies.grids.quantities import critical_speed, hysteresis, outcome
+from disc_model.studies.grids.run import module_of, own_coordinates
 from tests.studies.grids.conftest import SCAN, compute
 
 P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
@@ -74,3 +75,20 @@ def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_mo
             assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
         elif array.dtype.kind == "f":
             assert np.isnan(array).all()
+
+
+@pytest.mark.parametrize(
+    ("quantity", "options", "firsts"),
+    [
+        ("bifurcation", {"samples": 3}, {"sample": 0}),
+        ("lyapunov", {"exponents": 2}, {"exponent_number": 0}),
+        ("campbell", {"modes": 3}, {"mode": 1}),
+        ("basins", {"energies": (0.0,), "n_starts": 1}, {"start": 0, "attractor": 1}),
+        ("stability_curves", {"max_curves": 2, "max_points": 2}, {"curve": 0, "curve_point": 0}),
+    ],
+)
+def test_own_dimensions_are_numbered_as_in_earlier_files(
+    quantity: str, options: dict[str, object], firsts: dict[str, int]
+) -> None:
+    own = own_coordinates(module_of(quantity), SimpleNamespace(**options))
+    assert {name: own[name].values[0] for name in firsts} == firsts

@@ -40,7 +40,7 @@ COLUMNS = {
     ),
     "stick_fraction": Variable("1", "share of the time spent sticking, transient included"),
 }
-COORDINATES = {"sample": Coordinate("1", "number of the turn after the transient", lambda o: range(1, o.samples + 1))}
+COORDINATES = {"sample": Coordinate("1", "number of the turn after the transient", lambda o: range(o.samples))}
 
 
 def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
