@@ -108,7 +108,8 @@ for normalization in ("as_published", "orthonormal"):
 def test_modes_and_states_are_those_of_any_linear_algebra(openblas: str, tmp_path: Path) -> None:
     """A null vector has another sign on another processor: states taken there were those of other motions.
 
-    Modes differ by 6e-14 of the largest, and times of switches by 1e-14 s in half a second.
+    Modes differ by 6e-14 of the largest, and times of switches by 1e-14 s in half a second. Both continue after a stop,
+    which moves switches by the tolerance: the steps are others.
     """
     for name, chosen in instruction_sets.SETS.items():
         if chosen.openblas == openblas and (reason := instruction_sets.why_not(name)):
@@ -121,9 +122,9 @@ def test_modes_and_states_are_those_of_any_linear_algebra(openblas: str, tmp_pat
         for variable, values in np.load(file).items():
             own = getattr(modes, variable)
             np.testing.assert_allclose(values, own, rtol=0, atol=1e-12 * np.abs(own).max())
-        whole = simulate(p, 1.0).event_rows[:, 0]
-        rest = simulate(p, 1.0, initial_state=State.load(file.with_suffix(".nc"))).event_rows[:, 0]
-        np.testing.assert_allclose(rest, whole[whole > 0.5], rtol=0, atol=1e-12)
+        states = simulate(p, 0.5).final_state, State.load(file.with_suffix(".nc"))
+        here, there = (simulate(p, 1.0, initial_state=state).event_rows[:, 0] for state in states)
+        np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
 
 
 def test_the_small_study(name: str, environment: Callable[[str], dict[str, str]], study: Callable[..., Path]) -> None:
