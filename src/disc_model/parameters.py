@@ -413,11 +413,8 @@ def _disc(value: Any) -> Any:
 
 def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     """Faults of parameters of the plate beside a disc, and of two dampings of one plate."""
-
-    def default(name: str) -> Any:
-        return model.model_fields[name].default
-
-    given = {name for name in (*PLATE, "damping_ratio") if data.get(name, default(name)) not in (default(name), AUTO)}
+    usual = {name: model.model_fields[name].default for name in (*PLATE, "damping_ratio")}
+    given = {name for name, default in usual.items() if data.get(name, default) not in (default, AUTO)}
     if data.get("disc") is not None:
         rule = "must be left out where a disc is given: it is a parameter of the plate"
     elif "damping_ratio" in given:
