@@ -73,7 +73,7 @@ def motions() -> xr.Dataset:
         "u": np.full((3, SAMPLES), -0.0088, np.float32),
         "psi": np.tile(np.linspace(0, 0.05, SAMPLES, dtype=np.float32), (3, 1)),
     }
-    about = {name: Motions.COLUMNS[name].variable.attributes for name in rows}
+    about = {name: Motions.COLUMNS[name].attributes for name in rows}
     data = {name: (("point", "sample"), values, about[name]) for name, values in rows.items()}
     names = " ".join(("none", *PHASES))
     data |= {

@@ -95,8 +95,7 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     codes = {"outcome": np.vectorize(regions.OUTCOMES_TO_HORIZON.index)(outcome)}
     codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
-        name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].variable.flags)})
-        for name, values in codes.items()
+        name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].flags)}) for name, values in codes.items()
     }
     data["growth_rate"] = (dims, growth)
     axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
