@@ -1,7 +1,5 @@
 """Python code as compiled, by which a change of a source is told from one of its comments or layout."""
 
-from __future__ import annotations
-
 import dis
 import functools
 import os

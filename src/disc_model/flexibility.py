@@ -9,8 +9,6 @@ For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)),
 functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

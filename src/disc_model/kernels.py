@@ -4,8 +4,6 @@ A kind is determined by the task, the law of contact, and whether one block of l
 of a job, such as ``floquet-rigid_normal-wide``.
 """
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in GPa."""
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Callable

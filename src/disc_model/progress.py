@@ -3,8 +3,6 @@
 A terminal shows a bar, a notebook a line that changes, and other outputs a line before and one after, all on stderr.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Names of version 0.2 that were replaced, and their successors: keys, values, variables, commands and functions."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 _WITH_INTERVALS = {

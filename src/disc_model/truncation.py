@@ -5,8 +5,6 @@ chooses by quantities of the motion, with simulations.  `disc_model.benchmarks.t
 number of modes on all results.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping, Sequence

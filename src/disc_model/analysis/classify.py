@@ -6,8 +6,6 @@ does not repeat within half the record is quasi-periodic or irregular. The 0-1 t
 (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ The section is stroboscopic: one sample every 2 pi/Omega. A motion whose period 
 points, a quasi-periodic one a closed curve, an irregular one a cloud.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

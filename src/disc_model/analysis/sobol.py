@@ -5,8 +5,6 @@ index of an input is the share of the output's variance that it explains alone. 
 interactions. Rows with a missing output are left out, and their share must be reported with the indices.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

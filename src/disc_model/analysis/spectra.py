@@ -1,7 +1,5 @@
 """Spectra: lines of a stationary signal, their identification, and spectra that change with time."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

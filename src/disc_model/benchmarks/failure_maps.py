@@ -5,8 +5,6 @@ correct answer comes from the series engine at `REFERENCE_TOL`; the stored refer
 `answer_map` shows in the same way whether an answer is correct.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache

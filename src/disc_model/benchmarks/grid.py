@@ -1,7 +1,5 @@
 """Datasets of what is measured at each point of a grid."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any

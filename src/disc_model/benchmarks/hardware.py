@@ -1,7 +1,5 @@
 """Hardware of a benchmark: one core of a named machine."""
 
-from __future__ import annotations
-
 import os
 import platform
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 The module imports nothing heavy: the workflow reads it at every start.
 """
 
-from __future__ import annotations
-
 from importlib.util import find_spec
 from typing import NamedTuple
 

@@ -14,8 +14,6 @@ The answers of the first three are stored in ``data/benchmark_reference.json``. 
 ``tests/references/make_benchmark_reference.py`` computes them in long double. That of the last is `rigid_cycle`.
 """
 
-from __future__ import annotations
-
 import enum
 import json
 import math

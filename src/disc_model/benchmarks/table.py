@@ -1,7 +1,5 @@
 """The measured points as a table, and its summary."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The texts of passages, read from ``texts.yaml``, and tables and reports in Markdown."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

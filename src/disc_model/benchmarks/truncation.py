@@ -7,8 +7,6 @@ the first separation. It adds the range of the contact force, the effect of a pl
 The results are in docs/truncation.md.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time

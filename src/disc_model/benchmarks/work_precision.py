@@ -4,8 +4,6 @@ Each round measures all points in turn, so that a disturbance of the machine aff
 value is the median over the rounds.  Slow points are measured less often (``repeats`` is the number).
 """
 
-from __future__ import annotations
-
 import importlib.metadata
 import math
 import time as clock

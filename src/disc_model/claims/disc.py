@@ -1,7 +1,5 @@
 """Claims about the disc and the slider at rest (Section 4 and 4.4): eigenvalues, no simulation."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The transverse energy of a motion: what the slope supplies, and what damping and impacts take."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """The ledger: a check of every claim of the paper, and a comparison of the two normalisations of Eq. (17)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

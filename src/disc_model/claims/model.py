@@ -4,8 +4,6 @@ The text is data, in the YAML file beside the module that holds the check; see `
 cases and bounds. It returns an `Answer`: a verdict, and the numbers for the text's sentences.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Pages of the ledger and other tables: Markdown, and self-contained HTML for light and dark backgrounds."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Tables 1 and 2 of the paper: its values and ours, with the origin of every line of Table 2."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

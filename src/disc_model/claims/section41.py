@@ -1,7 +1,5 @@
 """Claims of Section 4.1: separation occurs, and ignoring it changes the motion."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

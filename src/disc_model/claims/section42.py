@@ -1,7 +1,5 @@
 """Claims of Section 4.2: N = 385 N around the critical speed, and the critical speed in general."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

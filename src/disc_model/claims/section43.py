@@ -1,7 +1,5 @@
 """Claims of Section 4.3: effects of single parameters."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import cache

@@ -1,7 +1,5 @@
 """Claims of Section 4.4: frequencies of the disc and of the slider, and how they change with time."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -5,8 +5,6 @@ and grid studies of config/survival.yaml. Evidence that does not decide gives un
 computed.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -4,8 +4,6 @@ Invalid input is reported on stderr with exit code 2: one line, or for a study f
 that ends early is reported and gives exit code 1.
 """
 
-from __future__ import annotations
-
 import sys
 from typing import Annotated, NoReturn
 

@@ -4,8 +4,6 @@ Thus no parameter is forgotten. Values are passed on as text, so that the same r
 else.
 """
 
-from __future__ import annotations
-
 import functools
 import inspect
 import math

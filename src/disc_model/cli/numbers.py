@@ -1,7 +1,5 @@
 """Commands that print numbers of one case: `modes`, `floquet`."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Provenance of a result: hashes of its sources, versions of packages, and the commit."""
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import importlib.metadata

@@ -4,8 +4,6 @@ A kind is named after the rule that makes it, or after the quantity; further kin
 differs from the imports, `tests/data/test_sources.py` fails: a new import must be added here, or under `BESIDES`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

@@ -1,7 +1,5 @@
 """Sentences with placeholders, stored as data, and their completion with numbers."""
 
-from __future__ import annotations
-
 import string
 from collections.abc import Mapping, Sequence
 from pathlib import Path

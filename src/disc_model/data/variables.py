@@ -1,7 +1,5 @@
 """The table of variables: meaning and unit of each, and the meanings of flags."""
 
-from __future__ import annotations
-
 import enum
 import math
 import re

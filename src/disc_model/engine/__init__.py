@@ -1,7 +1,5 @@
 """The event-driven engine: kernels on floats and arrays only."""
 
-from __future__ import annotations
-
 from . import event_loop, variational  # and with them all that is compiled
 from .cache import source_hash
 

@@ -6,8 +6,6 @@ d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omeg
 On a ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

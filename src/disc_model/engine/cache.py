@@ -9,8 +9,6 @@ A package may ship kernels compiled for a level of x86-64 processors (`SHIPPED`)
 The module uses internals of numba that may change: if one is missing, numba's own cache files are used.
 """
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import os

@@ -7,8 +7,6 @@ A ``kernel`` is separate machine code that Python calls and the cache stores.  A
 of each kernel that calls it.  An ``inlined`` helper is merged into its caller.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from types import FunctionType, ModuleType

@@ -6,8 +6,6 @@ braked by R (s mu_k + beta). Stick holds while abs(r_0 F - beta V) <= mu_s (V + 
 beta are the cost.  Rigid stick moves as under the vertical force.
 """
 
-from __future__ import annotations
-
 from .compile import inlined
 from .laws import slip_denominator
 from .layout import (

@@ -1,7 +1,5 @@
 """State and contact force at a point of the dense output."""
 
-from __future__ import annotations
-
 from .compile import inlined
 from .layout import (
     DRIVE,

@@ -4,8 +4,6 @@ The loop runs inside one compiled function and returns when a buffer is full. Me
 simulated time, and callers can show progress.  Pauses have no influence on results.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

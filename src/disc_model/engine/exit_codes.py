@@ -1,7 +1,5 @@
 """Exit codes of events, of runs of the event loop, and of integrations of the return map: one numbering for all."""
 
-from __future__ import annotations
-
 # The motion continues: after an event; after a pause because a buffer is full; after a requested stop.
 CONSISTENT, PAUSED, STOPPED = 0, 1, 2
 # The end time is reached; the section is reached.

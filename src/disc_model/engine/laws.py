@@ -5,8 +5,6 @@ part holds the derivative with respect to it. The result is exact to rounding (S
 No law is differentiated by hand.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from .compile import inlined

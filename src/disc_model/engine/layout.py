@@ -8,8 +8,6 @@ Series are stored as [order][lane] in units of the time ``unit``: coefficient k 
 coefficient therefore overflows, however stiff the disc is.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

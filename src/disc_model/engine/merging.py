@@ -8,8 +8,6 @@ The unoptimised code of helpers is stored beside the kernel that first needed th
 kernels that other processes compile later.
 """
 
-from __future__ import annotations
-
 import gc
 import pickle
 from typing import ClassVar

@@ -8,8 +8,6 @@ The lengths of tuples of numbers are part of the type.  A helper that reads none
 lengths: it receives a `PackedType.narrowed` one.
 """
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import struct

@@ -6,8 +6,6 @@ of roots from above: none means no root, one means exactly one. With more the in
 (Descartes' rule, de Casteljau's algorithm).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .compile import helper, inlined

@@ -6,8 +6,6 @@ time, J the Jacobian of the jump and v the rates before and after,
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
 """
 
-from __future__ import annotations
-
 from . import laws
 from .compile import helper, inlined, kernel
 from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W

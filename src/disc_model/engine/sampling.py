@@ -4,8 +4,6 @@ A sample at an event shows the side before it.  The time of an event is rounded,
 same event. A sample is therefore "at" an event up to `SAME_INSTANT` of the clock after it.
 """
 
-from __future__ import annotations
-
 import math
 
 from . import layout

@@ -18,8 +18,6 @@ With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the dis
 where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i <= k - 1.
 """
 
-from __future__ import annotations
-
 from .compile import inlined
 from .layout import (
     AMPLITUDE_ROW,

@@ -9,8 +9,6 @@ Pairs of diametral modes fill a block of eight lanes as (a, a, a, a, b, b, b, b)
 the two members of each pair.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import llvmlite.binding as llvm

@@ -1,7 +1,5 @@
 """One step of the motion: its series, its length, and the event that ends the phase within it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

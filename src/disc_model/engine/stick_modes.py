@@ -9,8 +9,6 @@ The modes q oscillate and decay, q_i(x) = q_i(0) exp(lambda_i x).  Complex numbe
 followed by lanes of imaginary parts.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that 
 without steps, in closed form.  The series then find the release.
 """
 
-from __future__ import annotations
-
 import math
 
 from .compile import helper, inlined

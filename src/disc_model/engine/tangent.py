@@ -9,8 +9,6 @@ Rows of a column: displacements z and velocities e of all lanes, then y, g of th
 u, u' of the slider. In rigid contact u, u' are the disc's and have a meaning in separation only.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
 
-from __future__ import annotations
-
 from . import laws
 from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION

@@ -1,7 +1,5 @@
 """Integration with derivatives: a motion and its small changes, from phase to phase and back to a section."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -3,8 +3,6 @@
 All are pure functions of the datasets of `disc_model.benchmarks`.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """Kinds of figures: their keys in a study file, the data they need, and what draws them. Imports nothing heavy."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol

@@ -1,7 +1,5 @@
 """Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
 
-from __future__ import annotations
-
 import importlib
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Quick plot of one run: contact force and disc displacement, one column for each recorded window."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Protocol
 

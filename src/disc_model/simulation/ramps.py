@@ -1,7 +1,5 @@
 """Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise

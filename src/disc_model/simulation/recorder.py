@@ -7,8 +7,6 @@ of another run in its place, or a file that is no checkpoint, is renamed, and a 
 identifies the other run, which finds its checkpoint again under that name.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import logging

@@ -5,8 +5,6 @@ the free parameters; the Jacobian of F by both comes from the variational equati
 norm of the static deflection, with the parameters, over their scales.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace

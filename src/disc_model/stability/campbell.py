@@ -6,8 +6,6 @@ modal assurance criterion. Of two conjugates, the one that resembles the mode of
 number n brings f nearest to the frequency of the mode.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

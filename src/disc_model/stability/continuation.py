@@ -4,8 +4,6 @@
 regular point of that curve. `continue_border` follows neutral curves and folds in the plane of two parameters.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

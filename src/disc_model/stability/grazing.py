@@ -1,7 +1,5 @@
 """The event that grazes along a cycle: where one is about to appear or vanish, a branch of separating cycles ends."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import NamedTuple

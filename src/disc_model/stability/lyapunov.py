@@ -6,8 +6,6 @@ rest.  It carries no information, and columns turn towards that direction slowly
 column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from dataclasses import dataclass, field

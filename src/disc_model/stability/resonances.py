@@ -1,7 +1,5 @@
 """Resonances of the stick-slip cycle: the one to which a multiplier belongs, and its label in figures."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

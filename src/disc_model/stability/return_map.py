@@ -6,8 +6,6 @@ omega a, omega b, alpha, beta.  The map's Jacobian and its derivatives with resp
 variational equations (`disc_model.engine.variational`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

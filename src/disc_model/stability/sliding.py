@@ -11,8 +11,6 @@ V = (N - k u_0) / (1 - k chi + k C); under the normal force, with beta = B / r_0
 r_0 F = (mu_k + beta) R.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

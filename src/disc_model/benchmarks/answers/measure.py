@@ -9,8 +9,6 @@ Kinds of lines:
   that of the model, against the richest one.  No tolerance makes up for it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any

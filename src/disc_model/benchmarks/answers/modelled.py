@@ -4,8 +4,6 @@ The error of a model is its distance from the richest one, `RICHEST` nodal diame
 contact converges to it slowly as modes are added; a few modes suffice with residual flexibility.
 """
 
-from __future__ import annotations
-
 import math
 import time as clock
 from collections.abc import Callable, Iterator, Mapping

@@ -18,8 +18,6 @@ Correct answers are stored in ``data/answers.json`` with their errors. The scrip
 ``tests/references/make_answer_references.py`` computes them with methods that share no code with the engine.
 """
 
-from __future__ import annotations
-
 import enum
 import json
 import math

@@ -1,7 +1,5 @@
 """Tables of the measured answers."""
 
-from __future__ import annotations
-
 import json
 
 import pandas as pd

@@ -4,8 +4,6 @@ Each function receives ``solve(problem, budget)``, a method at one setting, and 
 returns the answers by name.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

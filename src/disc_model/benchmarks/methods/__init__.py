@@ -8,8 +8,6 @@ They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come wi
 `disc_model.benchmarks.registry`.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 
 from disc_model.benchmarks.methods.base import Method, MethodResult, MethodUnavailable, Problem, RunStatus

@@ -5,8 +5,6 @@ Right-hand side, event functions and Jacobian are compiled; they read and write 
 """
 
 # mypy: disable-error-code="no-untyped-def"
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Iterator
 from contextlib import contextmanager

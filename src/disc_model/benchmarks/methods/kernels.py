@@ -5,8 +5,6 @@ that of `physics`; ``c`` holds the scalars in the order of `CONSTANTS`.
 """
 
 # mypy: disable-error-code="no-untyped-def"
-from __future__ import annotations
-
 import math
 from typing import Any
 

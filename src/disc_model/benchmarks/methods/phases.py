@@ -3,8 +3,6 @@
 A method supplies ``advance``; `run_phases` carries out the events and records them.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple, Protocol
 

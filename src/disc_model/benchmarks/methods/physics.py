@@ -8,8 +8,6 @@ where u and u' are integrated only in separation; in contact they equal the disc
 code with `disc_model.engine`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

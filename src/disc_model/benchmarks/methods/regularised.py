@@ -10,8 +10,6 @@ falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps fa
 implicit ones take many steps at every event.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

@@ -5,8 +5,6 @@ conditions at the end.  A step is searched if a condition changes sign or dips. 
 through three step ends, so that a loss of contact much shorter than a step is missed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 

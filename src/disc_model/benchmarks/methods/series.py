@@ -1,7 +1,5 @@
 """The package's own engine behind the common interface."""
 
-from __future__ import annotations
-
 import math
 import time as clock
 from collections.abc import Mapping, Sequence

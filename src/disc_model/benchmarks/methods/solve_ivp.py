@@ -1,7 +1,5 @@
 """scipy's integrators with terminal events, restarted at every event."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Basins of attraction: fractions with intervals, the attractors, and the critical energy of separation."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from typing import Any

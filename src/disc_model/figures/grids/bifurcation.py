@@ -1,7 +1,5 @@
 """Bifurcation diagrams, with the largest Lyapunov exponent below."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Continuation diagrams: the range of motion on all cycles against one parameter, and where a sweep jumps."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Campbell diagrams: frequencies of steady sliding and of the stick-slip cycle over the speed, with their crossings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Cells of maps: colours and hatches of outcomes, growth rates of the stick-slip cycle, and missing cycles."""
 
-from __future__ import annotations
-
 from collections.abc import Container, Mapping
 from typing import NamedTuple
 

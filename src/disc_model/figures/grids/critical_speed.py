@@ -1,7 +1,5 @@
 """Charts over speed and preload: onset and end of separation, loss of stability of the cycle, and sweeps."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from itertools import pairwise

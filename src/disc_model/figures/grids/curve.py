@@ -1,7 +1,5 @@
 """Curves: any variable of a grid study against any one of its dimensions."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from itertools import cycle
 from textwrap import fill

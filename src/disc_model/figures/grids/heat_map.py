@@ -1,7 +1,5 @@
 """Heat maps: any variable of a grid study in colour over any two of its dimensions."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from textwrap import fill
 from typing import Any

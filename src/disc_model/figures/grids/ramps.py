@@ -1,7 +1,5 @@
 """Onset of separation on the way up and its end on the way down, against the ramp rate of the speed."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 

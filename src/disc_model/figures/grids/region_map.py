@@ -1,7 +1,5 @@
 """Maps of regions: outcome of the static start over two parameters, and growth rate of the cycle that it follows."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 

@@ -1,7 +1,5 @@
 """Probability of instability against each uncertain parameter."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from itertools import product

@@ -3,8 +3,6 @@
 Studies of the quantity `outcome` are drawn as marks over the growth rate; for `regions` see `region_map`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Catalogue of the paper's figures, their contents and data, from `catalogue.yaml`. Studies are checked against it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple

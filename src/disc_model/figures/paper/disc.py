@@ -5,8 +5,6 @@ harmonics of the angle. Twice their number and one of angles therefore determine
 shapes determine the rest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

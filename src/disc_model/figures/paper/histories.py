@@ -1,7 +1,5 @@
 """Variables against time, over a run or in one of its windows; figures 10, 11 and 13 of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

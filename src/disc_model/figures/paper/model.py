@@ -3,8 +3,6 @@
 The page docs/model.md shows the same drawing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -3,8 +3,6 @@
 Figures 4 to 9, 12, 14, 16 to 22, A1 and A2 of the paper.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Separation of the slider from the disc, over a run and in detail; figures 2, 3 and 23."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

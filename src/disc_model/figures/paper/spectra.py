@@ -1,7 +1,5 @@
 """Spectra in time, and the vibrations that they are taken from; figures 24 to 29 of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import cmcrameri.cm as cmc

@@ -5,8 +5,6 @@ stays near an unstable cycle has not settled. A new attractor that is not period
 the motion might only be passing an unstable one.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Sequence

@@ -5,8 +5,6 @@ assumed: the motion is followed over some seconds and compared with J^n d. The c
 growth rate of the leading multiplier's part.  Near repetition alone proves nothing, because a torus shows it as well.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

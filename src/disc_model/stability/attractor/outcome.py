@@ -4,8 +4,6 @@ The static start is a point of the section of `disc_model.stability.return_map`,
 Newton's method finds from it.  docs/algorithms.md, Regions, describes the conclusions and the simulations.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
