@@ -109,6 +109,16 @@ def test_columns_of_stiff_springs_took_steps_too_long_for_them(stiff):
     np.testing.assert_allclose(jacobian, expected, rtol=0, atol=2e-3)
 
 
+def test_the_jacobian_agrees_with_differences_along_a_direction() -> None:
+    """Quick enough without compilation, unlike a whole Jacobian by differences."""
+    map_ = ReturnMap(P)
+    x = map_.static
+    along = np.linalg.norm(x) * np.cos(np.arange(map_.size))
+    expected = differences(lambda s: map_.evaluate(x + s * along, tangent=False)[1], 1e-3)
+    # 4e-11, whatever the step between 3e-5 and 3e-3
+    assert np.linalg.norm(map_.evaluate(x)[2] @ along - expected) < 1e-9 * np.linalg.norm(expected)
+
+
 def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS) -> None:
     """Derivatives of where a flight ends by parameters, against differences of steps relative to their values."""
     p, how = map_.parameters, {"may_separate": True}
