@@ -114,10 +114,13 @@ def test_a_new_value_leaves_the_other_batches_of_a_costly_quantity() -> None:
     assert batches(100, 300) < batches(100, 200, 300)
 
 
-@pytest.mark.compiled
+@pytest.mark.slow
 @pytest.mark.parametrize(("quantity", "options"), [("floquet", {}), ("outcome", {"horizon": 100}), ("campbell", {})])
 def test_a_point_costs_about_what_its_quantity_says(quantity: str, options: dict[str, float]) -> None:
-    """Within a factor of five, for other processors: batches used to cost 15 times their work."""
+    """Within a factor of five, for other processors: batches used to cost 15 times their work.
+
+    A test by time is no quick test: without the newer instructions of a processor a point costs ten times as much.
+    """
     grid = parse_grid(growth(N=[200], Omega=span_of(9)) | {"quantity": quantity, "options": options})
     (text,) = grid.batches.values()
     run_batch(text)  # loads the kernels
