@@ -382,7 +382,10 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
 def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
     """Write the letters of panels, and the subjects of the first ones; a single panel has no letter."""
     for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
-        ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
+        if len(axes) > 1:
+            letter(ax, text, title, **look)
+        else:
+            ax.set_title(title, loc="left", **look)
 
 
 def legend_above(ax: Axes, **look: Any) -> Legend:
