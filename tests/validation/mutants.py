@@ -118,7 +118,7 @@ NO_EQUATION = {
             "_refine _determinant _with_slope _bessel _bessel_small _gauss"
         ),
         "benchmarks/methods/physics.py": "Physics.unpack",
-        "benchmarks/methods/kernels.py": "tables rk4_run",
+        "benchmarks/methods/kernels.py": "tables rk4_run _dip",
         "benchmarks/methods/taylor_heyoka.py": "Heyoka._solve",
         "benchmarks/scenes.py": "separating_start answer rigid_cycle errors event_time_error",
     },
@@ -137,6 +137,7 @@ EQUIVALENT: dict[str, str] = {
     "engine/transitions.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
     "stability/sliding.py:_slip: - p.N -> +": "a constant, and only derivatives of these rates are taken",
     "stability/sliding.py:_slip: - model.u_0 -> +": "a constant, and only derivatives of these rates are taken",
+    "benchmarks/methods/kernels.py:_margins: + SHIFT -> -": "1e-16 m, for rounding where the gap closes",
     "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
 }
 PATIENCE = 100
