@@ -1,12 +1,12 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.registry import RIVALS, SCENES
+from disc_model.benchmarks.registry import RIVALS, SCENES, absent
 
 BENCH = "results/bench"
 MEASURED = [
     rival
     for rival in RIVALS
-    if rival.maps and (not rival.requires or not (CONDA or rival.missing()))
+    if rival.maps and (not rival.requires or not (CONDA or absent(rival.requires)))
 ]
 QUESTIONED = [rival.name for rival in MEASURED]
 FAILURE_MAPS = [

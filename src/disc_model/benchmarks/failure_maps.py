@@ -21,7 +21,7 @@ from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
-from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT, FixedStep
+from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
@@ -135,7 +135,7 @@ def observed_step_limit(diameters: int) -> float:
 
     Compare with 2 sqrt(2)/omega_max.
     """
-    problem, method = short_problem("stick_slip", diameters), FixedStep()
+    problem, method = short_problem("stick_slip", diameters), METHODS["RK4"]
     answer = engine_answer("stick_slip", diameters)
     theory = STABILITY_LIMIT / float(Physics(problem.parameters).omega.max())
     low, high = 0.7 * theory, 1.5 * theory

@@ -1,42 +1,46 @@
-"""Registry of the methods: each is one file in `disc_model.benchmarks.methods` and one line here.
+"""Registry of the methods, from ``rivals.yaml``: each is an entry there and a class in `disc_model.benchmarks.methods`.
 
 The module imports nothing heavy: the workflow reads it at every start.
 """
 
+import math
+from collections.abc import Iterable
 from importlib.util import find_spec
-from typing import NamedTuple
+from pathlib import Path
+from typing import Literal
+
+import yaml
+from pydantic import BaseModel, ConfigDict
 
 SCENES = ("stick_slip", "separating", "many_modes", "rigid")
 """Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
 
 
-class Rival(NamedTuple):
-    """A method: its name, its place (``module:class`` in `disc_model.benchmarks.methods`), and its class's arguments.
+def absent(packages: Iterable[str]) -> list[str]:
+    """Those of some packages that are not installed."""
+    return [name for name in packages if find_spec(name) is None]
 
-    ``requires`` are the packages that it needs; ``maps`` are the scenes with a failure map of it.
-    """
 
+class Rival(BaseModel):
+    """A method as the file declares it; the file explains the keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
     name: str
+    label: str
     place: str
-    arguments: tuple[object, ...] = ()
+    arguments: tuple[str, ...] = ()
+    setting: Literal["tol", "step", "epsilon"] = "tol"
+    order: float = math.nan
+    settings: dict[str, tuple[float, ...]]
+    map_values: tuple[float, ...] = ()
+    map_budget: float = 1.0
+    maps: tuple[str, ...] = ()
     requires: tuple[str, ...] = ()
-    maps: tuple[str, ...] = ("separating",)
-
-    def missing(self) -> tuple[str, ...]:
-        """Packages that are not installed."""
-        return tuple(package for package in self.requires if find_spec(package) is None)
 
 
-RIVALS = (
-    Rival("series", "series:Series"),
-    Rival("series-fewest", "series:Fewest", maps=()),
-    Rival("RK4", "rk4:FixedStep", maps=("stick_slip", "separating")),
-    Rival("RK45", "solve_ivp:SolveIvp", ("RK45", 5)),
-    Rival("DOP853", "solve_ivp:SolveIvp", ("DOP853", 8)),
-    Rival("LSODA", "solve_ivp:SolveIvp", ("LSODA",)),
-    Rival("Radau", "solve_ivp:SolveIvp", ("Radau", 5)),
-    Rival("regularised", "regularised:Regularised"),
-    Rival("heyoka", "taylor_heyoka:Heyoka", requires=("heyoka",)),
-    Rival("CVODE", "cvode:Cvode", ("Adams",), requires=("sksundae",)),
-    Rival("CVODE-BDF", "cvode:Cvode", ("BDF",), requires=("sksundae",), maps=()),
-)
+def _read() -> tuple[Rival, ...]:
+    found = yaml.safe_load(Path(__file__).with_name("rivals.yaml").read_text(encoding="utf-8"))
+    return tuple(Rival(name=name, **given) for name, given in found.items())
+
+
+RIVALS = _read()

@@ -41,12 +41,15 @@ BESIDES = {
 }
 """Modules that are imported but do not affect results, with the reason."""
 
-_BENCHMARK = "case benchmarks.methods benchmarks.grid benchmarks.hardware benchmarks.scenes"
+_BENCHMARK = (
+    "case benchmarks.methods benchmarks.registry benchmarks/rivals.yaml benchmarks.grid benchmarks.hardware "
+    "benchmarks.scenes"
+)
 _REFERENCES = (
     "benchmarks/data/benchmark_reference.json benchmarks/data/separating_start.json benchmarks/data/answers.json"
 )
 _QUESTIONS = (
-    "truncation benchmarks.registry benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
+    "truncation benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
     "analysis.sobol " + _REFERENCES
 )
 _TEXTS = "benchmarks.texts benchmarks/texts.yaml data.texts"
@@ -100,9 +103,7 @@ KINDS = {
     "make_table": Kind("check_claims"),
     "build_explorer": Kind("figure explorer explorer/static"),
     # the benchmark
-    "measure_work_precision": Kind(
-        f"{_BENCHMARK} benchmarks.registry {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"
-    ),
+    "measure_work_precision": Kind(f"{_BENCHMARK} {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"),
     "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
     "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report"),
     "report_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),

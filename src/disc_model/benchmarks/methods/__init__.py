@@ -4,8 +4,8 @@
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
 They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come with the extra `bench`; without them their
-`unavailable()` gives the reason and `solve` raises `MethodUnavailable`. The methods are listed in
-`disc_model.benchmarks.registry`.
+`unavailable()` gives the reason and `solve` raises `MethodUnavailable`. The methods and their settings are
+listed in ``benchmarks/rivals.yaml``.
 """
 
 from importlib import import_module
@@ -17,7 +17,7 @@ from disc_model.benchmarks.registry import RIVALS, Rival
 def _made(rival: Rival) -> Method:
     module, _, name = rival.place.partition(":")
     method: Method = getattr(import_module(f"{__name__}.{module}"), name)(*rival.arguments)
-    method.name, method.requires = rival.name, rival.requires
+    vars(method).update(rival.model_dump(exclude={"place", "arguments", "maps"}, exclude_unset=True))
     return method
 
 

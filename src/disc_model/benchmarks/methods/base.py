@@ -7,18 +7,17 @@ times. On a core of its own these equal wall-clock times, and elsewhere other pr
 from __future__ import annotations
 
 import enum
-import importlib.util
 import math
 import time as clock
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.benchmarks.registry import absent
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
@@ -99,39 +98,21 @@ class MethodResult:
         return self.kinds.count("separation")
 
 
-def decades(*exponents: int) -> tuple[float, ...]:
-    """Powers of 10 with these exponents."""
-    return tuple(10.0**e for e in exponents)
-
-
-MAP_TOLERANCES = decades(*range(-2, -12, -1))
-"""Relative tolerances of a failure map."""
-
-
 class Method(ABC):
-    """A method that integrates a problem; `disc_model.benchmarks.registry` gives its name and required packages.
-
-    Attributes
-    ----------
-    label : its name in words
-    setting : meaning of its one number: "tol" (relative tolerance), "step" (s) or "epsilon" (rad/s)
-    order : theoretical order of the global error against the step (nan if it has none)
-    settings : by scene, the measured settings from coarse to fine
-    map_values, map_budget : the settings of its failure map, and its budget there for a point, s
-    """
+    """A method that integrates a problem; its attributes are those that ``benchmarks/rivals.yaml`` declares."""
 
     name: str = ""
     label: str
-    setting: ClassVar[str] = "tol"
+    setting: str = "tol"
     order: float = math.nan
     requires: tuple[str, ...] = ()
     settings: Mapping[str, Sequence[float]]
-    map_values: Sequence[float] = MAP_TOLERANCES
+    map_values: Sequence[float] = ()
     map_budget: float = 1.0  # beyond it a method gave up: the engine needs a ten-thousandth of it
 
     def unavailable(self) -> str:
         """Reason why the method cannot be used here; "" if it can."""
-        missing = [name for name in self.requires if importlib.util.find_spec(name) is None]
+        missing = absent(self.requires)
         if not missing:
             return ""
         return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"

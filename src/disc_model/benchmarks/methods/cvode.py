@@ -16,11 +16,10 @@ import numpy as np
 from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
-from disc_model.benchmarks.registry import SCENES
 
 STEPS_PER_LOOK = 5_000
 """Number of steps between two checks of the clock."""
@@ -36,11 +35,6 @@ class Cvode(Method):
 
     def __init__(self, family: str) -> None:
         self.family = family
-        self.label = f"SUNDIALS CVODE ({family})"
-        if family == "BDF":  # where something is stiff
-            self.settings = {"rigid": decades(-4, -6, -8, -10)}
-            return
-        self.settings = dict.fromkeys(SCENES, decades(-4, -6, -8, -10, -11, -12)) | {"rigid": decades(-4)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)
@@ -73,10 +67,7 @@ class Cvode(Method):
             call.CVodeGetRootInfo(memory, roots)
             return next(i for i, found in enumerate(roots) if found), time.value, state
 
-        with _solver(self.family, state, value, value * absolute_scale(physics), given) as (
-            memory,
-            vector,
-        ):
+        with _solver(self.family, state, value, value * absolute_scale(physics), given) as (memory, vector):
             return run_phases(problem, physics, advance, meter)
 
 

@@ -11,13 +11,12 @@ implicit ones take many steps at every event.
 """
 
 import math
-from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, RunStatus, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale, crossing
 from disc_model.simulation.result import State
@@ -81,15 +80,6 @@ def _excess(mu_s: float, mu_k: float) -> float:
 class Regularised(Method):
     """LSODA on the regularised model."""
 
-    label = "regularised, LSODA"
-    setting = "epsilon"
-    order = 2.0 / 3.0
-    settings: Mapping[str, Sequence[float]] = {
-        **dict.fromkeys(("stick_slip", "separating", "rigid"), decades(0, -1, -2)),
-        "many_modes": decades(0, -1),
-    }
-    map_values = decades(1, 0, -1, -2)
-    map_budget = 6.0
     algorithm = "LSODA"
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:

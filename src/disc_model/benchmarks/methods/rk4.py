@@ -6,7 +6,6 @@ through three step ends, so that a loss of contact much shorter than a step is m
 """
 
 import math
-from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -24,14 +23,6 @@ MAX_EVENTS = 20_000
 class FixedStep(Method):
     """Classical RK4."""
 
-    label = "RK4, fixed step"
-    setting = "step"
-    order = 4
-    settings: Mapping[str, Sequence[float]] = {
-        **dict.fromkeys(("stick_slip", "separating"), tuple(m * 10.0**e for e in (-4, -5, -6) for m in (4, 2, 1))),
-        "many_modes": tuple(m * 10.0**e for e in (-5, -6) for m in (8, 4, 2, 1)),
-        "rigid": (8e-8, 6.5e-8, 4e-8, 2e-8),
-    }
     map_values = tuple(float(h) for h in np.geomspace(2e-5, 2e-3, 61)[::-1])
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:

@@ -2,12 +2,11 @@
 
 import math
 import time as clock
-from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus, decades
+from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import Status
 from disc_model.simulation.api import simulate
@@ -26,12 +25,6 @@ accurate to 2e-4.
 
 class Series(Method):
     """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of polynomials."""
-
-    label = "series (this package)"
-    settings: Mapping[str, Sequence[float]] = {
-        **dict.fromkeys(("stick_slip", "separating", "many_modes"), decades(-4, -6, -8, -10, -12, -14)),
-        "rigid": decades(-4, -8, -12),
-    }
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         steps = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
@@ -67,9 +60,6 @@ class Fewest(Series):
     The modes change the answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring.
     They are never excited and then follow statically, however fast they are.
     """
-
-    label = "series, modes that matter"
-    settings: Mapping[str, Sequence[float]] = {"rigid": decades(-4, -6, -8)}
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)

@@ -1,17 +1,15 @@
 """scipy's integrators with terminal events, restarted at every event."""
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.benchmarks.registry import SCENES
 
 FLOOR = 2.3e-14
 """Least relative tolerance that scipy accepts."""
@@ -19,27 +17,12 @@ IMPLICIT = ("LSODA", "Radau")
 Function = Callable[[float, Array], Any]
 Parts = tuple[Function, Function, list[Function]]
 
-_TO_9, _TO_11 = decades(-3, -5, -7, -9), decades(-3, -5, -7, -9, -11)
-CHOICES: dict[str, tuple[tuple[Sequence[float], ...], Sequence[float]]] = {
-    "RK45": ((_TO_11, _TO_11, _TO_9[:3], _TO_9[:1]), MAP_TOLERANCES),
-    "DOP853": ((_TO_11, _TO_11, _TO_9, _TO_9[:1]), MAP_TOLERANCES),
-    "LSODA": ((_TO_11, _TO_11, _TO_9[:3], _TO_9), MAP_TOLERANCES[::2]),
-    "Radau": (
-        (decades(-2, -3, -4, -5), decades(-2, -3, -4), decades(-2, -3, -4), decades(-2, -4, -6, -8)),
-        MAP_TOLERANCES[:8:2],
-    ),
-}
-"""Settings at which each algorithm of scipy is measured: by scene, and for maps."""
-
 
 class SolveIvp(Method):
     """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
 
-    def __init__(self, algorithm: str, order: float = math.nan) -> None:
-        self.algorithm, self.order = algorithm, order
-        self.label = f"scipy {algorithm}"
-        settings, self.map_values = CHOICES[algorithm]
-        self.settings = dict(zip(SCENES, settings, strict=True))
+    def __init__(self, algorithm: str) -> None:
+        self.algorithm = algorithm
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         physics = Physics(problem.parameters)

@@ -11,14 +11,15 @@ Options were compared at 1e-8 and 1e-10. Compact mode takes twice as long and ``
 from __future__ import annotations
 
 import time as clock
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
+from copy import copy
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import MAP_TOLERANCES, GaveUp, Meter, Method, MethodResult, Problem, decades
+from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
 from disc_model.benchmarks.methods.kernels import SHIFT
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
@@ -32,20 +33,13 @@ STEPS_PER_LOOK = 100_000
 class Heyoka(Method):
     """heyoka's adaptive Taylor integrator."""
 
-    label = "heyoka"
-    settings: Mapping[str, Sequence[float]] = {
-        **dict.fromkeys(("stick_slip", "separating"), decades(-4, -6, -7, -8, -9, -10, -12, -14)),
-        "many_modes": decades(-4, -6, -8, -10, -12),
-        "rigid": decades(-4, -8),
-    }
-    map_values = MAP_TOLERANCES[::2]
-
-    def __init__(self, compact: bool = False) -> None:
-        self.compact = compact
+    compact = False
 
     def economical(self) -> Heyoka:
         """The method in compact mode: a map compiles it for every truncation and tolerance."""
-        return type(self)(compact=True)
+        smaller = copy(self)
+        smaller.compact = True
+        return smaller
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         import heyoka as hy
@@ -69,13 +63,8 @@ class Heyoka(Method):
             integrator.pars[:2] = given
             # with fewer events, the last ones of ENDS
             state = integrator.state
-            prepared[name] = (
-                integrator,
-                integrator.propagate_until,
-                state,
-                len(state),
-                ENDS[name] - len(integrator.t_events),
-            )
+            skipped = ENDS[name] - len(integrator.t_events)
+            prepared[name] = (integrator, integrator.propagate_until, state, len(state), skipped)
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
             nonlocal inside
