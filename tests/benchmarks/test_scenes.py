@@ -61,7 +61,7 @@ def test_an_event_too_few_is_wrong_unless_it_is_late():
     ("changes", "verdict"),
     [
         ({"times": RIGHT.times + 1e-4}, Verdict.INACCURATE),
-        ({"kinds": ("separation",) * 135}, Verdict.MISSED),
+        ({"kinds": ("separation",) * 135}, Verdict.WRONG_EVENTS),
         ({"outcome": RunStatus.NON_FINITE}, Verdict.UNSTABLE),
         ({"outcome": RunStatus.TOO_SLOW}, Verdict.GAVE_UP),
         ({"outcome": RunStatus.STALLED}, Verdict.GAVE_UP),

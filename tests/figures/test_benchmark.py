@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import measure
+from disc_model.benchmarks.grid import words
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.registry import SCENES
 from disc_model.figures import benchmark as figures
@@ -36,7 +37,7 @@ def test_every_method_looks_otherwise_and_every_scene_has_a_title():
     assert figures.LINES.keys() == METHODS.keys() | measure.LINES.keys()
     assert len(set(figures.LINES.values())) == len(figures.LINES)
     assert set(figures.TITLES) == set(SCENES)
-    assert (*figures.WORDS,) == scenes.VERDICT_WORDS
+    assert (*figures.WORDS,) == words(scenes.Verdict)
 
 
 @pytest.fixture

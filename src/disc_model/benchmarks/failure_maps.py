@@ -15,16 +15,16 @@ import xarray as xr
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import simulated
-from disc_model.benchmarks.answers.questions import STATUS_WORDS, VERDICT_WORDS, AnswerStatus, Found, verdict
-from disc_model.benchmarks.grid import measured
+from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
+from disc_model.benchmarks.grid import measured, variables
 from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.physics import Physics
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
-from disc_model.benchmarks.scenes import VERDICT, Answer, Verdict
+from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
 from disc_model.truncation import real_modes
 
 TRUNCATIONS = (1, 2, 4, 6, 8)
@@ -35,20 +35,8 @@ REFERENCE_TOL = 1e-14
 RESOLUTION = 2e-3
 """Relative precision of the largest stable step."""
 
-VARIABLES = {
-    "verdict": VERDICT,
-    "event_error": Variable("s", "largest error of an event time"),
-    "longest_step": Variable("s", "longest step"),
-}
-FACTS = {
-    "modes": Variable("1", "number of real modes"),
-    "right": Variable("s", "first separation"),
-    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
-    "step_limit": Variable("s", "linear stability limit of RK4, 2 sqrt(2)/omega_max"),
-    "observed_limit": Variable("s", "largest step at which RK4 does not blow up, observed"),
-    "shortest_phase": Variable("s", "shortest time between two events"),
-    "stiff_epsilon": Variable("rad s-1", "regularisation below which friction is stiffer than the disc"),
-}
+VARIABLES = variables("failure_maps", verdict=Verdict)
+FACTS = variables("map_facts")
 
 
 @one_core()
@@ -73,41 +61,37 @@ def failure_map(
         found = scenes.errors(problem, engine_answer(scene, diameters), result)
         return {"verdict": found.verdict, "event_error": found.event_time, "longest_step": result.longest_step}
 
-    dataset = map_of(method, truncations, own.map_values if values is None else values, VARIABLES, measure)
-    facts = [_facts(scene, diameters, observed=method == "RK4") for diameters in truncations]
-    return _explained(dataset, facts, scene=scene, budget=own.map_budget, span=SPANS[scene])
+    facts = {diameters: _facts(scene, diameters) for diameters in truncations}
+    if method == "RK4" and scene == "stick_slip":
+        for diameters in truncations:
+            facts[diameters]["observed_limit"] = observed_step_limit(diameters)
+    about = {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
+    return _map_of(method, own.map_values if values is None else values, VARIABLES, measure, facts, about)
 
 
-def _explained(found: xr.Dataset, facts: Sequence[Mapping[str, float]], **about: Any) -> xr.Dataset:
-    """The map with `FACTS` along diameters and further attributes."""
-    for name in facts[0]:
-        found[name] = ("diameters", [fact[name] for fact in facts], FACTS[name].attributes)
-    return found.assign_attrs(about)
-
-
-def map_of(
+def _map_of(
     method: str,
-    diameters: Sequence[int],
     values: Sequence[float],
     variables: Mapping[str, Variable],
     measure: Callable[[int, float], Mapping[str, float]],
+    facts: Mapping[int, Mapping[str, float]],
+    about: Mapping[str, Any],
 ) -> xr.Dataset:
-    """Results of ``measure`` for a method along (diameters, value), with a description of the map."""
+    """Results of ``measure`` for a method along (diameters, value), and facts for each number of diameters."""
     own = METHODS[method]
-    found = measured({"diameters": diameters, "value": values}, variables, measure)
-    found["diameters"].attrs = Variable("1", "highest nodal diameter").attributes
+    found = measured({"diameters": [*facts], "value": values}, variables, measure)
+    for name in next(iter(facts.values())):
+        found[name] = ("diameters", [fact[name] for fact in facts.values()], FACTS[name].attributes)
+    found["diameters"].attrs = FACTS["diameters"].attributes
     found["value"].attrs = {"long_name": f"setting: {own.setting}"}
-    return found.assign_attrs(method=method, label=own.label, setting=own.setting, machine=machine())
+    return found.assign_attrs(method=method, label=own.label, setting=own.setting, machine=machine(), **about)
 
 
-def _facts(scene: str, diameters: int, *, observed: bool) -> dict[str, float]:
-    problem = short_problem(scene, diameters)
-    p = problem.parameters
-    physics = Physics(p)
-    top = float(physics.omega.max())
-    limit = {"observed_limit": observed_step_limit(diameters)} if observed and scene == "stick_slip" else {}
-    return limit | {
-        "modes": float(physics.n + np.count_nonzero(physics.l > 0)),
+def _facts(scene: str, diameters: int) -> dict[str, float]:
+    p = short_problem(scene, diameters).parameters
+    top = float(mode_arrays(p).omega.max())
+    return {
+        "modes": float(real_modes(diameters, 0)),
         "omega_max": top,
         "step_limit": STABILITY_LIMIT / top,
         "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
@@ -135,13 +119,12 @@ def observed_step_limit(diameters: int) -> float:
 
     Compare with 2 sqrt(2)/omega_max.
     """
-    problem, method = short_problem("stick_slip", diameters), METHODS["RK4"]
-    answer = engine_answer("stick_slip", diameters)
-    theory = STABILITY_LIMIT / float(Physics(problem.parameters).omega.max())
+    problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
+    theory = _facts("stick_slip", diameters)["step_limit"]
     low, high = 0.7 * theory, 1.5 * theory
     while high / low > 1.0 + RESOLUTION:
         middle = math.sqrt(low * high)
-        unstable = scenes.errors(problem, answer, method.solve(problem, middle)).verdict is Verdict.UNSTABLE
+        unstable = scenes.errors(problem, answer, METHODS["RK4"].solve(problem, middle)).verdict is Verdict.UNSTABLE
         low, high = (low, middle) if unstable else (middle, high)
     return low
 
@@ -158,13 +141,7 @@ BUDGET = 3.0
 """Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
 VALUES = 6
 """Greatest number of settings."""
-ANSWER_VARIABLES = {
-    "verdict": Variable("1", "whether the first separation is right", VERDICT_WORDS),
-    "status": Variable("1", "what became of the question", STATUS_WORDS),
-    "found": Variable("s", "first separation found"),
-    "error": Variable("s", "its error"),
-    "seconds": Variable("s", "wall time"),
-}
+ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=AnswerStatus)
 
 
 @one_core()
@@ -181,27 +158,23 @@ def answer_map(
     where contact is not lost).
     """
     own = METHODS[method].economical()
-    right = {count: _right(count) for count in diameters}
+    facts = {count: {"modes": real_modes(count, 0), "right": _right(count)} for count in diameters}
     late: set[int] = set()
 
     def measure(count: int, value: float) -> dict[str, float]:
-        found = Found(math.nan, math.nan, AnswerStatus.TOO_SLOW)
-        if count not in late:
+        if count in late:
+            found = Found(math.nan, math.nan, AnswerStatus.TOO_SLOW)
+        else:
             found = _first_separation(simulated.by(own, value), BUDGET, count)
         if found.status is AnswerStatus.TOO_SLOW:
             late.add(count)
-        return {
-            "verdict": verdict("first_separation", found, right[count]),
-            "status": found.status,
-            "found": found.value,
-            "error": abs(found.value - right[count]),
-            "seconds": found.seconds,
-        }
+        right = facts[count]["right"]
+        judged = {"verdict": verdict("first_separation", found, right), "error": abs(found.value - right)}
+        return judged | {"status": found.status, "found": found.value, "seconds": found.seconds}
 
     values = _thinned(own.map_values) if values is None else values
-    dataset = map_of(method, diameters, values, ANSWER_VARIABLES, measure)
-    facts = [{"modes": real_modes(count, 0), "right": time} for count, time in right.items()]
-    return _explained(dataset, facts, budget=BUDGET, horizon=HORIZON, parameters=CASE.canonical_json)
+    about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
+    return _map_of(method, values, ANSWER_VARIABLES, measure, facts, about)
 
 
 def _thinned(values: Sequence[float]) -> Sequence[float]:

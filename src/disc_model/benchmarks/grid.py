@@ -1,13 +1,31 @@
-"""Datasets of what is measured at each point of a grid."""
+"""Datasets of what is measured at each point of a grid, and their variables, from ``variables.yaml``."""
 
+import enum
 import math
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
+import yaml
 
 from disc_model.data.variables import Variable
+
+_VARIABLES = yaml.safe_load(Path(__file__).with_name("variables.yaml").read_text(encoding="utf-8"))
+
+
+def words(kinds: type[enum.IntEnum]) -> tuple[str, ...]:
+    """Words for the values of a flag."""
+    return tuple(kind.name.lower() for kind in kinds)
+
+
+def variables(table: str, **flags: type[enum.IntEnum]) -> dict[str, Variable]:
+    """The variables of a dataset, of which some are flags."""
+    return {
+        name: Variable(units, long_name, words(flags[name]) if name in flags else ())
+        for name, (units, long_name) in _VARIABLES[table].items()
+    }
 
 
 def measured(

@@ -28,7 +28,6 @@ import numpy as np
 
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
-from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
@@ -50,14 +49,10 @@ class Verdict(enum.IntEnum):
 
     CONVERGED = 0
     INACCURATE = 1
-    MISSED = 2
+    WRONG_EVENTS = 2
     UNSTABLE = 3
     GAVE_UP = 4
     NOT_RUN = 5
-
-
-VERDICT_WORDS = ("converged", "inaccurate", "wrong_events", "unstable", "gave_up", "not_run")
-VERDICT = Variable("1", "what became of the method", VERDICT_WORDS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +175,7 @@ def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
     if state > LOST:
         return Errors(time, state, Verdict.UNSTABLE)
     if math.isnan(time):
-        return Errors(time, state, Verdict.MISSED)
+        return Errors(time, state, Verdict.WRONG_EVENTS)
     return Errors(time, state, Verdict.CONVERGED if time <= CONVERGED else Verdict.INACCURATE)
 
 

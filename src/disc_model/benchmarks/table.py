@@ -6,8 +6,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from disc_model.benchmarks.grid import words
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.scenes import JUDGED, VERDICT_WORDS, Verdict
+from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.benchmarks.texts import report
 
 DEFAULT = 1e-10
@@ -78,7 +79,7 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
         "scene": points["scene"],
         "method": points["solver"],
         "setting": [f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
-        "verdict": [VERDICT_WORDS[verdict] for verdict in points["verdict"]],
+        "verdict": [words(Verdict)[verdict] for verdict in points["verdict"]],
         "seconds_per_simulated_second": points["cost"],
         "event_time_error": points["event_error"],
         "state_error": points["state_error"],

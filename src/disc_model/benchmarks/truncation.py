@@ -16,9 +16,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.benchmarks.grid import measured
+from disc_model.benchmarks.grid import measured, variables
 from disc_model.benchmarks.hardware import machine
-from disc_model.data.variables import Variable
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -42,27 +41,7 @@ AFTER = 1.0
 """Time after the first separation over which impacts are counted, s."""
 WINDOW = (5.0, 7.0)
 """Stretch over which the range of the contact force is taken, s."""
-SHARED = {
-    "modes": Variable("1", "number of real modes"),
-    "lowest_coupled": Variable("rad s-1", "lowest frequency of disc and slider at rest"),
-    "frequency_error": Variable("1", "largest relative error of the coupled frequencies in the band"),
-    "growth_rate": Variable("s-1", "growth rate of the stick-slip cycle"),
-    "first_separation": Variable("s", "first separation"),
-}
-VARIABLES = SHARED | {
-    "omega_max": Variable("rad s-1", "highest natural frequency of the disc"),
-    "compliance": Variable("kg-1", "S2, sum of psi^2: compliance against an impulse"),
-    "force_min": Variable("N", "least contact force in contact"),
-    "force_max": Variable("N", "greatest contact force in contact"),
-    "separations": Variable("s-1", "separations per second in the second after the first one"),
-    "separated_share": Variable("1", "share of that second spent separated"),
-    "force_max_separating": Variable("N", "greatest contact force in that second"),
-    "impact_share": Variable(
-        "1",
-        "change of the slider's velocity at a plastic impact over the closing velocity, 1/(1 + m S2)",
-    ),
-    "cost": Variable("1", "wall time per simulated second, motion in contact"),
-}
+VARIABLES = variables("truncation")
 
 
 def truncation_study(
@@ -116,16 +95,7 @@ TOLERANCES = (1e-10, 1e-12, 1e-13)
 """Tolerances of the motion after the first separation; the next one is used if the last fails to reach the end."""
 MOST_GROWTH = 80
 """Greatest number of real modes for growth rates, which need a column for each of four coordinates of every pair."""
-CONTACT_VARIABLES = SHARED | {
-    "contact_compliance": Variable("m N-1", "compliance of the contact"),
-    "separations": Variable("s-1", "separations per second, late"),
-    "separated_share": Variable("1", "share of the time spent separated, late"),
-    "u_range": Variable("m", "range of the slider's height, late"),
-    "force_max_separating": Variable("N", "greatest contact force, late"),
-    "cost": Variable("1", "processor time per simulated second before the first separation"),
-    "tol_late": Variable("1", "tolerance of the motion after the first separation"),
-    "cost_separating": Variable("1", "the same, from the first separation until the late stretch"),
-}
+CONTACT_VARIABLES = variables("contact_truncation")
 
 
 def contact_study(

@@ -10,21 +10,20 @@ import time as clock
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.grid import measured
+from disc_model.benchmarks.grid import measured, variables
 from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS, RunStatus
 from disc_model.benchmarks.registry import SCENES
-from disc_model.benchmarks.scenes import JUDGED, VERDICT, Verdict
+from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
-from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
 BUDGET = 12.0
@@ -52,21 +51,9 @@ def all_settings() -> Settings:
     }
 
 
-VARIABLES: Mapping[str, Variable] = {
-    "value": Variable("1", "setting of the method: tolerance, step (s) or regularisation (rad/s)"),
-    "seconds": Variable("s", "processor time of the integration, median of the repeats"),
-    "seconds_spread": Variable("s", "largest less smallest time of the repeats"),
-    "cost": Variable("1", "seconds per simulated second"),
-    "marginal_cost": Variable("1", "the same of the time beyond the scene's end; nan where it was not measured"),
-    "glue": Variable("1", "share of the seconds spent in Python between compiled phases; nan where not measured"),
-    "event_error": Variable("s", "largest error of an event time, nan if events are missing or invented"),
-    "state_error": Variable("1", "energy norm of the error of the state at the end over that of the state"),
-    "work": Variable("1", "right-hand sides evaluated; steps for methods that work with series"),
-    "events": Variable("1", "number of events found"),
-    "separations": Variable("1", "number of separations found"),
-    "repeats": Variable("1", "number of times measured"),
-    "verdict": VERDICT,
-}
+VARIABLES = variables("work_precision", verdict=Verdict)
+OF_LINES = variables("work_precision_lines")
+"""Variables of methods and scenes."""
 
 
 class Point(NamedTuple):
@@ -207,15 +194,16 @@ def _dataset(
     dataset.attrs |= {"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
     dataset.attrs |= {"versions": json_attribute(versions() | extra)}
     dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
-    dataset["label"] = ("solver", [METHODS[name].label for name in methods], {"long_name": "name in words"})
-    about = "processor time of one whole call of simulate at its default, median of the rounds"
-    dataset["whole_call"] = ("scene", [*whole_calls.values()], {"units": "s", "long_name": about})
-    theory = [METHODS[name].order for name in methods]
-    dataset["order_theory"] = ("solver", theory, {"units": "1", "long_name": "theoretical order, nan if variable"})
+    lines: dict[str, tuple[str | tuple[str, ...], Any]] = {
+        "label": ("solver", [METHODS[name].label for name in methods]),
+        "whole_call": ("scene", [*whole_calls.values()]),
+        "order_theory": ("solver", [METHODS[name].order for name in methods]),
+    }
     for error in ("event", "state"):
         orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in settings]
-        text = f"fitted order of the error of the {error} in the step; in the tolerance, if the order is variable"
-        dataset[f"order_{error}"] = (("scene", "solver"), np.array(orders), {"units": "1", "long_name": text})
+        lines[f"order_{error}"] = (("scene", "solver"), orders)
+    for name, (dims, values) in lines.items():
+        dataset[name] = (dims, values, OF_LINES[name].attributes)
     return dataset
 
 

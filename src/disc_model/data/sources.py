@@ -42,8 +42,8 @@ BESIDES = {
 """Modules that are imported but do not affect results, with the reason."""
 
 _BENCHMARK = (
-    "case benchmarks.methods benchmarks.registry benchmarks/rivals.yaml benchmarks.grid benchmarks.hardware "
-    "benchmarks.scenes"
+    "case benchmarks.methods benchmarks.registry benchmarks/rivals.yaml benchmarks.grid benchmarks/variables.yaml "
+    "benchmarks.hardware benchmarks.scenes"
 )
 _REFERENCES = (
     "benchmarks/data/benchmark_reference.json benchmarks/data/separating_start.json benchmarks/data/answers.json"

@@ -17,13 +17,13 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
-from disc_model.benchmarks.answers.questions import AnswerStatus, Found, verdict
+from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
+from disc_model.benchmarks.grid import variables
 from disc_model.benchmarks.hardware import machine, one_core
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
-from disc_model.data.variables import Variable
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Tolerances of the search for a cycle."""
@@ -119,23 +119,7 @@ def _row(answer: str, line: str, setting: float, right: float, found: Found) -> 
     return found._asdict() | row
 
 
-VARIABLES: Mapping[str, Variable] = {
-    "answer": Variable("", "what is asked"),
-    "line": Variable("", "method; cycle; rigid or residual, where the number of modes varies"),
-    "label": Variable("", "line in words"),
-    "varies": Variable("", "what the setting is"),
-    "setting": Variable("", "tolerance, step (s), regularisation (rad/s); number of nodal diameters"),
-    "found": Variable("", "answer in its own unit; nan if there was none"),
-    "right": Variable("", "right answer"),
-    "error": Variable("", "distance from the right answer, in its unit"),
-    "low": Variable("", "lower bound of the answer, where it has one"),
-    "high": Variable("", "upper bound of the answer"),
-    "cells": Variable("1", "cells of the region that were looked at"),
-    "seconds": Variable("s", "processor time"),
-    "status": Variable("1", "what became of the question", questions.STATUS_WORDS),
-    "verdict": Variable("1", "whether the answer is right", questions.VERDICT_WORDS),
-    "message": Variable("", "why there is no answer"),
-}
+VARIABLES = variables("answers", status=AnswerStatus, verdict=AnswerVerdict)
 
 
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:

@@ -87,18 +87,12 @@ class AnswerStatus(enum.IntEnum):
     FAILED = 5
 
 
-STATUS_WORDS = tuple(status.name.lower() for status in AnswerStatus)
-
-
 class AnswerVerdict(enum.IntEnum):
     """Verdict on an answer; a wrong one comes without a warning."""
 
     RIGHT = 0
     WRONG = 1
     NO_ANSWER = 2
-
-
-VERDICT_WORDS = tuple(verdict.name.lower() for verdict in AnswerVerdict)
 
 
 class Found(NamedTuple):
