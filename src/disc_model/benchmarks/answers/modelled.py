@@ -7,7 +7,7 @@ contact converges to it slowly as modes are added; a few modes suffice with resi
 import math
 import time as clock
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache, partial
+from functools import lru_cache, partial, wraps
 from typing import Any
 
 import numpy as np
@@ -57,28 +57,39 @@ def after_separation(p: Parameters) -> simulated.Answers:
     return simulated.after_separation(solve, NEVER, p, start)
 
 
+def _timed(ask: Callable[[Parameters, float], Found]) -> Callable[[Parameters, float], Found]:
+    """A question with the least processor time (s) of several runs; the first run may have compiled."""
+
+    @wraps(ask)
+    def asked(p: Parameters, tol: float) -> Found:
+        seconds, answer = math.inf, ask(p, tol)
+        for _ in range(simulated.REPEATS):
+            began = clock.thread_time()
+            answer = ask(p, tol)
+            seconds = min(seconds, clock.thread_time() - began)
+            if seconds > simulated.QUICK:
+                break
+        return answer._replace(seconds=seconds)
+
+    return asked
+
+
+@_timed
 def onset(p: Parameters, tol: float) -> Found:
     """Speed (rad/s) of the first fold of the quiet cycle above 14.5 rad/s."""
     low, high = 14.5, 16.0
-
-    def speed() -> Found:
-        try:
-            folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), tol=tol).folds
-        except ParameterError as error:
-            return found(math.nan, 0.0, f"no cycle to follow: {error}")
-        return found(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")
-
-    return _timed(speed)
+    try:
+        folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), tol=tol).folds
+    except ParameterError as error:
+        return found(math.nan, 0.0, f"no cycle to follow: {error}")
+    return found(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")
 
 
+@_timed
 def growth_rate(p: Parameters, tol: float) -> Found:
     """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
-
-    def rate() -> Found:
-        cycle = floquet(p, tol=tol)
-        return found(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
-
-    return _timed(rate)
+    cycle = floquet(p, tol=tol)
+    return found(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
 
 
 def region(model: Model) -> Found:
@@ -107,15 +118,3 @@ def _settled(p: Parameters) -> State | None:
         return None
     state = first.final_state
     return simulate(p, state.time + SETTLES_FOR, tol=DEFAULT, record=quiet, initial_state=state).final_state
-
-
-def _timed(find: Callable[[], Found]) -> Found:
-    """An answer with the least wall time (s) of several runs; the first run may have compiled."""
-    seconds, answer = math.inf, find()
-    for _ in range(simulated.REPEATS):
-        began = clock.thread_time()
-        answer = find()
-        seconds = min(seconds, clock.thread_time() - began)
-        if seconds > simulated.QUICK:
-            break
-    return answer._replace(seconds=seconds)

@@ -15,6 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.registry import absent
@@ -183,8 +184,11 @@ class Meter:
         q = self.physics
         w = states[:, q.a] @ q.shape
         rate = states[:, q.alpha] @ q.shape + states[:, q.f] * (states[:, q.b] @ q.slope)
-        w = np.concatenate([w, _turns(np.diff(times), w, rate)])
-        self.low, self.high = float(np.fmin(self.low, w.min())), float(np.fmax(self.high, w.max()))
+        steps = np.flatnonzero((np.diff(times, append=math.inf) > 0.0) & np.isfinite(w + rate))
+        if len(steps) > 1:
+            cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
+            w = np.concatenate([w, cubics(cubics.derivative().roots(extrapolate=False))])
+        self.low, self.high = float(np.fmin.reduce(w, initial=self.low)), float(np.fmax.reduce(w, initial=self.high))
 
     def check(self) -> None:
         """Raise `GaveUp` if the time is used up."""
@@ -201,18 +205,3 @@ class Meter:
             return function(t, y)
 
         return wrapped
-
-
-def _turns(h: Array, w: Array, rate: Array) -> Array:
-    """Values of the cubics at their turning points within the steps."""
-    rise, first, last = np.diff(w), h * rate[:-1], h * rate[1:]
-    square, cube = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
-    with np.errstate(invalid="ignore", divide="ignore"):
-        # roots of first + 2 square s + 3 cube s^2, in the form without cancellation
-        half = -(square + np.copysign(np.sqrt(square**2 - 3.0 * cube * first), square))
-        s = np.concatenate([half / (3.0 * cube), first / half])
-    start, first, square, cube = (np.concatenate([x, x]) for x in (w[:-1], first, square, cube))
-    inside = (s > 0.0) & (s < 1.0)
-    value = start + s * (first + s * (square + s * cube))
-    turns: Array = value[inside]
-    return turns
