@@ -31,7 +31,9 @@ DRAWN = {
     ("draw_figure", plot.module.removeprefix("disc_model."))
     for plot in (*(entry.plot for entry in CATALOGUE.values()), OwnFigure(by="benchmark.draw"))
 } | {
-    ("draw_figure", f"figures.{kind.drawn_by.rpartition('.')[0]}") for kind in FIGURES.values() if kind is not OwnFigure
+    ("draw_figure", kind.model_construct().module.removeprefix("disc_model."))
+    for kind in FIGURES.values()
+    if kind is not OwnFigure
 }
 JOBS = sorted({*((name,) for name in ROOTS), *((name,) for name in KINDS if (SCRIPTS / f"{name}.py").exists()), *DRAWN})
 

@@ -21,21 +21,26 @@ NORM = "normalization"
 class Kind(Strict):
     """A figure: its fields are what a study file may say of it.
 
-    drawn_by : module below `disc_model.figures` and its function, see `disc_model.figures.parts.draw`
+    drawn_by : module below `disc_model.figures` and its function, if not ``draw`` of the module of its name in `grids`
     title : stands above the figure
     caption : stands below the figure in report, explorer and gallery; with it, nothing stands above
     """
 
-    drawn_by: ClassVar[str]
+    drawn_by: ClassVar[str] = ""
 
     kind: str
     title: Title = ""
     caption: str = ""
 
     @property
+    def function(self) -> str:
+        """Module and function that draw it, see `disc_model.figures.parts.draw`."""
+        return f"{__package__}.{self.drawn_by or f'grids.{self.kind}.draw'}"
+
+    @property
     def module(self) -> str:
         """Module that draws it."""
-        return f"{__package__}.{self.drawn_by.rpartition('.')[0]}"
+        return self.function.rpartition(".")[0]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -99,10 +104,10 @@ class Plot(Kind):
             return given
         units = {axis: Parameters.unit(str(given.get(axis))) for axis in ("x", "y")}
         marks, at = given.get("marks"), given.get("at")
+        if isinstance(marks, dict):
+            marks = {name: each_in_si(mark, units) for name, mark in marks.items()}
         places = {
-            "marks": {name: each_in_si(mark, units) for name, mark in marks.items()}
-            if isinstance(marks, dict)
-            else marks,
+            "marks": marks,
             "at": each_in_si(at, {name: Parameters.unit(name) for name in Parameters.model_fields}),
             "paper_cases": in_si(given.get("paper_cases"), units["x"]),
         }
@@ -188,7 +193,6 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 class StabilityMap(Plot):
     """What becomes of the static start over two parameters, one panel for each normalization."""
 
-    drawn_by = "grids.stability_map.draw"
     quantities = ("outcome",)
     several = True
     roles: ClassVar[Roles] = {"growth": Role("floquet")}
@@ -211,7 +215,6 @@ class StabilityMap(Plot):
 class RegionMap(StabilityMap):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
-    drawn_by = "grids.region_map.draw"
     quantities = ("regions",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -227,7 +230,6 @@ class RegionMap(StabilityMap):
 class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
-    drawn_by = "grids.critical_speed.draw"
     quantities = ("critical_speed",)
     needs = ("N",)
     roles: ClassVar[Roles] = {
@@ -244,6 +246,7 @@ class CriticalSpeed(Plot):
 class Thresholds(CriticalSpeed):
     """Where the cycle becomes unstable and where separation follows, on one chart."""
 
+    drawn_by = "grids.critical_speed.draw"
     roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
 
     kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
@@ -255,7 +258,6 @@ class GrowthMap(Plot):
     Of the quantity `regions` it is that of the cycle that the static start follows.
     """
 
-    drawn_by = "grids.growth_map.draw"
     quantities = ("floquet", "regions")
     needs = ("N", "Omega")
     several = True
@@ -271,7 +273,6 @@ class Bifurcation(Plot):
     paper_cases : cases of the paper by name, each with its value of x
     """
 
-    drawn_by = "grids.bifurcation.draw"
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
 
@@ -288,7 +289,6 @@ class Branches(Plot):
     paper_cases : cases of the paper by name, each with its value of the parameter
     """
 
-    drawn_by = "grids.branches.draw"
     quantities = ("branches",)
 
     kind: Literal["branches"] = "branches"
@@ -298,7 +298,6 @@ class Branches(Plot):
 class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
-    drawn_by = "grids.basins.draw"
     quantities = ("basins",)
 
     kind: Literal["basins"] = "basins"
@@ -308,7 +307,6 @@ class BasinShares(Plot):
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
-    drawn_by = "grids.ramps.draw"
     quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -322,7 +320,6 @@ MOST_PANELS, MOST_LINES = 4, 12
 class Sensitivity(Plot):
     """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
 
-    drawn_by = "grids.sensitivity.draw"
     quantities = ("sensitivity",)
     several = True
 
@@ -341,7 +338,6 @@ class Campbell(Plot):
     normalization : the one that is shown, where the study has several
     """
 
-    drawn_by = "grids.campbell.draw"
     quantities = ("campbell",)
     needs = ("Omega",)
 
@@ -434,7 +430,6 @@ def _listed(values: Sequence[Any]) -> str:
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
 
-    drawn_by = "grids.heat_map.draw"
     kind: Literal["heat_map"] = "heat_map"
     y: str
 
@@ -445,7 +440,6 @@ class CurvePlot(General):
     limits : ends of the variable's axis, so that figures can be compared
     """
 
-    drawn_by = "grids.curve.draw"
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"
@@ -472,8 +466,10 @@ class CasePlot(Kind):
 
     case : name of the case
     window : name of the window under the case's ``record.windows``
-    title : stands above the figure
+    of_section : whether it shows the Poincaré section instead
     """
+
+    of_section: ClassVar[bool] = False
 
     case: str
     window: str
@@ -493,14 +489,14 @@ class CasePlot(Kind):
                 known = ", ".join(name for name, window in recorded.items() if window is not None)
                 rule = f"is not recorded by case {self.case} (known: {known or 'none'})"
                 yield Fault.of(("window",), self.window, rule)
-            else:
+            elif isinstance(found, Window):
                 yield from self._misfits(found)
+            elif not self.of_section:
+                yield Fault.of(("window",), self.window, "must be a window, not the Poincaré section")
 
-    def _misfits(self, window: Any) -> Iterator[Fault]:
+    def _misfits(self, window: Window) -> Iterator[Fault]:
         """Rules that the window breaks."""
-        if isinstance(window, Poincare):
-            yield Fault.of(("window",), self.window, "must be a window, not the Poincaré section")
-        elif window.envelope is not None:
+        if window.envelope is not None:
             yield Fault.of(("window",), self.window, "must have no envelope")
 
 
@@ -512,10 +508,7 @@ class History(CasePlot):
     kind: Literal["history"] = "history"
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
 
-    def _misfits(self, window: Any) -> Iterator[Fault]:
-        if isinstance(window, Poincare):
-            yield from super()._misfits(window)
-            return
+    def _misfits(self, window: Window) -> Iterator[Fault]:
         if window.count < 2 * (window.envelope or 1):
             yield Fault.of(("window",), self.window, "must be two samples, or two envelopes, long or more")
         for i, name in enumerate(self.variables):
@@ -527,12 +520,10 @@ class Section(CasePlot):
     """The Poincaré sections of slider and disc: once a turn of the drive."""
 
     drawn_by = "paper.sections.sections"
+    of_section = True
 
     kind: Literal["poincare"] = "poincare"
     window: Literal["poincare"] = "poincare"
-
-    def _misfits(self, window: Any) -> Iterator[Fault]:
-        return iter(())
 
 
 class Spectrogram(CasePlot):
@@ -547,11 +538,10 @@ class Spectrogram(CasePlot):
     variable: Sampled = "w_point"
     highest: Annotated[Positive, Unit("Hz")] = HIGHEST
 
-    def _misfits(self, window: Any) -> Iterator[Fault]:
+    def _misfits(self, window: Window) -> Iterator[Fault]:
         yield from super()._misfits(window)
-        if not isinstance(window, Poincare):
-            for rule in spectrum_faults(window, self.highest):
-                yield Fault.of(("window",), self.window, rule)
+        for rule in spectrum_faults(window, self.highest):
+            yield Fault.of(("window",), self.window, rule)
 
 
 class Portrait(CasePlot):
@@ -584,9 +574,8 @@ class OwnFigure(Kind):
     options: dict[str, Any] = Field({})
 
     @property
-    def module(self) -> str:
-        """Module that draws it."""
-        return f"{__package__}.{self.by.rpartition('.')[0]}"
+    def function(self) -> str:
+        return f"{__package__}.{self.by}"
 
 
 def _by_kind(*classes: type[Kind]) -> dict[str, Any]:

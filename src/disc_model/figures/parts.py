@@ -82,8 +82,7 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
     ----------
     inputs : for a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
     """
-    module, _, name = (plot.by if isinstance(plot, OwnFigure) else plot.drawn_by).rpartition(".")
-    function = getattr(importlib.import_module(f"{__package__}.{module}"), name)
+    function = getattr(importlib.import_module(plot.module), plot.function.rpartition(".")[2])
     with styled():
         if isinstance(plot, Plot):
             study, *others = (tree.to_dataset() for tree in inputs.values())
