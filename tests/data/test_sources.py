@@ -18,7 +18,7 @@ from disc_model.studies.grids.summaries import summary_of
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 GRAPH = grimp.build_graph("disc_model", exclude_type_checking_imports=True)
-DATA = {".yaml", ".json", ".html", ".css", ".js", ".mplstyle"}
+DATA = {".yaml", ".toml", ".json", ".html", ".css", ".js", ".mplstyle"}
 """Endings of files that are read and not imported."""
 PAPER = PACKAGE / "config" / "paper.yaml"
 ROOTS = {

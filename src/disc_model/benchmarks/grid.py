@@ -1,18 +1,18 @@
-"""Datasets of what is measured at each point of a grid, and their variables, from ``variables.yaml``."""
+"""Datasets of what is measured at each point of a grid, and their variables, from ``variables.toml``."""
 
 import enum
 import math
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
-import yaml
 
 from disc_model.data.variables import Variable
 
-_VARIABLES = yaml.safe_load(Path(__file__).with_name("variables.yaml").read_text(encoding="utf-8"))
+_VARIABLES = tomllib.loads(Path(__file__).with_name("variables.toml").read_text(encoding="utf-8"))
 
 
 def words(kinds: type[enum.IntEnum]) -> tuple[str, ...]:

@@ -1,15 +1,15 @@
-"""Registry of the methods, from ``rivals.yaml``: each is an entry there and a class in `disc_model.benchmarks.methods`.
+"""Registry of the methods, from ``rivals.toml``: each is an entry there and a class in `disc_model.benchmarks.methods`.
 
 The module imports nothing heavy: the workflow reads it at every start.
 """
 
 import math
+import tomllib
 from collections.abc import Iterable
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal
 
-import yaml
 from pydantic import BaseModel, ConfigDict
 
 SCENES = ("stick_slip", "separating", "many_modes", "rigid")
@@ -39,7 +39,7 @@ class Rival(BaseModel):
 
 
 def _read() -> tuple[Rival, ...]:
-    found = yaml.safe_load(Path(__file__).with_name("rivals.yaml").read_text(encoding="utf-8"))
+    found = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
     return tuple(Rival(name=name, **given) for name, given in found.items())
 
 

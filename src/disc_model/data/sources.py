@@ -42,7 +42,7 @@ BESIDES = {
 """Modules that are imported but do not affect results, with the reason."""
 
 _BENCHMARK = (
-    "case benchmarks.methods benchmarks.registry benchmarks/rivals.yaml benchmarks.grid benchmarks/variables.yaml "
+    "case benchmarks.methods benchmarks.registry benchmarks/rivals.toml benchmarks.grid benchmarks/variables.toml "
     "benchmarks.hardware benchmarks.scenes"
 )
 _REFERENCES = (

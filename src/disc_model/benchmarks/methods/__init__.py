@@ -5,7 +5,7 @@
 
 They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come with the extra `bench`; without them their
 `unavailable()` gives the reason and `solve` raises `MethodUnavailable`. The methods and their settings are
-listed in ``benchmarks/rivals.yaml``.
+listed in ``benchmarks/rivals.toml``.
 """
 
 from importlib import import_module

@@ -100,7 +100,7 @@ class MethodResult:
 
 
 class Method(ABC):
-    """A method that integrates a problem; its attributes are those that ``benchmarks/rivals.yaml`` declares."""
+    """A method that integrates a problem; its attributes are those that ``benchmarks/rivals.toml`` declares."""
 
     name: str = ""
     label: str
