@@ -9,8 +9,7 @@ import math
 import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from itertools import chain
-from typing import Any, Literal, Self, get_args, get_origin
+from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
 
@@ -148,21 +147,14 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         path, kind, value = _path(item, raw), item["type"], item["input"]
         context = item.get("ctx", {})
         reason = context.get("error")
-        if isinstance(reason, ParameterError):  # raised by a `Checked` inside
+        if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
-            models = _models_at(model, item["loc"][:-1])
-            known = list(dict.fromkeys(name for one in models for name in one.model_fields))
-            word, rule = (getattr(models[0], name, "") for name in ("_word", "_unknown"))
-            more = suggestion(path[-1], known, all_of_them=not (word or rule))
+            word, rule = (getattr(model, name, "") for name in ("_word", "_unknown"))
+            more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
             yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
-        elif kind in ("union_tag_invalid", "union_tag_not_found") and context["discriminator"] == "'kind'":
-            fields = [one.model_fields for one in _models_at(model, item["loc"])]
-            tags = [each["kind"].default for each in fields if "kind" in each]
-            word = value.get("kind") if isinstance(value, Mapping) else None
-            yield Fault.of((*path, "kind"), word, f"unknown kind of figure{suggestion(word, tags)}")
         else:
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
@@ -221,37 +213,6 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
     close = difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""
     return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
-
-
-def _models_at(model: type[BaseModel], place: Sequence[Any]) -> list[type[BaseModel]]:
-    """The models at a place inside a model.
-
-    A tag in the place selects the branches of a union that have this tag; other parts of the place that name no field
-    are skipped.
-    """
-    here = [model]
-    for step in place:
-        inside = [
-            each for one in here if step in one.model_fields for each in _models(one.model_fields[step].annotation)
-        ]
-        tagged = [one for one in here if step in _tags(one)]
-        here = inside or tagged or here
-    return here
-
-
-def _tags(model: type[BaseModel]) -> set[Any]:
-    """Tags of a model as a branch of a union: its name, and the literal values of its fields."""
-    words = (
-        get_args(field.annotation) for field in model.model_fields.values() if get_origin(field.annotation) is Literal
-    )
-    return {model.__name__, *chain(*words)}
-
-
-def _models(annotation: Any) -> list[type[BaseModel]]:
-    """Models that occur in a type."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return [annotation]
-    return [model for part in get_args(annotation) for model in _models(part)]
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeG
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from disc_model.errors import Fault, ParameterError, as_text, faults_of
+from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -210,17 +210,6 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
             yield from faults_of_names(value, (*path, str(i)))
 
 
-class Strict(BaseModel):
-    """Base of models for files: immutable, with unknown keys refused, and numbers with units converted to SI."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _in_si(cls, data: Any) -> Any:
-        return each_in_si(data, _units_of(cls))
-
-
 def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
     """The mapping with `in_si` applied to each value whose name has a unit."""
     if not isinstance(data, dict):
@@ -250,25 +239,13 @@ def _marks(annotation: Any) -> Iterator[Any]:
         yield from _marks(part)
 
 
-class _OwnNames(ModelMetaclass):
-    """Metaclass of classes whose `help` and completion show their own names, without pydantic's hundred."""
+class Strict(BaseModel):
+    """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI.
 
-    def __dir__(cls) -> list[str]:
-        return sorted({name for name in super().__dir__() if not name.startswith("_")} - {*dir(BaseModel)})
+    Every way to make one raises a single `ParameterError` that lists all faults, those of parts included.
+    """
 
-
-class Checked(Strict, metaclass=_OwnNames):
-    """Base of models for callers: like `Strict`, but every way to make one raises a single `ParameterError`."""
-
-    _word: ClassVar[str] = ""
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """A signature of plain types, without the machinery that checks them."""
-        types, named, none = get_type_hints(cls), inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.empty
-        fields = {name: none if field.is_required() else field.default for name, field in cls.model_fields.items()}
-        named_ones = [inspect.Parameter(name, named, default=x, annotation=types[name]) for name, x in fields.items()]
-        cls.__signature__ = inspect.Signature(named_ones)
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     def __init__(self, /, *unnamed: Any, **data: Any) -> None:
         if unnamed:
@@ -295,12 +272,30 @@ class Checked(Strict, metaclass=_OwnNames):
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """Make the model from a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
-            if unnamed := list(faults_of_names(obj)):
-                raise ParameterError(*unnamed)
+            raise_faults([*faults_of_names(obj)])
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
         raise ParameterError(Fault((cls.__name__.lower(),), as_text(obj), "must be a mapping of names to values"))
+
+
+class _OwnNames(ModelMetaclass):
+    """Metaclass of classes whose `help` and completion show their own names, without pydantic's hundred."""
+
+    def __dir__(cls) -> list[str]:
+        return sorted({name for name in super().__dir__() if not name.startswith("_")} - {*dir(BaseModel)})
+
+
+class Checked(Strict, metaclass=_OwnNames):
+    """Base of models that callers make, with help, completion and changed copies."""
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        """A signature of plain types, without the machinery that checks them."""
+        types, named, none = get_type_hints(cls), inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.empty
+        fields = {name: none if field.is_required() else field.default for name, field in cls.model_fields.items()}
+        named_ones = [inspect.Parameter(name, named, default=x, annotation=types[name]) for name, x in fields.items()]
+        cls.__signature__ = inspect.Signature(named_ones)
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:

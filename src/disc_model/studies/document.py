@@ -32,7 +32,7 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SAMPLE, SCALARS, attributes
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot, Plot
 from disc_model.figures.paper.catalogue import CATALOGUE
 from disc_model.parameters import (
@@ -878,10 +878,21 @@ def _figures_kind(raw: Any) -> str | None:
     return "by name" if isinstance(raw, Mapping) else "a list" if isinstance(raw, list | tuple) else None
 
 
+def _of_known_kind(raw: Any) -> Any:
+    kinds = (*CASE_PLOTS, *PLOTS)
+    if isinstance(raw, Mapping) and (kind := raw.get("kind")) not in kinds:
+        raise ParameterError(Fault.of(("kind",), kind, f"unknown kind of figure{suggestion(kind, kinds)}"))
+    return raw
+
+
 if TYPE_CHECKING:
     Figures = dict[str, CasePlot | Plot] | tuple[Any, ...]
 else:
-    Plots = Annotated[reduce(or_, (*CASE_PLOTS.values(), *PLOTS.values())), Field(discriminator="kind")]
+    Plots = Annotated[
+        reduce(or_, (*CASE_PLOTS.values(), *PLOTS.values())),
+        Field(discriminator="kind"),
+        BeforeValidator(_of_known_kind),
+    ]
     PaperFigure = Annotated[Any, WithJsonSchema({"enum": list(CATALOGUE)})]
     Figures = Annotated[
         Annotated[dict[str, Plots], Tag("by name")] | Annotated[tuple[PaperFigure, ...], Tag("a list")],

@@ -23,11 +23,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import yaml
-from pydantic import ValidationError, create_model
+from pydantic import create_model
 
 from disc_model.data.variables import PERTURBATIONS, SAMPLE, values_text
 from disc_model.disc import read_disc
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, faults_of, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, suggestion
 from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
 from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking
 from disc_model.kernels import DECIDING, kinds_of
@@ -47,7 +47,6 @@ from disc_model.parameters import (
     case_of,
     content_key,
     cross_faults,
-    faults_of_names,
     is_number,
     leaves_modes,
     with_ratios,
@@ -418,19 +417,17 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
         model = DOCUMENTS.get(asked, Document)
         if model is Document:
             faults.append(Fault.of(("quantity",), asked, f"unknown quantity{suggestion(asked, QUANTITIES)}"))
-    found = list(faults_of_names(whole))
     try:
-        if not found:
-            return model.model_validate(whole), faults
-    except ValidationError as error:
-        found = list(faults_of(error, whole, model))
+        return model.model_validate(whole), faults
+    except ParameterError as error:
+        found = error.faults
     places = {fault.path for fault in found}
     faults += [there for fault in found if (there := _locate(fault, raw)) is fault or there.path not in places]
     for fault in found:
         _drop(whole, fault.path)
     try:
         return (model if "options" in whole else Document).model_validate({"study": "nameless"} | whole), faults
-    except ValidationError:
+    except ParameterError:
         return None, faults
 
 
