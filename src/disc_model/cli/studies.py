@@ -33,36 +33,6 @@ INTERRUPTED = 130
 KINDS = ("studies", "figures", "cases", "outdated")
 FILES = typer.Argument(help="study files, later ones laid over earlier ones; this folder's if it holds one only")
 
-STUDY = """\
-# yaml-language-server: $schema={schema}
-# Growth of the stick-slip vibration over two parameters: `disc-model study my_study.yaml` computes and draws it.
-study: my_study                     # names the folder of results
-title: Growth over static and kinetic friction
-quantity: floquet                   # growth rate of the stick-slip cycle, by its multipliers
-base: {{N: 200, Omega: 20}}           # SI units; the rest is Table 1 of the paper
-axes:
-  mu_s: {{start: 0.3, stop: 0.6, count: 13}}
-  mu_k: {{start: 0.05, stop: 0.3, count: 11}}
-figures:
-  growth: {{kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}}
-"""
-SNAKEFILE = """\
-# The workflow of the package disc_model, for the study of this folder: `snakemake -j2`.
-from pathlib import Path
-
-import disc_model
-
-if not workflow.configfiles:  # one named with --configfile replaces it
-
-    configfile: "my_study.yaml"
-
-
-include: str(Path(disc_model.__file__).parent / "workflow" / "Snakefile")
-
-
-workflow.default_target = "all"
-"""
-
 
 def study(
     files: Annotated[list[Path] | None, FILES] = None,
@@ -121,11 +91,12 @@ def init(
 ) -> None:
     """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
     _require_snakemake()
-    schema = (PACKAGE / "workflow" / "schemas" / "study.schema.json").resolve().as_uri()
+    workflow = PACKAGE / "workflow"
+    schema = (workflow / "schemas" / "study.schema.json").resolve().as_uri()
     texts = {
-        "my_study.yaml": STUDY.format(schema=schema),
-        "Snakefile": SNAKEFILE,
-        "profiles/default/config.yaml": (PACKAGE / "workflow" / "profiles" / "default" / "config.yaml").read_text(),
+        "my_study.yaml": (workflow / "template" / "my_study.yaml").read_text().replace("SCHEMA", schema),
+        "Snakefile": (workflow / "template" / "Snakefile").read_text(),
+        "profiles/default/config.yaml": (workflow / "profiles" / "default" / "config.yaml").read_text(),
     }
     if there := [name for name in texts if (directory / name).exists()]:
         raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(there)} yet"))
