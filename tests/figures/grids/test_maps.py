@@ -1,16 +1,28 @@
 """Maps of outcomes, regions and growth rates: cells, lines, marks, and what is said of them."""
 
 import json
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.collections import LineCollection
-from matplotlib.colors import AsinhNorm
+from matplotlib.colors import AsinhNorm, to_rgb
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids.cells import GREATEST, alone, cycles_of, growth_cells, scale_of, unresolved
+from disc_model.figures.grids import basins
+from disc_model.figures.grids.cells import (
+    GREATEST,
+    OUTCOME_LOOKS,
+    Look,
+    alone,
+    cycles_of,
+    fill,
+    growth_cells,
+    scale_of,
+    unresolved,
+)
 from disc_model.figures.grids.growth_map import Curve, parted
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import regions
@@ -22,6 +34,24 @@ STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
 LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 
 # ---- cells
+
+
+@pytest.mark.parametrize("looks", [OUTCOME_LOOKS, basins.LOOKS])
+def test_outcomes_differ_in_grey_print_by_darkness_or_hatch(looks: dict[str, Look]) -> None:
+    """Separation and what is undecided were equally dark, and steady sliding nearly as light as a growing motion."""
+    for one, other in combinations(looks.values(), 2):
+        apart = abs(np.dot(np.subtract(to_rgb(one.face), to_rgb(other.face)), (0.299, 0.587, 0.114)))
+        assert apart > 0.08 or one.hatch != other.hatch, f"{one.label}, {other.label}"
+
+
+def test_a_hatched_look_is_coloured_as_well() -> None:
+    ax = Figure().subplots()
+    edges = np.arange(3.0), np.arange(2.0)
+    fill(ax, edges, np.array([["steady_sliding", "quiet"]]), OUTCOME_LOOKS)
+    hatch, colour = ax.collections
+    assert (hatch.get_hatch(), colour.get_hatch()) == (OUTCOME_LOOKS["steady_sliding"].hatch, None)
+    assert np.ma.count(colour.get_array()) == 2
+    assert hatch.get_zorder() > colour.get_zorder()
 
 
 @pytest.mark.parametrize(
@@ -100,6 +130,14 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     data["growth_rate"] = (dims, growth)
     axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
     return xr.Dataset(data, axes, {"options": json.dumps({"horizon": 900.0})})
+
+
+def test_a_single_large_growth_rate_is_hatched_in_maps_of_regions() -> None:
+    """A resonance narrower than a cell was one dark cell among even ones, which looked like a stain."""
+    data = made_up("Omega", [5.0, 6, 7, 8, 9, 10], NORMS[:1]).squeeze()
+    assert not (cycles_of(data, "Omega", "N")[:2] == "alone").any()
+    data["growth_rate"][0, 4] = 0.4
+    assert np.argwhere(cycles_of(data, "Omega", "N") == "alone").tolist() == [[0, 4]]
 
 
 def mark(x: float, y: float, paper: str) -> dict[str, Any]:

@@ -23,7 +23,7 @@ LOOKS = {
     "irregular": Look("irregular", BROWN, 4 * "/"),
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],
-    "undecided": OUTCOME_LOOKS["undecided"]._replace(hatch=4 * "."),
+    "undecided": OUTCOME_LOOKS["undecided"],
     "failed": OUTCOME_LOOKS["failed"],
 }
 """Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""

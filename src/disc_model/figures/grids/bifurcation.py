@@ -17,6 +17,8 @@ from disc_model.figures.parts import BLACK, BLUE, BROWN, GREY, PAGE, PHASE_COLOU
 
 SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
 """Names of samples at events, by the phase that ends or begins there."""
+MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}
+"""Looks of samples by phase, other than dots: in grey print, green and vermilion are alike."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of the exponents, the largest first; none is that of a phase."""
 HEIGHTS = {"samples": 2.4, "period": 0.9, "lyapunov": 1.4}
@@ -56,7 +58,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcatio
         here = (phase == code) & ~unsteady
         if np.any(here):
             label = names.get(name_of_phase, name_of_phase)
-            ax.plot(position[here], values[here], ".", color=color, markersize=1.5, label=label)
+            look = {"marker": ".", "markersize": 1.5} | MARKS.get(name_of_phase, {})
+            ax.plot(position[here], values[here], linestyle="", color=color, label=label, **look)
     parts.mark_failed(ax, along[lost])
     moving = (phase >= 0).any(axis=1)
     idle = along[~moving & ~lost]
@@ -91,7 +94,7 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
     """Draw the number of events after which the motion repeats; crosses at the foot where it is unknown."""
     repeats = period > 0
     ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
-    ax.set_yscale("log")
+    ax.set(yscale="log", ylim=(0.4, None))  # room for crosses below period 1
     ax.yaxis.set_major_formatter("{x:g}")
     ax.set_ylabel("Period\n(events)")
     parts.mark_failed(ax, along[~repeats], name="not shown to repeat")

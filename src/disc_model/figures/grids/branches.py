@@ -15,6 +15,8 @@ from disc_model.figures.parts import BLACK, GREY, PAGE, SEPARATED, new_figure
 
 JUMP = 10.0
 """Factor by which the range changes between two values of a sweep at a jump."""
+STEP = 2.5
+"""Factor between two points of a branch that no line joins: the branch may bend between them."""
 LOWEST = 1e-3
 """Least range that is distinguished from rest, mm."""
 THIN = 0.7
@@ -61,7 +63,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) 
 def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str) -> None:
     there = np.isfinite(x)
     x, y, stable = x[there], y[there], stable[there]
-    ax.plot(x, y, color=color, linewidth=THIN)
+    along, height = parts.broken(x, np.log(y), np.log(STEP))
+    ax.plot(along, np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in parts.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")

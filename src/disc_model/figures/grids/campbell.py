@@ -232,7 +232,7 @@ def _handles(study: xr.Dataset) -> list[Line2D]:
     ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
         *(Line2D([], [], color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], color=_colour(2), marker=".", markersize=4, linewidth=0.9, label="stick-slip cycle"),
+        Line2D([], [], marker=".", label="stick-slip cycle, in (a)", **ring | {"markersize": 4}),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
         Line2D([], [], marker="o", label="numbered crossing", **ring),

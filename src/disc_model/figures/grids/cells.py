@@ -37,15 +37,15 @@ UNRESOLVED = Look("unresolved", "none", HATCH)
 """Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells."""
 OUTCOME_LOOKS = {
     "quiet": Look("quiet", "#f3f6f8"),
-    "steady_sliding": Look("steady sliding", "#e3d5ee"),
-    "at_rest": Look("permanent stick", "#c4e3cd"),
+    "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "."),
+    "at_rest": Look("permanent stick", "#c4e3cd", 3 * "-"),
     "growing": Look("growing, in contact", "#c2ccd6"),
     "other_cycle": Look("another cycle in contact", "#86a0b8"),
     "separation": Look("separation", "#bb5200"),
-    "undecided": Look("undecided", "#6d5a45"),
+    "undecided": Look("undecided", "#43372a"),
     "failed": Look("failed", "#222222"),
 }
-"""Looks of outcomes in all maps and charts, from light to dark: distinct in grey print, too."""
+"""Looks of outcomes in all maps and charts, distinct in grey print by darkness or a hatch."""
 CYCLE_LOOKS = {
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],
@@ -109,10 +109,11 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> Non
     codes = np.full(words.shape, np.nan)
     for i, (word, look) in enumerate(looks.items()):
         here = words == word
-        if not look.hatch:
+        if look.face != "none":
             codes[here] = i
-        elif here.any():
-            ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=ListedColormap(["none"]), hatch=look.hatch)
+        if look.hatch and here.any():
+            clear = ListedColormap(["none"])
+            ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=clear, hatch=look.hatch, zorder=1.1)
     if np.isnan(codes).all():
         return
     colours = ListedColormap([look.face for look in looks.values()])
@@ -181,7 +182,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
         words = np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y)).astype("<U16")
-        words[unresolved(stability_of(data, x, y))] = "alone"
+        words[unresolved(stability_of(data, x, y)) | alone(rate)] = "alone"
         return words
     words = np.full(rate.shape, "no_cycle", dtype="<U16")
     if "status" in data:
@@ -198,10 +199,7 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
 
 
 def alone(rate: Array) -> NDArray[np.bool_]:
-    """Cells whose growth rate differs from that of the eight around them: each has a cycle of its own.
-
-    Each point of the quantity `floquet` is computed by itself, and may be any of several cycles.
-    """
+    """Cells whose growth rate differs from that of the eight around them: of another cycle, or a narrow resonance."""
     place = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(place, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))

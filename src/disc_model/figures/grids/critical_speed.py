@@ -190,7 +190,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
         ("offset_speed", END, "v", "sweep down: separation ends"),
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
-        ax.plot(speeds, N, color=color, marker=marker, markersize=3.5, label=text, clip_on=False)
+        ax.plot(speeds, N, color=color, marker=marker, markersize=4, markerfacecolor="none", label=text, clip_on=False)
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 3, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     parts.mark_failed(ax, N[lost], on="y")

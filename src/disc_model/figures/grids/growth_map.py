@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 NEAR = 3.0
 """Greatest distance of a named resonance, Hz."""
-OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "the same, another cycle"}
+OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "end of another cycle's stability"}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
@@ -175,7 +175,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
         other += others_here
         for curve in others_here:
             ax.plot(curve.Omega, curve.N, **OTHER)
-    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=9)
+    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=12)
     axes[0].set_ylabel(LOAD)
     handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if other else [])]
     handles += patches(CYCLE_LOOKS, gaps)

@@ -151,7 +151,7 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     values = 1e3 * motion.deflection(i, r, theta)
     mesh = ax.pcolormesh(x, y, values, cmap=COLOURS, norm=scale, shading="gouraud", rasterized=True)
     ax.add_patch(Circle((0, 0), 1e3 * p.a, fc="0.85", ec=GREY, lw=0.6))
-    ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6))
+    ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6, clip_on=False))
     angle = motion.slider[i]
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
     ax.plot(*place, "o", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)

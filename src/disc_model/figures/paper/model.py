@@ -138,7 +138,7 @@ def _forces(ax: Axes) -> None:
     _arrow(ax, (-0.45, 0.62), (-1.3, 0.62), colour=FORCE)
     ax.text(-0.9, 0.86, "slip: $\\mu_k P$", ha="center", color=FORCE, fontsize=SMALL)
     _arrow(ax, (-1.25, 1.5), (-0.65, 1.5), "$f > 0$", (0.0, 0.17))
-    x = np.linspace(-1.5, 1.5, 100)
+    x = np.linspace(-1.15, 1.5, 100)
     level = -0.62
     ax.plot(x, level + 0.2 * x - 0.05 * x**2, color=DISC, lw=2.5)
     ax.plot([-1.5, 1.5], [level, level], color=SOFT, lw=0.8, ls="--")
