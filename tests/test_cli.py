@@ -19,38 +19,12 @@ from disc_model.cli.run import plot_record
 from disc_model.simulation import api
 from disc_model.simulation.quicklook import quicklook
 from disc_model.studies.study import load_study
+from tests.commands import Command
+from tests.processes import run
 
 BASE = ("--N", "385", "--Omega", "15.1")
 SMALL_BASE = ("--N", "200", "--Omega", "50", "--n-diameters", "1")
 SHORT = ("run", *SMALL_BASE, "--t-end", "0.05")
-
-
-class Command:
-    """The command line, run in this process."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str]) -> None:
-        self.capsys = capsys
-
-    def run(self, *arguments: str) -> tuple[int, str, str]:
-        """Exit code, stdout and stderr."""
-        with pytest.raises(SystemExit) as ended:
-            cli.main(list(arguments))
-        shown = self.capsys.readouterr()
-        return int(ended.value.code or 0), shown.out, shown.err
-
-    def out(self, *arguments: str) -> str:
-        """What a command prints that must succeed."""
-        code, out, _ = self.run(*arguments)
-        assert code == 0
-        return out
-
-    def error(self, *arguments: str) -> str:
-        """What a command says that must be refused: one line, with exit code 2."""
-        code, out, err = self.run(*arguments)
-        assert (code, out) == (2, "")
-        assert err.startswith("error: ")
-        assert err.count("\n") == 1
-        return err
 
 
 @pytest.fixture
@@ -127,7 +101,7 @@ def test_what_is_kept_for_a_plot_does_not_grow_with_time() -> None:
 
 
 def test_module_runs_as_a_program() -> None:
-    done = subprocess.run([sys.executable, "-m", "disc_model", "modes", "--b", "0.05"], capture_output=True, text=True)
+    done = run(sys.executable, "-m", "disc_model", "modes", "--b", "0.05", fails=True)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "error: r_0=0.1: must be <= b=0.05\n")
 
 
@@ -231,18 +205,7 @@ def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert "steady sliding      The disc is not driven" in out  # a growth rate of nan was printed
 
 
-STUDY = """\
-study: mine
-title: Growth over {x} and $\\mu_{k}$
-quantity: floquet
-base: {N: 200, Omega: 20}
-axes: {mu_s: [0.3, 0.4], mu_k: [0.1, 0.2]}
-cases:
-  A: {title: 'one case, $\\Omega_{s}$', parameters: {mu_k: 0.2}, t_end: 1, record: {windows: {w: {rate: 1000}}}}
-figures:
-  growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
-  seen: {kind: history, case: A, window: w, title: 'P_{max} {y}'}
-"""
+STUDY = (Path(__file__).parent / "workflow" / "studies" / "braces.yaml").read_text()
 
 
 @pytest.fixture

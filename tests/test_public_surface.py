@@ -47,6 +47,11 @@ FILE = "text digits"
 ANY = "zero negative pair empty matrix scalar"
 
 
+def right(alike: str = "", labels: str = "", /, **others: str) -> dict[str, str]:
+    """Labels of what is right as well, for several arguments alike and for others."""
+    return dict.fromkeys(alike.split(), labels) | others
+
+
 SLIPPING = simulate(P, 2.5e-3).final_state
 
 
@@ -57,101 +62,61 @@ def start(**changes: object) -> None:
 start.__signature__ = inspect.signature(State)  # type: ignore[attr-defined]
 RUN = simulate(P, 1e-4, record=Window(rate=1e5), progress=False)
 PLANE = {"p": P, "names": ("Omega", "N"), "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}}
+ALL = " ".join(HOSTILE)
+LATE = "inf huge wide"
 #: Functions, arguments that are right, and for each of `HOSTILE` that are right as well, or not looked at.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (disc_model.plate_modes, {}, {}),
     (disc_model.coupled_natural_frequencies, {}, {}),
     (disc_model.residual_flexibility, {}, {}),
     (disc_model.steady_sliding, {}, {}),
-    (disc_model.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None digits", "rich": "pair"}),
+    (disc_model.choose_modes, {"case": P}, right(case="dict", tolerance="None digits", rich="pair")),
     (
         simulate,
         {"p": P, "t_end": 1.0},
-        {
-            **dict.fromkeys(("initial_state", "record", "stop_at"), "None"),
-            "max_steps": "None huge",
-            "progress": "None True",
-            "ramps": "empty",
-            "checkpoint": f"None {FILE}",
-            "checkpoint_every": "zero",
-        },
+        right("initial_state record stop_at", "None", max_steps="None huge", progress="None True", ramps="empty")
+        | right(checkpoint=f"None {FILE}", checkpoint_every="zero"),
     ),
     (
         start,
         {},
-        dict.fromkeys(("time", "psi", "u_velocity"), "zero negative")
-        | {
-            **dict.fromkeys(("time_low", "f", "known"), "zero"),
-            **dict.fromkeys(("a", "b", "alpha", "beta"), "pair"),
-            "mode_amplitudes": "None",
-            "case_key": " ".join(HOSTILE),
-        },
+        right("time psi u_velocity", "zero negative", mode_amplitudes="None", case_key=ALL)
+        | right("time_low f known", "zero")
+        | right("a b alpha beta", "pair"),
     ),
-    (disc_model.snapshots, {"p": P, "times": 1e-4}, {"times": "zero empty", "initial_state": "None"}),
+    (disc_model.snapshots, {"p": P, "times": 1e-4}, right(times="zero empty", initial_state="None")),
     (
         disc_model.deflection,
         {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0},
-        {"states": "empty", "r": "empty", "theta": "zero negative pair empty"},
+        right("states r", "empty", theta="zero negative pair empty"),
     ),
-    (disc_model.floquet, {"p": P}, {"guess": "None"}),
+    (disc_model.floquet, {"p": P}, right(guess="None")),
     (
         bifurcation_samples,
         {"p": P, "name": "Omega", "values": [20.0], "transient": 0.1, "samples": 2},
-        {
-            "values": "pair",
-            "transient": "zero",
-            "follow": "True flag",
-            "initial_state": "None",
-            "theta": "zero negative digits",
-        },
+        right(values="pair", transient="zero", follow="True flag", initial_state="None", theta="zero negative digits"),
     ),
-    (
-        continue_cycle,
-        {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
-        {"guess": "None"},
-    ),
-    (continue_border, PLANE | {"kind": "fold"}, {"guess": "None"}),
-    (
-        StepControl,
-        {},
-        dict.fromkeys(("growth", "easy", "sharpest"), " ".join(HOSTILE)) | {"scale": "None", "max_points": "huge"},
-    ),
-    (stability_curves, PLANE | {"lines": (200.0,)}, {"lines": "pair empty", "max_points": "huge"}),
+    (continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, right(guess="None")),
+    (continue_border, PLANE | {"kind": "fold"}, right(guess="None")),
+    (StepControl, {}, right("growth easy sharpest", ALL, scale="None", max_points="huge")),
+    (stability_curves, PLANE | {"lines": (200.0,)}, right(lines="pair empty", max_points="huge")),
     (
         lyapunov_exponents,
         {"p": P, "duration": 0.1},
-        {"transient": "zero", "initial_state": "None", "leave_out_trivial": "True flag"},
+        right(transient="zero", initial_state="None", leave_out_trivial="True flag"),
     ),
-    (
-        Window,
-        {"rate": 1.0},
-        {
-            **dict.fromkeys(("last", "envelope"), "None"),
-            "start": "zero",
-            "stop": "inf huge wide",
-            "theta": "zero negative",
-        },
-    ),
-    (Poincare, {}, {"start": "zero", "stop": "inf huge wide", "theta": "zero negative"}),
-    (
-        Record,
-        {},
-        {
-            "windows": "empty",
-            "poincare": "None",
-            "events": "True flag zero bytes",
-            "audit_every_step": "True flag zero bytes",
-        },
-    ),
-    (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {"start": "zero"}),
-    (RUN.value_at, {"name": "N", "times": 0.0}, {"times": ANY}),
-    (RUN.to_tree, {}, {"names": f"None {FILE}"}),
+    (Window, {"rate": 1.0}, right("last envelope", "None", start="zero", stop=LATE, theta="zero negative")),
+    (Poincare, {}, right(start="zero", stop=LATE, theta="zero negative")),
+    (Record, {}, right("events audit_every_step", "True flag zero bytes", windows="empty", poincare="None")),
+    (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, right(start="zero")),
+    (RUN.value_at, {"name": "N", "times": 0.0}, right(times=ANY)),
+    (RUN.to_tree, {}, right(names=f"None {FILE}")),
     (RUN.to_dataset, {}, {}),
-    (RUN.save, {"path": "x"}, {"path": FILE, "names": f"None {FILE}"}),
-    (RUN.final_state.save, {}, {"path": FILE}),
-    (State.load, {}, {"path": FILE}),
-    (disc_model.load, {}, {"path": FILE}),
-    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": FILE}),
+    (RUN.save, {"path": "x"}, right(path=FILE, names=f"None {FILE}")),
+    (RUN.final_state.save, {}, right(path=FILE)),
+    (State.load, {}, right(path=FILE)),
+    (disc_model.load, {}, right(path=FILE)),
+    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, right(path=FILE)),
 ]
 MODELS = (Window, Poincare, Record, Ramp)
 """What files are checked by: digits are numbers there."""

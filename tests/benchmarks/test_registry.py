@@ -1,11 +1,10 @@
 """The register of rivals: names without the methods themselves."""
 
 import math
-import subprocess
-import sys
 
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.registry import RIVALS, SCENES, absent
+from tests.processes import python
 
 
 def test_every_rival_is_made_as_registered() -> None:
@@ -22,5 +21,4 @@ def test_every_rival_is_made_as_registered() -> None:
 def test_nothing_heavy_is_imported_to_read_it() -> None:
     """The workflow reads it at every start."""
     code = "import sys, disc_model.benchmarks.registry; print(*{'numba', 'numpy', 'matplotlib'} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == ""
+    assert python(code).stdout.strip() == ""

@@ -27,7 +27,7 @@ def test_the_stored_start_is_that_of_the_references():
 @pytest.mark.parametrize(("scene", "name"), [("stick_slip", "A"), ("separating", "C")])
 def test_the_stored_answers_are_those_of_the_references(scene, name):
     data = stored.load(name)
-    assert answer(scene).kinds == tuple(stored.kinds_of(data))
+    assert answer(scene).kinds == tuple(data["kinds"])
     assert float(np.abs(answer(scene).times - stored.times_of(data)).max()) < 1e-15
     assert answer(scene).error < 1e-15
 

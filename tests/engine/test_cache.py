@@ -11,6 +11,7 @@ import pytest
 
 import disc_model.engine
 from disc_model.engine import cache, event_loop
+from tests.processes import python, run
 
 ENGINE = Path(disc_model.engine.__file__).parent
 KERNEL = """
@@ -54,8 +55,7 @@ def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> su
     """A process that asks for a kernel, and prints 42 and how often it was found in the cache."""
     script = tmp_path / "script.py"
     script.write_text(before + code)
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    return subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True, env=environment)
+    return run(sys.executable, script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
 
 
 def only(folder: Path) -> Path:
@@ -174,7 +174,7 @@ dm.simulate(p, 0.1)
 dm.floquet(p)
 """
     for _ in range(2):
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        done = python(code)
     assert not done.stdout
     assert not done.stderr  # kernels from the cache are no news
     assert Path(event_loop.run.stats.cache_path).name.startswith("engine-")

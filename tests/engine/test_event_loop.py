@@ -36,15 +36,6 @@ def test_release_on_a_gentler_slope_is_slip() -> None:
     assert result.events["kind"].iloc[0] == "stick_to_slip"
 
 
-def test_a_slider_at_rest_on_a_still_drive_lands_in_stick() -> None:
-    p = Parameters(N=100, Omega=0, n_diameters=1)
-    start = simulate(p, 1e-6).final_state
-    above = start.replace(phase="separation", direction=0, u=start.u + 1e-6, time=0.0, a=0 * start.a, psi=0.0)
-    result = simulate(p, 5e-3, initial_state=above)
-    assert result.events["kind"].iloc[0] == "reattachment"
-    assert result.events["phase"].iloc[0] in ("stick", "separation")
-
-
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
 def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transitions, "MAX_EVENTS_IN_A_ROW", 0)

@@ -1,8 +1,6 @@
 """The numerics alone: what a plain installation can do, and that what is written of versions agrees."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
@@ -12,6 +10,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import disc_model
+from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -71,9 +70,7 @@ def names(requirements: list[str]) -> set[str]:
 
 def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     missing = sorted(MODULES.get(name, name) for name in names(EXTRAS["workflow"]))
-    code = f"MISSING = {missing}\n{HIDDEN}{USE}"
-    command = [sys.executable, "-c", code, str(tmp_path / "run.nc")]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
+    done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", tmp_path / "run.nc", fails=True)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "psi" in done.stdout
     assert not (tmp_path / "run.nc.study").exists()

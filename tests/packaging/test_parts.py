@@ -1,15 +1,16 @@
 """The parts in which `make test` runs hold each file of tests once."""
 
 import re
-import subprocess
 from pathlib import Path
+
+from tests.processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def test_every_file_of_quick_tests_is_in_one_part() -> None:
     """Those of the workflow are not quick."""
-    phrase = subprocess.run(["make", "-n", "test-parts"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    phrase = run("make", "-n", "test-parts").stdout
     parts = [ROOT / path for line in re.findall(r"pytest .*", phrase) for path in re.findall(r"tests/\S*", line)]
     files = {path for path in (ROOT / "tests").rglob("test_*.py") if "workflow" not in path.parts}
     assert len(files) > 50

@@ -1,13 +1,13 @@
 """What a public host is told: addresses, and definitions for GitHub Actions."""
 
 import re
-import subprocess
 import tomllib
 from pathlib import Path
 
 import yaml
 
 from tests import needs
+from tests.processes import run
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -31,10 +31,7 @@ def test_addresses_are_those_of_pyproject() -> None:
 
 @needs.ACTIONLINT.mark
 def test_definitions_for_actions_have_no_faults() -> None:
-    found = subprocess.run(
-        [needs.program("actionlint"), *map(str, WORKFLOWS.values())], capture_output=True, text=True, check=False
-    )
-    assert (found.returncode, found.stdout) == (0, "")
+    assert run(needs.program("actionlint"), *WORKFLOWS.values()).stdout == ""
 
 
 def test_each_supported_python_is_tested_and_released() -> None:

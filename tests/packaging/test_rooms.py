@@ -2,7 +2,6 @@
 
 import json
 import pkgutil
-import subprocess
 import sys
 from pathlib import Path
 from types import FrameType
@@ -10,6 +9,7 @@ from types import FrameType
 import pytest
 
 import disc_model
+from tests.processes import run
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = f"{Path(disc_model.__file__).resolve().parent}/"
@@ -26,10 +26,7 @@ def look(frame: FrameType, event: str, _: object) -> None:
 @pytest.mark.compiled
 def test_a_study_file_enters_five_modules_on_its_way_to_batches() -> None:
     """In a process of its own: what is remembered from before would not be entered again."""
-    command = [sys.executable, "-m", "tests.packaging.test_rooms"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    entered = json.loads(done.stdout.splitlines()[-1])
+    entered = json.loads(run(sys.executable, "-m", "tests.packaging.test_rooms").stdout.splitlines()[-1])
     assert {"studies/document.py", "studies/study.py"} <= set(entered)
     assert len(entered) <= 5, entered
 

@@ -1,9 +1,7 @@
 """Kernels that come with the package: who has a fitting processor compiles nothing, and all others as without them."""
 
-import os
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import pytest
 import disc_model
 from disc_model.engine.cache import LEVELS, SHIPPED, VERSIONS
 from tests.instruction_sets import why_not
+from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
 CALL = "r = dm.simulate(p, 0.1); print(repr(r.final_state.psi), len(r.events))"
@@ -43,10 +42,7 @@ class Copy:
 
     def run(self, code: str, cache: str, **environment: str) -> subprocess.CompletedProcess[str]:
         own = {"PYTHONPATH": str(self.folder), "NUMBA_CACHE_DIR": str(self.folder / cache)}
-        command = [sys.executable, "-c", code]
-        done = subprocess.run(command, capture_output=True, text=True, env=os.environ | own | environment)
-        assert done.returncode == 0, done.stderr
-        return done
+        return python(code, **own | environment)
 
     def compiled(self, cache: str) -> int:
         return len(list((self.folder / cache).rglob("*.kernel")))

@@ -35,11 +35,11 @@ def repeated(q, start, t_end):
     return run, float(max(differences, default=0))
 
 
-def described(run, difference):
-    """A run, in columns."""
-    found = {"largest_difference_to_check_run": difference}
+def described(run, difference, *more):
+    """A run, in columns: kinds, times and contact forces of its events, and what ``more`` is asked for."""
     columns = {"kinds": [e["kind"] for e in run.events], "times": [decimal(e["time"]) for e in run.events]}
-    return found | columns | {"P": [float(e["P"]) for e in run.events]}
+    columns |= {name: [e[name] if name == "phase" else float(e[name]) for e in run.events] for name in ("P", *more)}
+    return {"largest_difference_to_check_run": difference} | columns
 
 
 def published(**changes):
@@ -47,24 +47,16 @@ def published(**changes):
     return {"parameters": {"N": 385.0, "Omega": 15.1} | BASE | changes, "modes": load("C")["modes"]}
 
 
-def write(name, data, indent=1):
-    (DATA / f"{name}.json").write_text(json.dumps(data, indent=indent) + "\n", encoding="utf-8")
+def write(name, data):
+    (DATA / f"{name}.json").write_text(json.dumps(data) + "\n", encoding="utf-8")
     print(name, flush=True)
 
 
 def record(name, data, start, t_end):
     """Every event of a run with what is continuous there."""
     q = stored_problem(data)
-    run, difference = repeated(q, start or q.equilibrium(), t_end)
-    events = [
-        {"time": float(e["time"]), "time_decimal": decimal(e["time"]), "kind": e["kind"], "phase": e["phase"]}
-        | {name: float(e[name]) for name in ("psi", "f", "P")}
-        for e in run.events
-    ]
-    given = None if start is None else vars(start)
-    write(
-        name, data | {"start": given, "t_end": t_end, "largest_difference_to_check_run": difference, "events": events}
-    )
+    found = described(*repeated(q, start or q.equilibrium(), t_end), "phase", "psi", "f")
+    write(name, data | {"start": None if start is None else vars(start), "t_end": t_end} | found)
 
 
 def wild_start(psi, base, rng):
@@ -87,7 +79,7 @@ def wild(base):
             start = wild_start(data["modes"]["psi"], base, rng)
             runs.append({"start": vars(start)} | described(*repeated(stored_problem(data), start, 0.2)))
         groups.append({"parameters": data["parameters"], "t_end": 0.2, "runs": runs})
-    write("wild", {"modes": published()["modes"], "groups": groups}, None)
+    write("wild", {"modes": published()["modes"], "groups": groups})
 
 
 def first_separation(q, truncation=TRUNCATION):
@@ -122,7 +114,7 @@ def contact(name):
         run, difference = repeated(q, start, (i + 1) * PIECE)
         runs.append({"start": vars(start), "t_end": (i + 1) * PIECE} | described(run, difference))
         start = rounded(run.state())
-    write(f"contact_{name}", {"parameters": {"N": 385.0, "Omega": 15.1} | BASE | law, "runs": runs}, None)
+    write(f"contact_{name}", {"parameters": {"N": 385.0, "Omega": 15.1} | BASE | law, "runs": runs})
 
 
 @script

@@ -46,17 +46,13 @@ BASE = {name: value for name, value in load("C")["parameters"].items() if name n
 
 def times_of(data):
     """Event times in long double: 20 decimals."""
-    return np.array([np.longdouble(time) for time in data.get("times") or [e["time_decimal"] for e in data["events"]]])
-
-
-def kinds_of(data):
-    return data.get("kinds") or [e["kind"] for e in data["events"]]
+    return np.array([np.longdouble(time) for time in data["times"]])
 
 
 def largest_difference(events, data):
     """Of the times (s) of a reference's events from stored ones, after checking that they are the first of these."""
     kinds, times = [e["kind"] for e in events], np.array([e["time"] for e in events], np.longdouble)
-    assert kinds == kinds_of(data)[: len(events)]
+    assert kinds == data["kinds"][: len(events)]
     return abs(times - times_of(data)[: len(events)]).max(initial=0.0)
 
 

@@ -1,16 +1,14 @@
-"""How simulations end, and what they refuse to begin with."""
+"""How simulations end, and what they take. Texts of what they refuse are in tests/studies/messages.json."""
 
-import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
+from disc_model import Parameters, Poincare, Record, Window, simulate
 from disc_model.errors import StepLimit
 from disc_model.plate import mode_arrays
 from tests.simulation.equal import same
-from tests.studies.refused import faults_of
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), audit_every_step=True)
@@ -95,22 +93,3 @@ def test_a_state_that_overflows_is_named():
         result = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
     assert result.status == "non_finite"
     assert result.message == "non_finite: at t = 1e-06 s in slip"
-
-
-def test_all_faults_of_the_arguments_come_at_once():
-    faults = faults_of(simulate, 3, math.nan, tol=1, record="all", stop_at="never", max_steps=5.0)
-    assert [fault.partition("=")[0] for fault in faults] == ["p", "record", "t_end", "tol", "stop_at", "max_steps"]
-    state = simulate(P, 1e-3).final_state
-    wrong = state.replace(phase="slip", direction=1, f=-1.0, psi=math.inf, a=np.zeros(7))
-    names = [fault.partition("=")[0].partition(":")[0] for fault in faults_of(simulate, P, 1.0, initial_state=wrong)]
-    assert names == ["initial_state.a", "initial_state.psi", "initial_state.f"]
-    for changes, fault in (
-        ({"phase": "flight"}, "must be one of stick, slip, separation"),
-        ({"phase": "stick", "f": 1.0}, "must be 0 in stick"),
-        ({"phase": "slip", "direction": 0}, "must be -1 or 1 in slip"),
-        ({"known": 4}, "known=4: must be 0, 1, 2 or 3"),
-        ({"time_low": math.nan}, "time_low=nan: must be less than the last digit of the time"),
-        ({"time_low": 1e-3}, "time_low=0.001: must be less than the last digit of the time"),
-    ):
-        with pytest.raises(ParameterError, match=fault):
-            simulate(P, 1.0, initial_state=state.replace(**changes))

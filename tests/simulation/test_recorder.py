@@ -16,16 +16,16 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window
-from disc_model.cli import main
 from disc_model.data.dataset import load
 from disc_model.simulation import api
 from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.result import State
+from tests import processes
+from tests.commands import Command
 from tests.simulation.equal import same
 from tests.studies.refused import faults_of
 
-ROOT = Path(__file__).parents[2]
 SIMULATE = importlib.import_module("disc_model.simulation.api")
 P = Parameters(N=385, Omega=15.1)
 # the last window of ALL is beyond the end of every run
@@ -273,24 +273,18 @@ class TestArguments:
 class TestCommands:
     def test_run(self, file: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture) -> None:
         interrupt(2, P, 2.0, checkpoint=file)
-        command = ["run", "--N", "385", "--Omega", "15.1", "--t-end", "2"]
-        with pytest.raises(SystemExit) as ended:
-            main([*command, "--checkpoint", str(file)])
-        assert not ended.value.code
+        words = ("run", "--N", "385", "--Omega", "15.1", "--t-end", "2")
+        resumed = Command(capsys).out(*words, "--checkpoint", str(file)).splitlines()
         assert f"from checkpoint {file}" in caplog.text
         assert not file.exists()
-        resumed = capsys.readouterr().out.splitlines()
-        with pytest.raises(SystemExit):
-            main(command)
-        undisturbed = capsys.readouterr().out.splitlines()
+        undisturbed = Command(capsys).out(*words).splitlines()
         assert [line for line in resumed if "wall" not in line] == [line for line in undisturbed if "wall" not in line]
 
     def test_a_case_of_the_workflow(self, tmp_path: Path) -> None:
         window = Window(start=0, stop=5, rate=50, envelope=10)
         spec = CaseSpec(parameters=P, t_end=5.0, windows=(("history", window),), events=(0.0, 5.0))
         interrupt(2, P, spec.t_end, record=spec.record, checkpoint=tmp_path / ".A.checkpoint")
-        script = [sys.executable, str(ROOT / "workflow/scripts/simulate_case.py"), spec.canonical]
-        done = subprocess.run([*script, str(tmp_path / "A.nc")], capture_output=True, text=True, check=True)
+        done = processes.run(sys.executable, "workflow/scripts/simulate_case.py", spec.canonical, tmp_path / "A.nc")
         assert "continues at t = " in done.stderr
         assert os.listdir(tmp_path) == ["A.nc"]
         assert load(tmp_path / "A.nc").identical(run_case(spec))
@@ -352,8 +346,7 @@ print(json.dumps({"seen": seen, "status": result.status.value, **result.statisti
 
 @pytest.mark.slow
 def test_two_hours_need_no_more_memory_than_twelve_minutes() -> None:
-    done = subprocess.run([sys.executable, "-c", TWO_HOURS], capture_output=True, text=True, check=True)
-    found = json.loads(done.stdout)
+    found = json.loads(processes.python(TWO_HOURS).stdout)
     assert found["status"] == "ok"
     assert found["events"] >= 1e6
     assert found["energy_residual"] < 1e-10

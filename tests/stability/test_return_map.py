@@ -6,7 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from disc_model import Disc, ParameterError, Parameters, simulate
+from disc_model import Parameters, simulate
 from disc_model.stability.return_map import (
     PARAMETERS,
     RETURNED,
@@ -150,18 +150,6 @@ def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
     """Its damping rises with the root of E, and that of a plate with D_star not at all."""
     map_ = ReturnMap(P.replace(damping_ratio=0.05))
     check_derivatives(map_, map_.static, lambda name: 1e-4, ("E", "N"))
-
-
-@pytest.mark.parametrize(
-    ("parameters", "name"),
-    [
-        ({"disc": Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0])}, "E"),
-        ({"damping_ratio": 0.01}, "D_star"),
-    ],
-)
-def test_there_is_no_derivative_by_what_a_case_has_not(parameters: dict[str, object], name: str) -> None:
-    with pytest.raises(ParameterError, match="must be a parameter that the case has"):
-        ReturnMap(Parameters(N=385, Omega=15.1, **parameters), parameters=(name,))
 
 
 def test_a_multiplier_tells_growth_rate_and_bifurcation() -> None:

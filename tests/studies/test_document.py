@@ -14,7 +14,6 @@ import yaml
 
 from disc_model.studies.document import json_schema, schema_text
 from disc_model.studies.study import load_study, parse_study, read_yaml
-from tests.studies.refused import faults_of
 from tests.studies.test_messages import TEXTS
 
 ROOT = Path(__file__).parents[2]
@@ -107,20 +106,6 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
 def test_values_of_an_axis(given: Any, values: list[float]) -> None:
     study = parse_study(grid(axes={"N": [100], "Omega": [10], "c": given}))
     assert study.grid.values["c"] == tuple((value,) for value in values)
-
-
-@pytest.mark.parametrize(
-    ("text", "fault"),
-    [
-        ("&a [*a]", "a value contains itself"),
-        ("a: &a [" + "1, " * 500 + "]\nb: &b [" + "*a, " * 500 + "]", "more than 100000 values"),
-        ("a: !!timestamp x", "a value does not fit its tag"),
-        ("a: [", "line 1, column 5: while parsing a flow node"),
-        ("a: 1\nb: 2\n c: 3", "line 3, column 3: mapping values are not allowed here"),
-    ],
-)
-def test_yaml_that_is_refused(text: str, fault: str) -> None:
-    assert fault in "\n".join(faults_of(read_yaml, text))
 
 
 def test_no_document_is_nothing() -> None:

@@ -7,6 +7,8 @@ no less than before.
 import contextlib
 import io
 import json
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -14,10 +16,31 @@ from typing import Any
 
 import pytest
 
-from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Window, cli, read_disc
+from disc_model import (
+    Disc,
+    ParameterError,
+    Parameters,
+    Poincare,
+    Ramp,
+    Record,
+    State,
+    Window,
+    choose_modes,
+    cli,
+    deflection,
+    floquet,
+    read_disc,
+    simulate,
+    snapshots,
+    steady_sliding,
+)
 from disc_model.figures.kinds import PLOTS
 from disc_model.plausibility import doubts
-from disc_model.studies.study import StudyError, parse_study
+from disc_model.stability.bifurcation import bifurcation_samples
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.lyapunov import lyapunov_exponents
+from disc_model.stability.return_map import ReturnMap
+from disc_model.studies.study import StudyError, parse_study, read_yaml
 from disc_model.truncation import read_asked
 from tests.trees import places, planted
 
@@ -62,6 +85,15 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
     return list(shown.misfits_of(role, own_study, other_study))
 
 
+def faults_of_text(text: str) -> list[str]:
+    """Of the text of a study file."""
+    try:
+        parse_study(read_yaml(text)[0])
+    except StudyError as error:
+        return list(error.faults)
+    return []
+
+
 def table(text: str) -> Disc:
     """A disc from the text of its table."""
     with TemporaryDirectory() as folder:
@@ -69,14 +101,48 @@ def table(text: str) -> Disc:
         return read_disc(path)
 
 
-MADE = {one.__name__: one for one in (Parameters, Window, Poincare, Record, Disc)} | {
-    "read_asked": lambda **v: read_asked(v),
-    "table": table,
-}
+KINDS = {"p": Parameters, "record": Record, "ramps": Ramp}
+
+
+def given_to(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The function, for arguments of which cases, records and ramps are written as mappings."""
+
+    def made(name: str, value: Any) -> Any:
+        if isinstance(value, list) and name == "ramps":
+            return tuple(Ramp(**one) for one in value)
+        return KINDS[name](**value) if name in KINDS and isinstance(value, dict) else value
+
+    return lambda **given: function(**{name: made(name, value) for name, value in given.items()})
+
+
+@cache
+def slipping() -> State:
+    """Of a disc of two modes."""
+    return simulate(Parameters(N=200, Omega=50, n_diameters=1), 0.0371).final_state
+
+
+def simulated_from(**changes: Any) -> None:
+    """The case of `slipping`, from that state with some values changed."""
+    simulate(Parameters(N=200, Omega=50, n_diameters=1), 1.0, initial_state=slipping().replace(**changes))
+
+
+def shown(r: float, theta: float, **case: Any) -> None:
+    """The deflection of another case in a state of one of five modes."""
+    deflection(Parameters(**case), snapshots(Parameters(N=200, Omega=20), 0.1), r, theta)
+
+
+PLAIN = (Parameters, Window, Poincare, Record, Disc, Ramp, simulated_from, shown, choose_modes)
+OF_A_CASE = (simulate, snapshots, floquet, steady_sliding, continue_cycle, lyapunov_exponents, bifurcation_samples)
+MADE = (
+    {one.__name__: one for one in PLAIN}
+    | {one.__name__: given_to(one) for one in (*OF_A_CASE, ReturnMap)}
+    | {"read_asked": lambda **v: read_asked(v), "table": table}
+)
 CHECKED = {
     "figure": faults_of_figure,
     "figure beside": faults_beside,
     "doubts": lambda **given: list(doubts(Parameters(**given)).values()),
+    "yaml": faults_of_text,
 }
 
 

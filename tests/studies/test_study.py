@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
 from disc_model import Parameters
 from disc_model.simulation.case import CaseSpec, Window
@@ -203,10 +202,3 @@ def test_overrides_and_resolution_are_laid_over_the_file(tmp_path: Path) -> None
     assert asked == ("small",)
     assert grids["small"].n_points == 5
     assert grids["small"].options.horizon == 7  # type: ignore[attr-defined]
-
-
-@pytest.mark.parametrize("base", ["{N: 200,5, Omega: 20}", "{N: '200,5', Omega: 20}"])
-def test_a_decimal_comma_is_recognised(base: str) -> None:
-    """YAML reads 200,5 within braces as two keys; 5 was then no name."""
-    [fault] = faults_of(parse_study, yaml.safe_load(f"{{study: s, quantity: floquet, base: {base}, axes: {{k: [1]}}}}"))
-    assert fault.endswith("; a decimal point is needed, not a comma")

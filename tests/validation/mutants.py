@@ -28,118 +28,32 @@ import sys
 import time
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
-from itertools import accumulate
+from itertools import accumulate, chain
 from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple
 
 import pytest
+import yaml
 
 import disc_model
 
 PACKAGE = Path(disc_model.__file__).parent
-LAWS = "tests/validation/test_contact_laws.py"
-RAMPS = ("tests/simulation/test_ramps.py", "tests/validation/test_ramps.py")
-EQUATIONS = ("tests/validation/test_equations.py", LAWS)
-STICK = (
-    "tests/validation/test_equations.py",
-    *(f"tests/engine/test_{name}.py" for name in ("stick_modes", "stick_propagator")),
-)
-DERIVATIVES = ("tests/engine/test_variational.py",)
-SECTION = ("tests/stability/test_return_map.py", *DERIVATIVES)
-METHODS = (
-    *(f"tests/benchmarks/methods/test_{name}.py" for name in ("kernels", "rk4", "regularised", "short_motions")),
-    *EQUATIONS,
-)
+TABLES = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
+
+
+def _files(name: str) -> list[str]:
+    """Files of a group of tests, or one below tests."""
+    found: list[str] = TABLES["groups"].get(name) or [f"tests/{name}"]
+    return found
+
+
 #: The modules, and the tests that have to notice.
-MODULES = {
-    "engine/layout.py": (*STICK, LAWS, *RAMPS, "tests/engine/test_layout.py"),
-    "engine/dense_output.py": (*EQUATIONS, *RAMPS),
-    "engine/stepping.py": (*EQUATIONS, *RAMPS),
-    "engine/sampling.py": (*EQUATIONS, *RAMPS),
-    "engine/audit.py": (*EQUATIONS, *RAMPS),
-    "engine/series.py": (*EQUATIONS, *RAMPS),
-    "engine/contact_series.py": (LAWS, *RAMPS),
-    "engine/stick_propagator.py": STICK,
-    "engine/stick_modes.py": STICK,
-    "engine/laws.py": (*EQUATIONS, *DERIVATIVES),
-    "engine/transitions.py": (*EQUATIONS, *DERIVATIVES),
-    "engine/saltation.py": DERIVATIVES,
-    "engine/tangent.py": DERIVATIVES,
-    "engine/variational.py": (*SECTION, "tests/engine/test_event_loop.py"),
-    "flexibility.py": ("tests/test_flexibility.py",),
-    "plate.py": ("tests/test_plate.py",),
-    "simulation/ramps.py": RAMPS,
-    "simulation/result.py": (*EQUATIONS, *(f"tests/simulation/test_{name}.py" for name in ("api", "result", "start"))),
-    "stability/return_map.py": SECTION,
-    "stability/sliding.py": ("tests/stability/test_sliding.py",),
-    "benchmarks/methods/physics.py": METHODS,
-    "benchmarks/methods/kernels.py": METHODS,
-    "benchmarks/methods/taylor_heyoka.py": METHODS,
-    "benchmarks/scenes.py": (*EQUATIONS, "tests/benchmarks/test_scenes.py"),
-}
-NO_EQUATION = {
-    "how long a step is: any that is short enough gives the same motion": {
-        "engine/layout.py": "_time_unit",
-        "engine/stepping.py": "_root _last_force _scale _relative step_size",
-        "engine/tangent.py": "longest_step",
-        "stability/return_map.py": "longest_step ReturnMap.longest newton",
-        "simulation/result.py": "series_order",
-    },
-    "which phase follows, and when: tests/validation/test_robustness.py": {
-        "engine/transitions.py": (
-            "usual_denominator _enter_separation enter_slip release lose_contact _begin_contact reattach"
-        ),
-        "engine/stepping.py": "_expand_slip _expand_stick expand _sooner first_event advance_time",
-        "engine/variational.py": "_step _count _integrate",
-    },
-    "sizes by which balances and distances are judged": {
-        "engine/audit.py": "audit_step accumulate_residuals",
-        "benchmarks/methods/physics.py": "Physics.distance Physics._energy",
-    },
-    "a processor has one of these, as its registers are": {
-        "engine/series.py": "_products _products_apart",
-    },
-    "where numbers are kept, how roots are sought, what is refused: these have tests of their own": {
-        "engine/layout.py": "build_series",
-        "engine/dense_output.py": "_modes_at move_to force_at",
-        "engine/sampling.py": "sample_step",
-        "engine/saltation.py": "rest",
-        "engine/variational.py": "coordinate _place",
-        "simulation/ramps.py": "Ramp._ordered faults",
-        "simulation/result.py": (
-            "State.replace State.save State.load Result._groups _checked_names engine_case _point write_state "
-            "_forget_switch _check_height _faults amplitude_faults is_finite_array"
-        ),
-        "stability/return_map.py": "case_faults ReturnMap.__init__ ReturnMap._place ReturnMap.returns",
-        "flexibility.py": "contact_compliance _modal_sum",
-        "plate.py": (
-            "mode_arrays mode_shapes radial_range _inverse_squares _shapes _evaluate _check_circles _roots "
-            "_refine _determinant _with_slope _bessel _bessel_small _gauss"
-        ),
-        "benchmarks/methods/physics.py": "Physics.unpack",
-        "benchmarks/methods/kernels.py": "tables rk4_run _dip",
-        "benchmarks/methods/taylor_heyoka.py": "Heyoka._solve",
-        "benchmarks/scenes.py": "separating_start answer rigid_cycle errors event_time_error",
-    },
-}
+MODULES = {module: (*chain.from_iterable(map(_files, names)),) for module, names in TABLES["modules"].items()}
+NO_EQUATION: dict[str, dict[str, str]] = TABLES["no_equation"]
 """Functions that are left out, with the reason."""
-#: By the name of a mutant (as `Mutant` prints it): why it makes no difference.
-EQUIVALENT: dict[str, str] = {
-    "engine/audit.py:_powers_in: + lost -> -": "a size, without abs() as it is never negative",
-    "engine/audit.py:_powers_in: + damped -> -": "a size, without abs() as it is never negative",
-    "engine/stick_modes.py:_compliant_eigenmodes: + k -> -": "the scale of u is free",
-    "engine/stick_modes.py:_compliant_eigenmodes: 1.0 -> 2.0": "the scale of u is free",
-    "engine/stick_modes.py:_decomposed: rates.imag > 0.0 -> rates.imag <= 0.0": "the conjugate is the same mode",
-    "engine/stick_modes.py:_decomposed: -1e-15 -> +1e-15": "rounding of an undamped mode: 0 either way",
-    "engine/transitions.py:_rounding: + i.m * size -> -": "a size, without abs() as it is never negative",
-    "engine/transitions.py:_rounding: - model.u_0 -> +": "a size",
-    "engine/transitions.py:_deflection_size: mul(..., load(state.z, b)) -> -": "a size",
-    "stability/sliding.py:_slip: - p.N -> +": "a constant, and only derivatives of these rates are taken",
-    "stability/sliding.py:_slip: - model.u_0 -> +": "a constant, and only derivatives of these rates are taken",
-    "benchmarks/methods/kernels.py:_margins: + SHIFT -> -": "1e-16 m, for rounding where the gap closes",
-    "engine/stepping.py:set_course: + x[TIME_LOW] -> -": "of Omega and N a rounding of the clock, 1e-17 of the time",
-}
+EQUIVALENT: dict[str, str] = TABLES["equivalent"]
+"""By the name of a mutant (as `Mutant` prints it): why it makes no difference."""
 PATIENCE = 100
 """s of the processor; all that is tried takes a fraction of that."""
 BUDGET = 20.0

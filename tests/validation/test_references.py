@@ -39,18 +39,18 @@ def test_modes_are_those_of_the_reference():
 @pytest.mark.parametrize(("name", "count", "separations"), [("A", 135, 0), ("B", 140, 0), ("C", 398, 131)])
 def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, separations):
     data, errors = stored.load(name), []
-    kinds = stored.kinds_of(data)
+    kinds = data["kinds"]
     assert (len(kinds), kinds.count("separation")) == (count, separations)
     tolerances = [10.0**-digits for digits in range(4, 16)]
     for tol in tolerances:
         events = _events(name, tol)
         assert list(events["kind"]) == kinds
-        assert list(events["phase"]) == [e["phase"] for e in data["events"]]
+        assert list(events["phase"]) == data["phase"]
         errors.append(float(np.abs(events["time"].to_numpy() - stored.times_of(data)).max()))
     assert np.all(np.array(errors) <= ERROR_PER_TOL * np.array(tolerances) + ROUNDING), errors
     assert errors[-1] <= 1e-13
     for value in ("psi", "f", "P"):
-        wanted = np.array([e[value] for e in data["events"]])
+        wanted = np.array(data[value])
         np.testing.assert_allclose(events[value], wanted, atol=1e-10 * np.abs(wanted).max(), rtol=0)
     for coarse, fine in itertools.pairwise(errors[3:10:2]):
         assert fine <= coarse / 10 + ROUNDING, errors  # tol falls a hundredfold: at least ten, in practice 60 to 200

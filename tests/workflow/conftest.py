@@ -13,48 +13,15 @@ from typing import Self
 
 import pytest
 
+from tests.processes import run
+
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
 
+TEXTS = Path(__file__).with_name("studies")
 SMALL = "config/small.yaml"
 MAP = "config/small_map.yaml"
-STUDIES = {
-    SMALL: """\
-study: small
-claims: true
-record:
-  windows:
-    history: {rate: 500, envelope: 50}
-cases:
-  F11: {title: quiet, parameters: {N: 385, Omega: 15}, t_end: 2}
-  F13: {title: growing, parameters: {N: 385, Omega: 15.1}, t_end: 2}
-  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}
-figures: [fig11, fig13]
-studies: [config/small_*.yaml]
-""",
-    MAP: """\
-study: small_map
-title: outcome
-quantity: outcome
-options: {horizon: 1, evaluation_time: 0.2, after_separation: 0.2}
-axes:
-  N: [100, 200.0, 300]
-  Omega: [10, 15, 20, 25]
-  normalization: [as_published, orthonormal]
-batch: {over: [Omega, normalization], size: 8}
-figures:
-  chart: {kind: stability_map, x: Omega, y: N, overlays: {growth: small_growth}}
-""",
-    "config/small_growth.yaml": """\
-study: small_growth
-quantity: floquet
-axes:
-  N: [100, 200, 300]
-  Omega: {start: 10, stop: 25, count: 3}
-  normalization: [as_published, orthonormal]
-batch: {over: [Omega, normalization], size: 6}
-""",
-}
+STUDIES = {f"config/{path.name}": path.read_text() for path in sorted(TEXTS.glob("small*.yaml"))}
 PRODUCTS = {".nc", ".csv", ".md", ".html", ".pdf", ".png"}
 
 
@@ -139,10 +106,8 @@ class Project:
 
     def python(self, code: str) -> str:
         """What a piece of code prints that is run with the copy's own sources."""
-        command = [sys.executable, "-c", code]
-        return subprocess.run(
-            command, cwd=self.folder, env=self.environment, capture_output=True, text=True, check=True
-        ).stdout
+        own = {"PYTHONPATH": str(self.folder / "src")} | self.variables
+        return run(sys.executable, "-c", code, cwd=self.folder, **own).stdout
 
     def products(self) -> dict[str, bytes]:
         """Content of every file that the study is about; no logs."""

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.processes import run
 from tests.test_cli import STUDY
 from tests.workflow.conftest import ROOT
 
@@ -31,12 +32,8 @@ rule all:
 
 def snakemake(folder: Path, *options: str | Path, fails: bool = False) -> str:
     """What Snakemake says in a folder, where it has to succeed, or to fail."""
-    command = [sys.executable, "-m", "snakemake", *map(str, options)]
-    done = subprocess.run(
-        command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=900
-    )
-    assert (done.returncode != 0) == fails, done.stdout
-    return done.stdout
+    done = run(sys.executable, "-m", "snakemake", *options, cwd=folder, fails=fails, timeout=900)
+    return done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
@@ -63,8 +60,7 @@ def test_braces_in_a_title_are_no_wildcards(elsewhere: Path) -> None:
 
 
 def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "disc_model", *options]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True, timeout=300)
+    return run(sys.executable, "-m", "disc_model", *options, cwd=folder, timeout=300)
 
 
 def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:

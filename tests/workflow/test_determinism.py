@@ -8,15 +8,13 @@ Equal within rounding: with and without compilation, and on another kind of proc
 see `disc_model.engine.compile`); Python rounds twice.
 """
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests import instruction_sets
+from tests.processes import python
 from tests.workflow.conftest import Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
@@ -57,8 +55,7 @@ def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
     ways = {"cold": own, "warm": own, "usual": {}, "none": {"NUMBA_DISABLE_JIT": "1"}}
     for name, variables in ways.items():
         (tmp_path / name).mkdir()
-        command = [sys.executable, "-c", CASES, str(tmp_path / name)]
-        subprocess.run(command, env=os.environ | variables, check=True, timeout=900)
+        python(CASES, tmp_path / name, **variables)
     assert any((tmp_path / "cache").rglob("*.kernel"))
     for name in ("warm", "usual"):
         found = instruction_sets.differences(tmp_path / name, tmp_path / "cold")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tests.workflow.conftest import ROOT, copy_repository
+from tests.workflow.conftest import ROOT, TEXTS, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -40,19 +40,7 @@ def count():
 atexit.register(count)
 """
 """Imported by each Python that starts: it writes down which of them compiled kernels."""
-KINDS = """\
-study: kinds
-cases:
-  wide: {title: more modes, parameters: {N: 300, Omega: 20, n_circles: 1}, t_end: 0.5}
-  ramp:
-    title: on a ramp
-    parameters: {N: 300, Omega: 20}
-    t_end: 1
-    ramps: [{parameter: N, to: 310, start: 0.1, end: 1}]
-quantity: outcome
-options: {horizon: 1, evaluation_time: 0.2, after_separation: 0.2}
-axes: {N: [300], Omega: [20], contact_force: [normal]}
-"""
+KINDS = (TEXTS / "kinds.yaml").read_text()
 
 
 @pytest.mark.parametrize("config", ["config/test.yaml", "config/kinds.yaml"])

@@ -4,6 +4,7 @@ import os
 import random
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -14,21 +15,12 @@ import pytest
 
 from tests import needs
 from tests.shell import shell
+from tests.workflow.conftest import TEXTS
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 PATH = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 PROMPT = "ready> "
-STUDY = """\
-study: mine
-quantity: floquet
-base: {N: 200, Omega: 20}
-axes:
-  mu_s: {start: 0.3, stop: 0.6, count: 241}
-  mu_k: {start: 0.05, stop: 0.3, count: 201}
-figures:
-  growth: {kind: heat_map, variable: growth_rate, x: mu_s, y: mu_k}
-"""
 
 
 @pytest.mark.parametrize("program", ["bash", pytest.param("zsh", marks=needs.ZSH.mark)])
@@ -53,7 +45,7 @@ def test_a_shell_completes_commands_options_and_words(program: str, tmp_path: Pa
 
 def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     """A quarter of a second after Ctrl-C Snakemake was killed, with its lock left behind in 5 of 12 tries."""
-    (tmp_path / "mine.yaml").write_text(STUDY)
+    shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
     moments = random.Random(27)
     with shell(["bash", "--norc", "-i"], tmp_path, PATH=PATH, PS1=PROMPT) as terminal:
         terminal.wait_for(PROMPT)
@@ -72,7 +64,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
 
 
 def test_the_lock_of_a_killed_run_is_told_with_the_command_that_removes_it(tmp_path: Path) -> None:
-    (tmp_path / "mine.yaml").write_text(STUDY)
+    shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
     command = [str(Path(sys.executable).with_name("disc-model")), "study"]
     locks = tmp_path / ".snakemake" / "locks"
     run = subprocess.Popen(command, cwd=tmp_path, start_new_session=True)
