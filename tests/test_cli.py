@@ -51,9 +51,7 @@ def test_what_cannot_be_computed_with_is_an_error(command: Command) -> None:
     assert err.splitlines()[-1].startswith("error: disc and slider at rest: m=0.1, ")
 
 
-def test_help_shows_units_defaults_and_what_there_is_to_choose_from(
-    command: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_help_shows_units_defaults_choices_and_the_version(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "200")
     out = command.out("run", "--help")
     for part in ("(N m s)", "as_published|orthonormal", "separable|bonded", "first_separation"):
@@ -65,6 +63,8 @@ def test_help_shows_units_defaults_and_what_there_is_to_choose_from(
     assert out == command.out("--help")
     for name in ("run", "floquet", "modes", "study", "list", "init", "compile", "--install-completion"):
         assert name in out
+    assert re.search(r"--disc +FILE", command.out("modes", "--help"))
+    assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
 
 
 def test_modes_prints_the_papers_frequencies(command: Command) -> None:
@@ -153,10 +153,6 @@ def test_what_can_hardly_be_meant_is_a_warning(command: Command, monkeypatch: py
     assert [line.split(" is ")[0] for line in err.splitlines()] == ["warning: h = 0.03 m"]
 
 
-def test_the_version_is_told(command: Command) -> None:
-    assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
-
-
 def test_auto_is_told_by_what_to_choose(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: 1.0 + 0.1 / p.n_diameters)
     asked = ("modes", *SMALL_BASE[:4], "--n-diameters", "auto", "--truncation-quantity", "growth")
@@ -242,10 +238,6 @@ def test_a_result_that_is_out_of_date_is_not_listed_as_there(command: Command, m
     figures = command.out("list", "figures", str(mine), "--directory", str(mine.parent))
     assert re.search("growth.* there ", figures)
     assert re.search("seen.* not computed ", figures)
-
-
-def test_the_help_says_that_a_disc_is_a_file(command: Command) -> None:
-    assert re.search(r"--disc +FILE", command.out("modes", "--help"))
 
 
 def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 
 import disc_model as dm
 from disc_model import mode_choice
@@ -230,22 +231,9 @@ def test_discs_are_an_axis(tmp_path: Path) -> None:
     assert zipped["growth_rate"].values[0] == study["growth_rate"].sel(disc="b.csv")
 
 
-UNCERTAIN = """study: own
-quantity: sensitivity
-base: {disc: a.csv, Omega: 15}
-axes: {N: [385]}
-options:
-  samples: 2
-  distributions:
-    omega_1_0: {distribution: uniform, low: 0.99, high: 1.01, relative: true}
-    amplitude_2_0: {distribution: normal, mean: 1, deviation: 0.01, relative: true}
-    damping_ratio_0_0: {distribution: uniform, low: 1.0e-4, high: 1.0e-3}
-"""
-
-
 def test_numbers_of_single_modes_can_be_uncertain(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text(disc_table(P))
-    study = computed(tmp_path, UNCERTAIN)
+    study = computed(tmp_path, Path(__file__).with_name("uncertain_disc.yaml").read_text())
     own = dm.read_disc(tmp_path / "a.csv")
     drawn = study["parameter_values"].isel(N=0, sample=0).sel(sample_matrix="A")
     numbers = {str(name): float(drawn.sel(parameter=name)) for name in drawn["parameter"].values}
@@ -258,19 +246,7 @@ def test_numbers_of_single_modes_can_be_uncertain(tmp_path: Path) -> None:
     assert float(study["growth_rate"].isel(N=0, sample=0).sel(variant="A")) == found.growth_rate
 
 
-STUDIES = {
-    "floquet": "{N: [300, 385], Omega: [15, 25]}",
-    "outcome": "{N: [300, 385], Omega: [15]}\noptions: {horizon: 5}",
-    "regions": "{N: [300], Omega: [15, 25]}\noptions: {horizon: 5}",
-    "critical_speed": "{N: [300]}\noptions: {horizons: [3], scan: {start: 20, stop: 24, step: 2}, precision: 1}",
-    "hysteresis": "{N: [385]}\noptions: {scan: {start: 15, stop: 17, step: 1}, dwell: 6}",
-    "ramps": "{N: [385]}\noptions: {low: 14, high: 16, rates: {start: 1, stop: 2, count: 2}, dwell: 1}",
-    "bifurcation": "{N: [300], Omega: [15]}\noptions: {transient: 1, samples: 20}",
-    "lyapunov": "{N: [300], Omega: [15]}\noptions: {transient: 1, duration: 2}",
-    "basins": "{N: [385], Omega: [15]}\noptions: {energies: [0.1], n_starts: 2, seed: 1, horizon: 5}",
-    "branches": "{N: [385]}\noptions: {scan: {start: 14, stop: 16, step: 1}, dwell: 2}",
-    "campbell": "{N: [385], Omega: [5, 15]}",
-}
+STUDIES = yaml.safe_load(Path(__file__).with_name("disc_studies.yaml").read_text())
 
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
@@ -282,9 +258,9 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
 ) -> None:
     """Rates to 1e-9/s, and all else; only the damping, a ratio in the table, is rounded anew."""
     (tmp_path / "disc.csv").write_text(disc_table(P.replace(normalization=normalization)))
-    text = f"study: own\nquantity: {quantity}\naxes: {STUDIES[quantity]}\nbase: "
-    discs = f"{{normalization: {normalization}}}", "{disc: disc.csv}"
-    plate, table = (computed(tmp_path, text + disc) for disc in discs)
+    study = {"study": "own", "quantity": quantity, **STUDIES[quantity]}
+    discs = {"normalization": normalization}, {"disc": "disc.csv"}
+    plate, table = (computed(tmp_path, yaml.safe_dump(study | {"base": disc})) for disc in discs)
     xr.testing.assert_allclose(table, plate, rtol=1e-9, atol=1e-9)
 
 

@@ -10,7 +10,7 @@ from tests.claims import made_up
 @pytest.fixture(scope="session")
 def told() -> xr.DataTree:
     """What happened, by the paper."""
-    return made_up.made_up(made_up.as_told())
+    return made_up.made_up(made_up.AS_TOLD)
 
 
 @pytest.fixture

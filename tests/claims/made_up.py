@@ -1,7 +1,7 @@
 """A study with the paper's cases whose motions are made up, not simulated.
 
 A `Story` says what a case did; `tell` writes it down as a simulation would, with the windows and events that
-config/paper.yaml asks for.  `as_told` is what the paper says happened, `to_the_contrary` the opposite of all of it.
+config/paper.yaml asks for.  `AS_TOLD` is what the paper says happened, `TO_THE_CONTRARY` the opposite of all of it.
 """
 
 import cmath
@@ -16,6 +16,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 
 from disc_model.claims.energy import Powers
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
@@ -304,58 +305,29 @@ BONDED = Story(disc_late=3e-2, signal=few, rate=FIVE_POINTS)
 FREE = GROWING.but(first=0.01, stick=0.0)
 
 
-def _separating(**first: float) -> dict[str, Story]:
-    return {name: GROWING.but(first=time) for name, time in first.items()}
+NOTHING = Story(disc_early=5e-2, disc_late=5e-2, contrary=True, rate=FIVE_POINTS)
+KINDS = {"still": STILL, "growing": GROWING, "wild": WILD, "bonded": BONDED, "free": FREE, "alone": NOTHING}
+TEXTS = yaml.safe_load(Path(__file__).with_name("stories.yaml").read_text(encoding="utf-8"))
 
 
-def as_told() -> dict[str, Story]:
-    """What happened, by the paper."""
-    slow = dict.fromkeys(("S43z4", "S43z4a", "S43z4b", "S43z4c"), GROWING.but(first=800))
-    return {
-        **dict.fromkeys(SPECS, STILL),
-        **dict.fromkeys(("F13bonded", "F17bonded", "F06", "F08"), BONDED),
-        **dict.fromkeys(("F02free", "F07free", "F17free"), FREE),
-        "F02": WILD.but(first=480.0, signal=crowded, misprinted=True),
-        "F04": BONDED.but(misprinted=True),
-        "F07": WILD.but(first=149.45, sharp=0.25, signal=coupled, rate=71.1),
-        "F09": GROWING.but(first=117.0, stick=0.0, stick_before=0.1),
-        "F13": GROWING.but(first=54.45, signal=turns),
-        "S43N0": Story(stick_before=0.0),
-        "S43Ninf": Story(stick=1.0, stick_before=1.0),
-        "F21": Story(late=0.3, wanders=0.01, chaotic=True, signal=erratic),
-        "F17": WILD.but(first=810.0),
-        **dict.fromkeys(("F22", "F22k"), GROWING.but(first=220.0, wanders=0.1, chaotic=True, second=0.01)),
-        **dict.fromkeys(("F02k", "F07k"), WILD.but(first=149.45)),
-        "F23": GROWING.but(first=240.0, swing=math.pi),
-        **_separating(F18=263, F19=51, C4cp1=40, S43kp2e4=100, S43k2e4=100, S43k3e4=200),
-        **_separating(P03l5=54.4, P03l6=54.4, P03l8=54.5, P03l4c1=54.5),
-        **_separating(S43c126=700, S43c14=700, S43c145=700, S43c124=1000, S43c125=900),
-        **slow,
-    }
+def story(said: Any, told: Story = STILL) -> Story:
+    """As stories.yaml says it: the name of a kind, or a kind with other values; ``told`` is the case's own."""
+    kinds = KINDS | {"told": told}
+    if isinstance(said, str):
+        return kinds[said]
+    changes = {name: globals()[value] if name == "signal" else value for name, value in said.items()}
+    return kinds[changes.pop("like", "still")].but(**changes)
 
 
-def to_the_contrary() -> dict[str, Story]:
-    """The opposite in all that is claimed."""
-    alone = Story(late=0.02, disc_early=5e-2, disc_late=5e-2, contrary=True, rate=FIVE_POINTS)
-    return {
-        **dict.fromkeys(SPECS, GROWING),
-        **dict.fromkeys(("F04", "F06"), WILD.but(stick=0.005, rate=FIVE_POINTS, contrary=True)),
-        **dict.fromkeys(("T2kp18", "T2kp22", "T2Om12"), STILL.but(signal=erratic)),
-        "F02": alone.but(first=480.0),
-        "F07": alone.but(first=147.0),
-        "F08": WILD.but(stick=0.0005),
-        "F09": alone.but(first=117.0),
-        "F11": WILD.but(first=100.0),
-        "F13": WILD.but(first=55.0, signal=erratic, disc_early=5e-3, early=1.0, second=0.1),
-        "F19": WILD.but(first=51.0),
-        "F20": WILD,
-        "F21": Story(first=500.0, signal=turns),
-        "F22": Story(first=50.0),
-        "S43N0": GROWING.but(first=20.0, stick_before=0.5),
-        "S43Ninf": Story(),
-        **_separating(F23=240, S43k2e4=200, S43k3e4=100, S43k2e5=100, S43kp2e5=100, C4cpN50=100, S43c12=500),
-        **_separating(P03l5=50, P03l6=54.4, P03l8=54.5, P03l4c1=54.5, S43c126=1000),
-    }
+def stories(texts: Mapping[str, Any], told: Mapping[str, Story]) -> dict[str, Story]:
+    """Of cases, as stories.yaml says them; ``told`` is what they do by the paper."""
+    return {name: story(said, told.get(name, STILL)) for names, said in texts.items() for name in names.split()}
+
+
+AS_TOLD = dict.fromkeys(SPECS, STILL) | stories(TEXTS["by the paper"], {})
+"""What happened, by the paper."""
+TO_THE_CONTRARY = dict.fromkeys(SPECS, GROWING) | stories(TEXTS["to the contrary"], {})
+"""The opposite in all that is claimed."""
 
 
 def made_up(stories: Mapping[str, Story]) -> xr.DataTree:

@@ -138,6 +138,9 @@ def raised(row: int, column: int, to: float) -> np.ndarray:
 ONSET, FOLD, CRITICAL = "Onset", "Fold at N = 385 N", "Critical speed"
 NORMAL, IN_PLANE = "Damper normal to the disc", "Damper in the disc's plane"
 FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
+TOO_SHORT = f"{NOT_COMPUTED}: study survival_growth does not reach as far as survival_speed"
+NO_PAIR = f"{NOT_COMPUTED}: study survival_damping lacks a pair of points without and with c_p"
+FOUND = at_fold(curves("fold", (14.9, 15.2)))
 
 
 @pytest.mark.parametrize(
@@ -161,18 +164,10 @@ FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
         # the cycle continues, unstable
         (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=UNSTABLE), FAILS),
         (FOLD, at_fold(curves("neutral", (14.9, 15.2), missed=2), 15.1, rates=growth(*[0.1] * 4, NAN, 0.1)), UNDECIDED),
-        (FOLD, at_fold(curves("fold", (14.9, 15.2))), UNDECIDED),
+        (FOLD, FOUND, UNDECIDED),
         (FOLD, at_fold(curves("fold", (14.9, 15.2), status="failed"), 15.1), FAILED.format("curves")),
-        (
-            FOLD,
-            at_fold(curves("fold", (14.9, 15.2))) | {"speed": speeds(15.1, status="failed")},
-            FAILED.format("speed"),
-        ),
-        (
-            FOLD,
-            at_fold(curves("neutral", (14, 16)), 35.0),
-            f"{NOT_COMPUTED}: study survival_growth does not reach as far as survival_speed",
-        ),
+        (FOLD, FOUND | {"speed": speeds(15.1, status="failed")}, FAILED.format("speed")),
+        (FOLD, at_fold(curves("neutral", (14, 16)), 35.0), TOO_SHORT),
         (CRITICAL, critical(NAN, 20.0, 12.0, 15.0), HOLDS),
         (CRITICAL, critical(30.0, 20.0, 12.0, NAN), HOLDS),
         (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), REMARK),  # at the end of the scan it falls again
@@ -192,18 +187,11 @@ FAILED = f"{NOT_COMPUTED}: study survival_{{}} has points that failed"
         (IN_PLANE, damping("c_p", MANY, raised(0, 0, 0.05)), FAILS),  # at a small preload only
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, -0.05)), FAILS),  # dies out more slowly, but does
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_cycle"), REMARK),
-        (
-            IN_PLANE,
-            damping("c_p", MANY, raised(1, 0, NAN), "no_stick_slip"),
-            FAILS,
-        ),  # it slides, which is no instability
+        # it slides, which is no instability
+        (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_stick_slip"), FAILS),
         (IN_PLANE, damping("c_p", MANY, raised(1, 11, NAN), "no_cycle"), FAILS),  # it was not stable without, either
         (IN_PLANE, damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05), UNDECIDED),  # few cycles say nothing
-        (
-            IN_PLANE,
-            damping("c", MANY, MANY),
-            f"{NOT_COMPUTED}: study survival_damping lacks a pair of points without and with c_p",
-        ),
+        (IN_PLANE, damping("c", MANY, MANY), NO_PAIR),
     ],
 )
 def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdict: str) -> None:
@@ -271,8 +259,6 @@ def free(*widths: float, N: float = 200) -> CaseView:
 
 
 BONDED = case(bonded=True, widths=(3.0, 3.0, 3.0, 3.0))
-
-
 REPEATING = np.tile([0.01, 0.012, 0.011], 2000)
 DRIFTING = 0.01 * (1 + 0.1 * np.sin(2.399963 * np.arange(6000)))
 CHAOTIC = 0.01 * (1 + 0.3 * logistic(6000))

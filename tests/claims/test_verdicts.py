@@ -65,21 +65,16 @@ def slower(p: Parameters) -> pd.DataFrame:
     return modes.assign(omega=modes["omega"] * 608 / (paired["omega"] / paired["diameters"]).min())
 
 
-ANEW = ("S43N550", "S43N550a", "S43N550b", "S43N550c")
-"""The same case at other tolerances."""
-
-
 def some(*names: str, **changes: object) -> dict[str, Story]:
     """Cases as told but for some changes."""
-    told = made_up.as_told()
+    told = made_up.AS_TOLD
     return {name: told[name].but(**changes) for name in names}
 
 
-NOTHING = Story(disc_early=5e-2, disc_late=5e-2, contrary=True, rate=made_up.FIVE_POINTS)
 WORLDS = {
-    "as told": World(made_up.as_told()),
+    "as told": World(made_up.AS_TOLD),
     "to the contrary": World(
-        made_up.to_the_contrary(),
+        made_up.TO_THE_CONTRARY,
         made_up.cycle_to_the_contrary,
         made_up.course_to_the_contrary,
         made_up.scans(0.0, True, ("separation",) * 3, ((20, 21), (15, 16), (10, 11)), "quiet"),
@@ -98,35 +93,24 @@ WORLDS = {
     "a plate without mass and stiffness": a_disc(
         "E17", plate_modes=lambda p: plate_modes(p).assign(omega=np.sqrt(p.D))
     ),
-    "natural lines": World(some("F13", "T2kp18", "T2kp22", "T2Om12", signal=made_up.natural), claims=("T2c",)),
     "natural frequencies where the lines are": World(
         some("F13"),
         disc={"coupled_natural_frequencies": lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])},
         claims=("T2e",),
     ),
-    "a slider of 70 Hz": World(some("F13", rate=70.0), claims=("T2f",)),
     "separation changes nothing": World(
-        made_up.to_the_contrary() | {"F17": NOTHING.but(first=810.0), "F18": NOTHING.but(first=263.0)},
+        made_up.TO_THE_CONTRARY | {"F17": made_up.NOTHING.but(first=810.0), "F18": made_up.NOTHING.but(first=263.0)},
         claims=("C3", "C3s", "F10", "F17c", "F18t"),
-    ),
-    "one disc vibrates on": World(
-        some("F02", "F09", "F13", "F17", "F18", "F19", "F22", "F23") | some("F07", sharp=0.0, grows_on=0.001),
-        claims=("S43b",),
-    ),
-    "long separations": World(
-        dict.fromkeys(("F02", "F07", "F09", "F13", "F17", "F18", "F19", "F22"), NOTHING.but(first=30.0)),
-        claims=("F03b", "F03c"),
-    ),
-    "two frequencies": World(some("F21", chaotic=False), claims=("F21q",)),
-    "separations that follow a spring": World(
-        some("F02", "F07", wanders=0.0, rate=67.63) | some("F02k", "F07k", wanders=0.0, rate=67.63 * 1.001**0.5),
-        claims=("C5",),
     ),
     "no separation": World(
         dict.fromkeys(("F02", "F07", "F09", "F17"), STILL),
         scans=made_up.scans(windows=((np.nan, np.nan),) * 3),
         claims=("F15b", "S42w", "C1"),
     ),
+    **{
+        name: World(made_up.stories(said["cases"], made_up.AS_TOLD), claims=tuple(said["claims"].split()))
+        for name, said in made_up.TEXTS["worlds"].items()
+    },
 }
 
 
@@ -234,114 +218,19 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
     return groups | {"events": events.isel(event=slice(last))}
 
 
-@pytest.mark.parametrize(
-    ("claim", "scans", "damage", "verdict", "phrase"),
-    [
-        ("S41a", None, {}, f"{NOT_COMPUTED}: study bonded is not among those of this run", ""),
-        ("S41a", {"least": np.nan}, {}, f"{NOT_COMPUTED}: study bonded has points that failed", ""),
-        ("S41a", {"least": 0.0}, {}, FAILS, "6 have settled"),
-        ("S41a", {"least": 0.0, "settled": False}, {}, UNDECIDED, "1 still change: so far the slider sticks 0 %"),
-        # "may not happen" was read as "does not happen below some stiffness"
-        ("C4E", {}, {}, HOLDS, "no separation for E = 80, 100 GPa"),
-        ("C4E", {"discs": ("separation", "quiet", "separation")}, {}, UNDECIDED, "80 GPa from 50 rad/s up"),
-        ("C4E", {"discs": ("separation",) * 3}, {}, FAILS, "separation for every E"),
-        ("C4E", {"discs": ("quiet",) * 3}, {}, UNDECIDED, "nothing on the map separates"),
-        # one damper of many decided
-        ("C4N", {}, {}, HOLDS, "separation comes about at 385, 500, 600 N"),
-        ("C4N", {"strong": "quiet"}, {}, UNDECIDED, "600 N with 1 of 2 dampers from 0.5 N s/m"),
-        ("C4N", {"damped": "quiet"}, {}, FAILS, "within 1000 s"),
-        # "with further increase" has no end
-        ("F15a", {}, {}, HOLDS, "of 5..24 rad/s"),
-        ("F15a", {"windows": tuple((v, np.nan) for v in (20, 10, 15, 19, 12))}, {}, UNDECIDED, "up to 500 N it does"),
-        # the remark named the speeds of one study, and left some out
-        ("S43k", {}, {}, REMARK, "at 200 N, 20 rad/s, chosen by this study"),
-        ("S43k", {"soft": ("quiet", "quiet", "separation")}, {}, REMARK, "at 10..11.25 rad/s, a spring separates and"),
-        ("S43k", {"soft": ("separation", "quiet", "separation")}, {}, REMARK, "200 N, at 11.25 rad/s, a spring"),
-        # a separation that does not end is not short
-        ("F03b", None, {}, HOLDS, "0.74 ms, 5 % of the"),
-        ("F03c", None, {"F02": without_the_last_reattachment}, FAILS, "the last one of F02 lasts since"),
-        # more modes that do not separate are a change: nan is no maximum
-        ("P03", None, {}, REMARK, ""),
-        ("P03", None, {"P03l6": root_with(first_separation=np.nan, n_separations=0)}, FAILS, ""),
-        ("S43c", None, {}, REMARK, "a wait of 700 to 900 s gives 12.6 rad/s"),
-        ("S43c", None, {"S43c12": root_with(first_separation=750.0)}, UNDECIDED, "a wait of 700 to 750 s gives 12.6"),
-        ("S43c", None, {"S43c12": root_with(first_separation=650.0)}, FAILS, "within the 810 s"),
-        # a run that ended early was taken for one without separation
-        *(
-            (claim, None, {"S43c11": root_with(time_reached=100.0)},
-             f"{NOT_COMPUTED}: case S43c11 ends at 100 s, 2000 s are needed", "")
-            for claim in ("S43c", "S43z")
-        ),
-        ("F02a", None, {"F02": root_with(n_separations=0)}, FAILS, "case F02: no separation in 800 s"),
-        # several are claimed, and one was enough
-        ("F13g", None, {}, HOLDS, "50 separations in 480 s"),
-        ("F13g", None, {"F13": root_with(n_separations=1)}, FAILS, "1 separations in 480 s"),
-        ("F04", None, {}, HOLDS, "(steady: F04 at 1000 s)"),
-        ("F13", None, {}, HOLDS, "first separation at 54.45 s"),
-    ],
-)  # fmt: skip
-def test_a_verdict_by_what_is_there(
-    claim: str, scans: dict[str, Any] | None, damage: dict[str, Any], verdict: str, phrase: str, told: xr.DataTree
-) -> None:
-    found = judged(claim, told, None if scans is None else made_up.scans(**scans), **damage)
-    assert found.verdict == verdict
-    assert phrase in f"{found.ours}; {found.remark}"
+@pytest.mark.parametrize("row", made_up.TEXTS["what is there"], ids=lambda row: f"{row['claim']}: {row['verdict']}")
+def test_a_verdict_by_what_is_there(row: dict[str, Any], told: xr.DataTree) -> None:
+    scans, damage = row.get("scans"), {name: root_with(**values) for name, values in row.get("says", {}).items()}
+    if "unending" in row:
+        damage[row["unending"]] = without_the_last_reattachment
+    found = judged(row["claim"], told, None if scans is None else made_up.scans(**scans), **damage)
+    assert found.verdict == row["verdict"]
+    assert row.get("phrase", "") in f"{found.ours}; {found.remark}"
 
 
-@pytest.mark.parametrize(
-    ("claim", "stories", "verdict"),
-    [
-        # hardly any stick after separation, and a window without a separation
-        ("A2", some("F02", "F02free", stick=0.0), f"{NOT_COMPUTED}: case F02 keeps fewer than 20 stick-slip cycles"),
-        ("F22", some("F22", "F22k", stick=0.0), f"{NOT_COMPUTED}: case F22 keeps fewer than 20 stick-slip cycles"),
-        ("F23", {"F23": GROWING}, NOT_TESTABLE),
-        # the last quarter used to be compared with a half that contains it
-        ("S43b", some("F02", "F07", "F09", "F13", "F17", "F18", "F19", "F22", "F23"), HOLDS),
-        # a thousandth of the preload was allowed besides the 2 % that is stated: a range of as much could double
-        ("S43d", dict.fromkeys(("S43a126", "S43a10"), STILL.but(early=1e-3, late=1.9e-3)), FAILS),
-        # the speed is not stated: stable at one of both decides nothing
-        ("S43d", {"S43a126": STILL, "S43a10": GROWING}, UNDECIDED),
-        ("S43d", dict.fromkeys(("S43a126", "S43a10"), STILL), HOLDS),
-        # a range that is large from the beginning does not grow, and is not small
-        *((claim, some("F16", "F20", "F02"), verdict) for claim, verdict in (("F16", REMARK), ("F20", HOLDS))),
-        *((claim, some("F16", "F20", "F02", early=0.2, late=0.2), FAILS) for claim in ("F16", "F20")),
-        # what changes without separation as well, separation need not have changed
-        ("F18t", some("F18", "F18bonded"), HOLDS),
-        ("F18t", some("F18") | {"F18bonded": made_up.BONDED.but(first=263.0)}, UNDECIDED),
-        ("F18t", {"F18": GROWING.but(first=263.0, contrary=True), "F18bonded": STILL}, FAILS),
-        # the same for lines and power: the paper's "due to separation" had no control
-        *(
-            (claim, some("F13") | {"F13bonded": made_up.BONDED.but(signal=made_up.turns, first=54.45)}, UNDECIDED)
-            for claim in ("F25c", "F25d", "F26")
-        ),
-        ("F27c", some("F07") | {"F06": made_up.BONDED.but(signal=made_up.coupled)}, UNDECIDED),
-        # what 0.1 % of a parameter turns is no verdict
-        ("F05", some("F02", "F02free") | {"F02k": GROWING.but(first=149.45)}, UNDECIDED),
-        # the mode in which the spring moves with the disc is the branch in one reading only
-        (
-            "C5",
-            some("F02", "F07", wanders=0.0, rate=67.63) | some("F02k", "F07k", wanders=0.0, rate=67.63 * 1.000303),
-            UNDECIDED,
-        ),
-        # stable while it sticks, by definition
-        ("S43Ns", some("S43Ninf") | {"S43N3e3": GROWING.but(first=30.0)}, UNDECIDED),
-        ("S43Nl", some("F16", "F17", "F11", "S43N600", *ANEW), HOLDS),
-        ("S43Nl", some("F16", "F17", "F11", "S43N600") | dict.fromkeys(ANEW, GROWING.but(first=380.0)), FAILS),
-        ("S43Nl", some("F16", "F17", "F11", *ANEW) | {"S43N600": GROWING}, FAILS),
-        # two lines that are one if lines 0.2 Hz apart are
-        ("F29b", some("F21", signal=made_up.split), UNDECIDED),
-        # one further frequency has six lines with the stick-slip rate and the drive's
-        ("F29b", some("F21", signal=made_up.one_more), FAILS),
-        # the skirt of the nearest line stood for one that is not there
-        ("T2a", some("F13", signal=made_up.few), FAILS),
-        ("T2e", some("F13", signal=made_up.few), FAILS),
-        # the static deflection that passes the point is no vibration
-        ("F27b", some("F07", signal=made_up.driven), UNDECIDED),
-        ("F27b", some("F07", signal=made_up.combinations), FAILS),
-    ],
-)
-def test_a_verdict_by_what_happened(claim: str, stories: dict[str, Story], verdict: str) -> None:
-    assert verdict_of(claim, stories) == verdict
+@pytest.mark.parametrize("row", made_up.TEXTS["what happened"], ids=lambda row: f"{row['claim']}: {row['verdict']}")
+def test_a_verdict_by_what_happened(row: dict[str, Any]) -> None:
+    assert verdict_of(row["claim"], made_up.stories(row["cases"], made_up.AS_TOLD)) == row["verdict"]
 
 
 def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
@@ -363,13 +252,13 @@ def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pyt
 
 @pytest.mark.parametrize(
     ("story", "verdict", "turned"),
-    [(made_up.as_told()["F13"], HOLDS, "stable"), (STILL, REMARK, "does not hold with k (each 0.1 % larger)")],
+    [(made_up.AS_TOLD["F13"], HOLDS, "stable"), (STILL, REMARK, "does not hold with k (each 0.1 % larger)")],
 )
 def test_other_simulations_of_a_case_are_a_remark(
     story: Story, verdict: str, turned: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first separation at 385 N, 15.1 rad/s held, though a spring 0.1 % stiffer keeps contact."""
-    cases, told = views(made_up.made_up(some("F13"))), made_up.as_told()["F13"]
+    cases, told = views(made_up.made_up(some("F13"))), made_up.AS_TOLD["F13"]
     again = lambda p, until: made_up.tell(made_up.SPECS["F13"], told if p.k == 5e4 else story)  # noqa: E731
     monkeypatch.setattr("disc_model.claims.model.simulate_again", again)
     found, by = BY_NAME["F13"].settle(lambda one, *changed: one.evaluate(cases, *changed))
@@ -493,7 +382,7 @@ def test_a_history_of_one_bin_is_no_evidence() -> None:
 
 @pytest.fixture(scope="module")
 def contrary() -> xr.DataTree:
-    return made_up.orthonormal(made_up.made_up(made_up.to_the_contrary()))
+    return made_up.orthonormal(made_up.made_up(made_up.TO_THE_CONTRARY))
 
 
 def test_the_two_normalisations_side_by_side(

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "config" / "README.md", ROOT / "results" / "README.md"]
@@ -15,22 +16,7 @@ PAGES = [page for page in PAGES if "{include}" not in page.read_text(encoding="u
 LONG, SHARE, MEAN, LONGEST = 30, 0.08, 20, 45
 """Words of a long sentence, the share that may be long; words of the mean sentence and of the longest."""
 SOURCES, TEXTS = ("workflow", "config", "src/disc_model"), (".py", ".yaml", ".smk", ".rst")
-OLD = {
-    r"(un)?published starts?": "static start",
-    r"least kicks?": "critical energy",
-    r"tongues?": "resonance, region of instability",
-    r"likeness": "modal assurance criterion",
-    r"fates?": "attractor class",
-    r"(share|time|stays?|come|comes|came) apart": "in separation",
-    r"switch(es)? between stick|(kind|number|order|time|times|table)s? of (the |a )?switch(es)?": "event",
-    r"(static|by its) give|gives? way": "flexibility, compliance; loses stability",
-    r"coasts?|coasting": "stick in closed form",
-    r"comes? to be|what there is|is asked for|are asked for|goes on|that one's|is to be said|by now": "say it plainly",
-    r"floors?|rooms?|the house": "layer, module",
-    r"how sure": "uncertainty",
-    r"another contact|what survives": "contact models, model sensitivity",
-    r"normaliz\w+|behavior\w*|stabiliz\w+|colors?|centers?": "British spelling; `normalization` only as a key",
-}
+OLD: dict[str, str] = yaml.safe_load(Path(__file__).with_name("old_terms.yaml").read_text(encoding="utf-8"))
 """Words that pages do not use, and those of the glossary that they do."""
 NAMES = "alpha beta delta kappa mu nu xi psi Psi Pi Phi Sigma sigma omega Omega varphi rho theta Lambda lambda"
 GREEK = dict(zip(NAMES.split(), "αβδκμνξψΨΠΦΣσωΩφρθΛλ", strict=True))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
 SIZES = {"wide": (1400, 1000), "narrow": (360, 740)}
 LEFT, UP, RIGHT, ENTER, ESCAPE = "\ue012", "\ue013", "\ue014", "\ue007", "\ue00c"
 """Keys as WebDriver calls them."""
+SEEN = Path(__file__).with_name("seen.js").read_text(encoding="utf-8")
 READY = "return document.getElementById('grids').ariaBusy === 'false'"
 
 
@@ -53,50 +55,30 @@ def text(shown: Page, id_: str) -> str:
     return found
 
 
+def ask(shown: Page, what: str, *arguments: object) -> Any:
+    """What a function of seen.js finds."""
+    return shown.run(f"{SEEN}\nreturn seen.{what}(...arguments);", *arguments)
+
+
 def choose(shown: Page, label: str, option: str) -> None:
-    shown.run(
-        """const select = document.getElementById("controls").elements.namedItem(arguments[0]);
-           if (![...select.options].some(one => one.value === arguments[1])) throw Error(arguments[1]);
-           select.value = arguments[1];
-           select.dispatchEvent(new Event("change"));""",
-        label,
-        option,
-    )
+    ask(shown, "choose", label, option)
     shown.wait_for(READY)
 
 
 def options(shown: Page, label: str) -> list[str]:
-    found: list[str] = shown.run(
-        "return [...document.getElementById('controls').elements.namedItem(arguments[0]).options].map(x => x.value)",
-        label,
-    )
+    found: list[str] = ask(shown, "options", label)
     return found
 
 
 def centre(shown: Page, i: int, j: int) -> tuple[float, float]:
     """The middle of a cell, in the window; the map is brought into view."""
-    x, y = shown.run(
-        """const map = document.getElementById("map");
-           map.scrollIntoView({block: "center", behavior: "instant"});
-           const {left, top} = map.getBoundingClientRect();
-           const {xs, ys, horizontal, vertical} = drawn;
-           return [left + horizontal(xs.at[arguments[0]]), top + vertical(ys.at[arguments[1]])];""",
-        i,
-        j,
-    )
+    x, y = ask(shown, "centre", i, j)
     return x, y
 
 
 def colour(shown: Page, i: int, j: int) -> str:
     """The colour a little below and left of a cell's middle, where no ring and no dot is."""
-    red, green, blue = shown.run(
-        """const {xs, ys, horizontal, vertical} = drawn;
-           const quarter = (scale, position, n) => (position(scale.at[n]) + position(scale.borders[n])) / 2;
-           const at = [quarter(xs, horizontal, arguments[0]), quarter(ys, vertical, arguments[1])].map(Math.round);
-           return [...document.getElementById("map").getContext("2d").getImageData(...at, 1, 1).data].slice(0, 3);""",
-        i,
-        j,
-    )
+    red, green, blue = ask(shown, "colour", i, j)
     return f"#{red:02x}{green:02x}{blue:02x}"
 
 
@@ -104,12 +86,8 @@ def test_it_fits_the_window_and_needs_no_network(shown: Page) -> None:
     assert shown.run("return document.documentElement.scrollWidth <= window.innerWidth")
     loaded = shown.run("return performance.getEntriesByType('resource').map(x => x.name)")
     assert [name for name in loaded if not name.startswith("data:")] == []
-    sizes = shown.run(
-        """return [...document.querySelectorAll("p, li, td, th, label, select, button, figcaption")]
-             .filter(x => x.innerText).map(x => parseFloat(getComputedStyle(x).fontSize))"""
-    )
     # small type of books, in CSS pixels
-    assert min(sizes) >= 12
+    assert min(ask(shown, "sizesOfType", "p, li, td, th, label, select, button, figcaption")) >= 12
 
 
 def test_it_opens_on_the_growth_map(shown: Page) -> None:
@@ -118,9 +96,6 @@ def test_it_opens_on_the_growth_map(shown: Page) -> None:
 
 
 def test_every_choice_draws_something(shown: Page) -> None:
-    colours = """const map = document.getElementById("map");
-        const {data} = map.getContext("2d").getImageData(0, 0, map.width, map.height);
-        return new Set(new Uint32Array(data.buffer)).size;"""
     drawn = set()
     for study in options(shown, "Study"):
         choose(shown, "Study", study)
@@ -131,7 +106,7 @@ def test_every_choice_draws_something(shown: Page) -> None:
                 for variable in options(shown, "Variable"):
                     choose(shown, "Variable", variable)
                     drawn.add((study, across, up, variable))
-                    assert shown.run(colours) > 4, (study, across, up, variable)
+                    assert ask(shown, "colours") > 4, (study, across, up, variable)
     # a variable without one of the two dimensions is not among those of the plane
     assert {("plane", "Omega", "N", "releases"), ("line", "N_Omega", "", "period")} <= drawn
     assert ("plane", "Omega", "normalization", "releases") not in drawn
@@ -188,14 +163,11 @@ def test_a_point_that_failed_says_so(shown: Page) -> None:
 
 def test_what_was_simulated_is_marked(shown: Page) -> None:
     """Points whose flag says that they lie in a cell that was not divided have no dot."""
-    middle = """const {xs, ys, horizontal, vertical} = drawn;
-        const at = [horizontal(xs.at[arguments[0]]), vertical(ys.at[arguments[1]])].map(Math.round);
-        return [...document.getElementById("map").getContext("2d").getImageData(...at, 1, 1).data].slice(0, 3);"""
     assert "how the value is known: simulation" in text(shown, "legend")
-    assert shown.run(middle, 0, 0) == [255, 255, 255]
-    assert shown.run(middle, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
+    assert ask(shown, "middle", 0, 0) == [255, 255, 255]
+    assert ask(shown, "middle", made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
     choose(shown, "Dots", "method=inferred")
-    assert shown.run(middle, 0, 0) != [255, 255, 255]
+    assert ask(shown, "middle", 0, 0) != [255, 255, 255]
     choose(shown, "Variable", "method")
     shown.point(*centre(shown, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]))
     assert "method inferred" in text(shown, "hovered")
@@ -212,11 +184,8 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
     np.testing.assert_allclose(history(), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
     assert text(shown, "phases").split() == ["stick", "slip", "separation"]
     # of a point without one of its own, the nearest of the same outcome: once the other one is nearer
-    for i, j, outcome, N, Omega in (
-        (2, 2, "separation", 385, 20),
-        (2, 1, "separation", 385, 20),
-        (3, 0, "quiet", 100, 5),
-    ):
+    nearest = [(2, 2, "separation", 385, 20), (2, 1, "separation", 385, 20), (3, 0, "quiet", 100, 5)]
+    for i, j, outcome, N, Omega in nearest:
         shown.point(*centre(shown, i, j), click=True)
         assert text(shown, "motion-note").startswith(
             f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Omega = {Omega} rad s⁻¹, "
@@ -224,13 +193,7 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
         )
     shown.point(*centre(shown, 2, 2), click=True)
     np.testing.assert_allclose(history().mean(), made_up.force(385.0).mean(), rtol=1e-4)
-    x, y = shown.run(
-        """const motion = document.getElementById("motion");
-           motion.scrollIntoView({block: "center", behavior: "instant"});
-           const {left, top, height} = motion.getBoundingClientRect();
-           return [left + motionDrawn.horizontal(0), top + height / 2];"""
-    )
-    shown.point(x, y)
+    shown.point(*ask(shown, "beginning"))
     assert text(shown, "motion-hovered").startswith("0 ms, P 385 N, u −0.0088 m, psi 0 rad")
 
 

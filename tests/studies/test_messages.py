@@ -51,9 +51,9 @@ PLANTED = (None, True, -1, "x", [], {"x": 1})
 
 
 def faults_of(raw: Any) -> list[str]:
-    """Of a file's content, those of its grids included."""
+    """Of a file's content, or of its text, those of its grids included."""
     try:
-        parse_study(raw).grids()
+        parse_study(read_yaml(raw)[0] if isinstance(raw, str) else raw).grids()
     except StudyError as error:
         return list(error.faults)
     return []
@@ -83,15 +83,6 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
         for one in (own | {"dims": {name: [1] for name in shown.dims}}, other)
     )
     return list(shown.misfits_of(role, own_study, other_study))
-
-
-def faults_of_text(text: str) -> list[str]:
-    """Of the text of a study file."""
-    try:
-        parse_study(read_yaml(text)[0])
-    except StudyError as error:
-        return list(error.faults)
-    return []
 
 
 def table(text: str) -> Disc:
@@ -142,7 +133,7 @@ CHECKED = {
     "figure": faults_of_figure,
     "figure beside": faults_beside,
     "doubts": lambda **given: list(doubts(Parameters(**given)).values()),
-    "yaml": faults_of_text,
+    "yaml": lambda text: faults_of(text),
 }
 
 

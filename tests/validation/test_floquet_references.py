@@ -2,9 +2,11 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 
 from disc_model import Parameters, floquet
 from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
@@ -12,29 +14,10 @@ from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_resonance
 
 pytestmark = pytest.mark.compiled
-
-GROWTH = [
-    ({"N": 385, "Omega": 15}, -0.1055, 3e-4),
-    ({"N": 300, "Omega": 20}, +0.0464, 3e-4),
-    ({"N": 200, "Omega": 20}, +0.0188, 3e-4),
-    ({"N": 200, "Omega": 11}, +0.0140, 3e-4),
-    ({"N": 50, "Omega": 15}, -0.0083, 3e-4),
-    ({"N": 200, "Omega": 20, "c": 0.5}, -0.106, 1e-3),
-    ({"N": 200, "Omega": 10, "D_star": 0}, +0.0308, 3e-4),
-    ({"N": 200, "Omega": 10}, +0.0171, 3e-4),
-    ({"N": 200, "Omega": 10, "D_star": 2e-5}, +0.0035, 3e-4),
-    ({"N": 200, "Omega": 12.6, "D_star": 2e-5}, -0.0007, 3e-4),
-    ({"N": 200, "Omega": 20, "E": 100e9}, -0.0762, 1e-3),
-    ({"N": 200, "Omega": 20, "E": 200e9}, +0.0057, 1e-3),
-    ({"N": 200, "Omega": 11, "E": 100e9}, +0.0144, 1e-3),
-    ({"N": 200, "Omega": 20, "k": 2e5}, -0.0087, 1e-3),
-    ({"N": 300, "Omega": 50}, +0.0957, 1e-3),
-    ({"N": 300, "Omega": 50, "k_p": 2e3}, +0.0507, 1e-3),
-    ({"N": 300, "Omega": 50, "k_p": 2e5}, -0.0435, 1e-3),
-]
+CASES = yaml.safe_load(Path(__file__).with_name("growth.yaml").read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize(("case", "growth", "accuracy"), GROWTH, ids=[str(row[0]) for row in GROWTH])
+@pytest.mark.parametrize(("case", "growth", "accuracy"), CASES["growth"], ids=str)
 def test_growth_rates_of_the_published_cases(case, growth, accuracy):
     result = floquet(Parameters(**case))
     assert result.status is CycleStatus.OK
@@ -70,19 +53,7 @@ def test_the_fold_near_15_0949():
     assert resonance.label == "2 f_s = 135.42 Hz"
 
 
-@pytest.mark.parametrize(
-    ("start", "names"),
-    [
-        ({"N": 200, "Omega": 10, "D_star": 2.3e-5}, ("Omega", "D_star")),
-        ({"N": 200, "Omega": 20, "c": 0.002}, ("Omega", "c")),
-        ({"N": 70, "Omega": 20, "c_p": 0.02}, ("N", "c_p")),
-        ({"N": 80, "Omega": 20}, ("k_p", "N")),
-        ({"N": 90, "Omega": 20}, ("E", "N")),
-        ({"N": 90, "Omega": 20}, ("m", "N")),
-        ({"N": 90, "Omega": 20}, ("k", "N")),
-    ],
-    ids=str,
-)
+@pytest.mark.parametrize(("start", "names"), CASES["neutral"], ids=str)
 def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}

@@ -26,27 +26,9 @@ from tests.trees import places, planted
 ROOT = Path(__file__).parents[2]
 NAMES = [*Parameters.model_fields, "n", "Ω", "", "__class__", "N ", "omega"]
 HOSTILE = [
-    math.nan,
-    math.inf,
-    -math.inf,
-    -0.0,
-    10**400,
-    -1,
-    1e-320,
-    True,
-    None,
-    "nan",
-    "1e-3",
-    "1e999",
-    "__import__('os').system('true')",
-    "../../etc/passwd",
-    "\x00",
-    "x" * 10_000,
-    b"bytes",
-    [],
-    {},
-    [1, [2, [3]]],
-    {"N": {"N": 1}},
+    *(math.nan, math.inf, -math.inf, -0.0, 10**400, -1, 1e-320),
+    *(True, None, b"bytes", [], {}, [1, [2, [3]]], {"N": {"N": 1}}),
+    *("nan", "1e-3", "1e999", "__import__('os').system('true')", "../../etc/passwd", "\x00", "x" * 10_000),
 ]
 
 

@@ -1,7 +1,10 @@
 """Anything in the parameter box and beyond ends with a result or a named status, and breaks no law on the way."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import yaml
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import linalg
@@ -128,35 +131,7 @@ def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: 
 
 
 # ------------------------------------------------------------------------------------ switches at the edge of being one
-#: Case, what differs from its start in stick after 1 microsecond, and the kinds of events that come first, if any.
-FIRST = {
-    "no drive is rest": ({"N": 300, "Omega": 0}, {}, []),
-    "no spring in the plane sticks for ever": ({"k_p": 0}, {}, []),
-    # r_0 c_p Omega = 0.1 * 100 * 10 N > mu_s N = 80 N: stick cannot hold from the start
-    "a strong damper breaks stick at once": ({"k_p": 0, "c_p": 100}, {}, ["stick_to_slip"]),
-    "no friction breaks stick at once": ({"mu_s": 0, "mu_k": 0}, {}, ["stick_to_slip"]),
-    "a spring that pulls back harder than stick can hold": (
-        {}, {"phase": "slip", "direction": 1, "f": 1.0, "psi": -0.2}, ["slip_reversal"]
-    ),
-    "rest inside the friction band": ({}, {"phase": "slip", "direction": 1, "f": 1.0, "psi": -0.01}, ["slip_to_stick"]),
-    # with mu_s = 0 the friction limit is zero at all times and cannot stand in for P
-    "contact is watched in stick without friction": (
-        {"N": 100, "Omega": 0, "mu_s": 0, "mu_k": 0}, {"alpha": 20.0}, ["separation", "reattachment"]
-    ),
-    # near P = 0 the friction limit goes to zero too: stick breaks first, whatever is left of the spring's pull
-    **{
-        f"contact is lost just after stick breaks, pulled by {psi}": (
-            {"N": 300, "Omega": 1e-6}, {"alpha": 20.0, "psi": psi}, ["stick_to_slip", "separation"]
-        )
-        for psi in (1e-2, 1e-8, 0.0)
-    },
-    # a slider dropped onto a disc that accelerates away: it is raised by some mm, and pulled down by thousands of m/s^2
-    "a tension after an impact": (
-        {"N": 1e-3, "Omega": 20, "k": 0},
-        {"phase": "separation", "a": 0.002, "f": 5.0, "u": 0.002 * 8.2 + 1e-6, "u_velocity": -5.0},
-        ["reattachment", "separation"],
-    ),
-}  # fmt: skip
+FIRST = yaml.safe_load(Path(__file__).with_name("first_switches.yaml").read_text(encoding="utf-8"))
 AT_ONCE = ("a strong damper breaks stick at once", "no friction breaks stick at once")
 
 

@@ -14,24 +14,11 @@ from typing import Any
 from tests import needs
 
 BROWSER, DRIVER = (needs.program(*names) for names in needs.BROWSER.programs)
-OPTIONS = (
-    "--headless=new",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-dev-shm-usage",
-)
+OPTIONS = [f"--{name}" for name in ("headless=new", "no-sandbox", "disable-gpu", "disable-background-networking")]
+OPTIONS.append("--disable-dev-shm-usage")
 
 
-CONTRAST = """
-    const light = text => { const [r, g, b] = text.match(/[0-9.]+/g).slice(0, 3).map(x => Number(x) / 255)
-        .map(x => x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
-    const behind = x => { for (; x; x = x.parentElement) { const c = getComputedStyle(x).backgroundColor;
-        if (c !== "rgba(0, 0, 0, 0)") return light(c); } return 1; };
-    return Math.min(...[...document.querySelectorAll(arguments[0])].filter(x => x.innerText).map(x => {
-        const text = light(getComputedStyle(x).color), back = behind(x);
-        return (Math.max(text, back) + 0.05) / (Math.min(text, back) + 0.05); }));"""
+CONTRAST = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
 
 
 class Page:
@@ -73,10 +60,9 @@ class Page:
         command = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
         self.call("POST", "/goog/cdp/execute", command)
 
-    def contrast(self, of: str) -> float:
+    def contrast(self, of: str) -> Any:
         """The least contrast of these elements; the guidelines for accessible pages ask for 4.5."""
-        found: float = self.run(CONTRAST, of)
-        return found
+        return self.run(CONTRAST, of)
 
     def point(self, x: float, y: float, *, click: bool = False) -> None:
         """Move the pointer to a place in the window, and click there."""
@@ -95,8 +81,7 @@ class Page:
 
     def messages(self) -> list[dict[str, Any]]:
         """What the page wrote to the console since this was last asked."""
-        found: list[dict[str, Any]] = self.call("POST", "/se/log", {"type": "browser"})
-        return found
+        return list(self.call("POST", "/se/log", {"type": "browser"}))
 
 
 @contextlib.contextmanager

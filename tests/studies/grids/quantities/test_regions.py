@@ -3,7 +3,6 @@
 import json
 import math
 from collections.abc import Callable
-from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
@@ -256,13 +255,6 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
                 wrong.append((p.N, p.Omega, origin[i, j], whole.first_separation))
     assert drawn > 35
     assert len(wrong) <= MOST_WRONG * drawn, wrong
-
-
-@pytest.mark.parametrize(("size", "coarse"), list(product([2, 3, 9, 34, 65], [1, 8, 50])))
-def test_coarse_cells_cover_a_side(size: int, coarse: int) -> None:
-    edges = regions._edges(size, coarse)
-    assert (edges[0], edges[-1]) == (0, size - 1)
-    assert max(np.diff(edges)) <= coarse or len(edges) == 2
 
 
 @pytest.mark.compiled
