@@ -98,8 +98,5 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
         for place in along[found == 0]:
-            ax.text(
-                place, 0.02, "0", color=SEPARATED, fontsize=7, ha="center", va="bottom",
-                transform=ax.get_xaxis_transform(),
-            )  # fmt: skip
+            parts.say(ax, "0", (place, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7)
     parts.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)

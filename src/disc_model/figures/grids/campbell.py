@@ -28,6 +28,9 @@ GAP = 3
 """Least number of successive speeds without a cycle that form a numbered gap: at fewer, Newton's method may have
 failed.
 """
+DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 3.5, "markeredgewidth": 0.5}
+RING = DOT | {"markersize": 2.2, "markerfacecolor": "white"}
+"""Looks of a numbered crossing, and of any."""
 LINEAR = 1.0
 """Growth rate up to which the scale is linear, 1/s."""
 
@@ -200,12 +203,9 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
 
 def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
     """Draw small open circles at all crossings, and full ones at those with a number above the panel."""
-    ax.plot(
-        study["crossing_Omega"], study["crossing_frequency"], "o", color=BLACK, markersize=2.2, markerfacecolor="white",
-        markeredgewidth=0.5,
-    )  # fmt: skip
+    ax.plot(study["crossing_Omega"], study["crossing_frequency"], "o", **RING)
     numbered = study.isel(crossing=[i for one in met for i in one.crossings])
-    ax.plot(numbered["crossing_Omega"], numbered["crossing_frequency"], "o", color=BLACK, markersize=3)
+    ax.plot(numbered["crossing_Omega"], numbered["crossing_frequency"], "o", **DOT)
     low, high = ax.get_xlim()
     places = spread([one.Omega for one in met], 0.055 * (high - low), low, high)
     for i, (one, place) in enumerate(zip(met, places, strict=True), 1):
@@ -229,11 +229,10 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
 
 def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
-    ring: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 2.5, "markeredgewidth": 0.5}
     return [
         *(Line2D([], [], color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], marker=".", label="stick-slip cycle, in (a)", **ring | {"markersize": 4}),
+        Line2D([], [], marker=".", label="stick-slip cycle, in (a)", **DOT),
         Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
-        Line2D([], [], marker="o", markerfacecolor="white", label="crossing", **ring),
-        Line2D([], [], marker="o", label="numbered crossing", **ring),
+        Line2D([], [], marker="o", label="crossing", **RING),
+        Line2D([], [], marker="o", label="numbered crossing", **DOT),
     ]
