@@ -125,7 +125,6 @@ class KernelCache:
         """The code compiled for a signature, or None if it is missing or damaged."""
         from numba.core.compiler import CompileResult
 
-        target.refresh()
         place = folder() / self._file(signature, _processor(target.codegen()))
         found = read(place)
         level = shipped_level() if found is None else None

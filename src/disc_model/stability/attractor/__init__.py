@@ -1,4 +1,4 @@
-"""The outcome of a motion, by the same criteria for maps, basins, diagrams, ramps, claims and benchmarks.
+"""The outcome of a motion, by the same criteria for maps, basins, diagrams and ramps.
 
 The outcomes are those of `disc_model.data.variables.Outcome`. One test decides each of them:
 
@@ -13,6 +13,9 @@ The outcomes are those of `disc_model.data.variables.Outcome`. One test decides 
 - `growing`: the motion is in contact at the horizon and departs from an unstable cycle, or its changes from one period
   to the next have risen (`outcome.growing`). `separation`: contact is lost before the horizon.
 - `undecided`: none of these.
+
+Claims and benchmarks know the times of events alone: `disc_model.analysis.classify` finds their period, and tells
+quasi-periodic from irregular intervals by the 0-1 test.
 
 `outcome` follows one motion to a horizon; `classification` compares many motions of a case with known attractors.
 """

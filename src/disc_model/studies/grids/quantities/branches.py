@@ -80,7 +80,7 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
             follow(own, False)
         leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
         reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
-        if reached is not None and reached.follows_cycle and reached.cycle.growth_rate < 0:
+        if reached is not None and reached.follows_cycle and reached.cycle.stable:
             follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     known = {
