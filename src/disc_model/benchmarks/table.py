@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.benchmarks.grid import words
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED, Verdict
-from disc_model.benchmarks.texts import report
+from disc_model.benchmarks.texts import TEXTS, report
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) required of the other methods."""
@@ -97,12 +97,9 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The table as Markdown: a section per scene, with machine and `headline` above."""
-    about = [
-        f"Machine: {dataset.attrs['machine']}, one core. Medians of repeats. `times series` is the cost over that of "
-        "the series engine at the same event-time error. A dash: events are missing or invented, or not measured."
-    ]
+    scenes = []
     for scene, found in headline(measured_points(dataset)).items():
         others = sorted((ratio, METHODS[name].label) for name, ratio in found.items() if name != "series")
-        listed = ", ".join(f"{label} {ratio:.3g}" for ratio, label in others)
-        about.append(f"{scene}, times the cost of the series engine, to {DEFAULT:g} s: {listed}.")
-    return report(dataset.attrs["title"], "\n\n".join(about), table(dataset), "scene")
+        scenes.append({"scene": scene, "methods": [{"label": label, "ratio": ratio} for ratio, label in others]})
+    about = TEXTS["speed_page"].fill(machine=dataset.attrs["machine"], error=DEFAULT, scenes=scenes)
+    return report(dataset.attrs["title"], about, table(dataset), "scene")

@@ -58,12 +58,6 @@ OPEN = ("case", "contact", "quantity", "values", "with so many modes")
 FEWEST = 3
 """Number of models that must agree: one, and two larger ones."""
 NOT = "**not**"
-HEADINGS = {
-    "truncation_tables": "All models",
-    "truncation_settled": "Number of modes from which on a quantity has converged",
-    "truncation_open": "Quantities that have not converged",
-}
-"""Passages, and their headings on the page beside the figures."""
 
 
 def summary(study: xr.Dataset) -> dict[str, Any]:
@@ -164,5 +158,4 @@ def _upper(case: str) -> str:
 def text(study: xr.Dataset) -> str:
     """All texts as one page: the table beside the figures of ``make bench``."""
     known = passages(summary(study))
-    sections = (f"## {heading}\n" + known[name].strip("\n") + "\n" for name, heading in HEADINGS.items())
-    return "\n".join(["# Convergence with the number of modes\n", *sections])
+    return TEXTS["truncation_page"].fill(**{name: passage.strip("\n") for name, passage in known.items()})

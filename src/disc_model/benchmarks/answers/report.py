@@ -36,10 +36,7 @@ def within(enough: float, units: str) -> str:
 
 def to_markdown(dataset: xr.Dataset) -> str:
     """The tables as Markdown: a section per question, its correct answer and tolerance; the machine stands above."""
-    about = (
-        f"Machine: {dataset.attrs['machine']}, one core. A dash: no answer. The error of the lines of modes is that of "
-        "the model, against the richest disc; that of the others is of the numbers, with nine modes."
-    )
+    about = texts.TEXTS["answers_page"].fill(machine=dataset.attrs["machine"])
     titles = {
         name: f"{own['title'].capitalize()}: to {within(own['enough'], own['units'])}, reference to {own['error']}"
         for name, own in json.loads(dataset.attrs["questions"]).items()
