@@ -147,7 +147,7 @@ def test_what_breaks_off_has_a_status_and_a_reason() -> None:
 @pytest.fixture
 def dataset(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     monkeypatch.setitem(METHODS, "late", Late())
-    monkeypatch.setitem(figures.LINES, "late", ("#000000", "s", "-"))
+    monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
 
     def ask(model):
         count = model["n_diameters"]
@@ -192,7 +192,7 @@ def test_it_is_written(dataset: xr.Dataset) -> None:
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(METHODS, "late", Late())
-    monkeypatch.setitem(figures.LINES, "late", ("#000000", "s", "-"))
+    monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
     monkeypatch.setattr(failure_maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
     found = failure_maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
     right, wrong, silent = AnswerVerdict.RIGHT, AnswerVerdict.WRONG, AnswerVerdict.NO_ANSWER

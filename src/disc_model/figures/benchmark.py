@@ -34,7 +34,7 @@ WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 ERRORS: dict[str, str] = _TEXTS["errors"]
-LINES = {name: (getattr(parts, colour), *look) for name, (colour, *look) in _TEXTS["lines"].items()}
+LINES = {name: look | {"color": getattr(parts, look["color"])} for name, look in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method, and of lines that belong to no method."""
 _HALO = halo()
 
@@ -48,29 +48,25 @@ def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
 
     For a method without a fixed order, the number is q of error ~ tol^q.
     """
-    figure, axes = _panels(2, "Time per simulated second (s)", columns=2, row=3.0, sharey=True)
     panels = [(dataset.sel(scene=scene), error, "") for error in ERRORS]
-    _cost_panels(figure, axes, panels, title=TITLES[scene])
-    return figure
+    return _cost_panels(panels, row=3.0, title=TITLES[scene])
 
 
 def overview(dataset: xr.Dataset) -> Figure:
     """All scenes: cost against event-time error."""
-    figure, axes = _panels(4, "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
     panels = [(dataset.sel(scene=scene), "event", TITLES[scene]) for scene in dataset["scene"].values.tolist()]
-    _cost_panels(figure, axes, panels)
-    for ax in axes[:2]:
+    figure = _cost_panels(panels, row=2.3)
+    for ax in figure.axes[:-2]:
         ax.set_xlabel("")
     return figure
 
 
-def _cost_panels(
-    figure: Figure, axes: Sequence[Axes], panels: Sequence[tuple[xr.Dataset, str, str]], **legend: str
-) -> None:
+def _cost_panels(panels: Sequence[tuple[xr.Dataset, str, str]], row: float, **legend: str) -> Figure:
     """Draw panels of a scene, its error and its title each; the legend names the methods with a point in any of them.
 
     Without titles, lines have their orders.
     """
+    figure, axes = _panels(len(panels), "Time per simulated second (s)", columns=2, row=row, sharey=True)
     found: dict[str, list[Line2D]] = {}
     for ax, (part, error, title), letter in zip(axes, panels, "abcd", strict=False):
         found |= _cost_panel(ax, part, error, orders=not title)
@@ -78,6 +74,7 @@ def _cost_panels(
         ax.set_xlabel(ERRORS[error])
     handles = [handle for method in LINES for handle in found.get(method, ())]
     figure.legend(handles=handles, loc="outside right center", **legend)
+    return figure
 
 
 def _panels(
@@ -105,10 +102,9 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict
     labels: list[tuple[float, float, str, str]] = []
     for method in map(str, part["solver"].values):
         line = part.sel(solver=method)
-        look = _look(method)
+        look = LINES[method] | {"markersize": 4.5 if LINES[method]["marker"] == "*" else 3.5}
         name = {"color": look["color"], "label": line["label"].item()}
-        entries = [Line2D([], [], markersize=4, **look | name)]
-        look["markersize"] = 4.5 if look["marker"] == "*" else 3.5
+        entries = [Line2D([], [], **look | name | {"markersize": 4})]
         verdict, cost = line["verdict"].values, line["cost"].values
         x = line[f"{error}_error"].values
         right, wrong = np.isin(verdict, (0, 1)), verdict == 2
@@ -138,11 +134,6 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict
     for at_x, at_y, text, color in _spread(labels):
         parts.say(ax, text, (at_x, at_y), (-5, 0), fontsize=6.5, color=color, path_effects=_HALO, zorder=4)
     return handles
-
-
-def _look(line: str) -> dict[str, Any]:
-    """Keywords for matplotlib of one of `LINES`."""
-    return dict(zip(("color", "marker", "linestyle"), LINES[line], strict=True))
 
 
 def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
@@ -198,7 +189,7 @@ def answers(dataset: xr.Dataset) -> Figure:
 
 def _answer_line(ax: Axes, line: str, points: pd.DataFrame) -> dict[str, Line2D]:
     """Draw a line; returns its legend entry, if there is anything to draw."""
-    look = _look(line) | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
+    look = LINES[line] | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
     found = points[points["error"].notna()]
     denied = points["seconds"][points["error"].isna() & (points["verdict"] == WRONG)].dropna()
     ax.plot(found["error"], found["seconds"], linewidth=0.9, **look)
