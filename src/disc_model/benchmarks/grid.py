@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.data.variables import Variable
 
-_VARIABLES = tomllib.loads(Path(__file__).with_name("variables.toml").read_text(encoding="utf-8"))
+TABLES = tomllib.loads(Path(__file__).with_name("variables.toml").read_text(encoding="utf-8"))
 
 
 def words(kinds: type[enum.IntEnum]) -> tuple[str, ...]:
@@ -24,7 +24,7 @@ def variables(table: str, **flags: type[enum.IntEnum]) -> dict[str, Variable]:
     """The variables of a dataset, of which some are flags."""
     return {
         name: Variable(units, long_name, words(flags[name]) if name in flags else ())
-        for name, (units, long_name) in _VARIABLES[table].items()
+        for name, (units, long_name) in TABLES[table].items()
     }
 
 

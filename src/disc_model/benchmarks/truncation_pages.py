@@ -15,16 +15,12 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from disc_model.benchmarks.grid import TABLES
 from disc_model.benchmarks.texts import TEXTS, as_markdown
 
 
 class Asked(NamedTuple):
-    """A quantity of the tables.
-
-    title : title of a row; head : head of a column
-    tolerance : relative tolerance within which models agree
-    scale, digits : factor and digits for display
-    """
+    """A quantity of the tables; ``variables.toml`` explains its properties."""
 
     title: str
     head: str
@@ -37,20 +33,9 @@ class Asked(NamedTuple):
         return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
 
 
-TABLED = {
-    "lowest_coupled": Asked("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
-    "growth_rate": Asked("growth rate", "growth, 1/s", 1e-2, 1.0, 3),
-    "first_separation": Asked("first separation", "first separation, s", 1e-2, 1.0, 5),
-    "separations": Asked("rate of separations", "separations per s", 1e-1, 1.0, 3),
-    "separated_share": Asked("time in separation", "time in separation", 1e-1, 1.0, 2),
-    "u_range": Asked("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
-    "force_max_separating": Asked("largest force", "largest force, N", 1e-1, 1.0, 3),
-}
-"""Tolerances: 1 % or better for the motion in contact, 10 % for values from ten seconds of an irregular motion."""
-COSTS = {
-    "cost": Asked("", "cost in contact, ms/s", math.nan, 1e3, 2),
-    "cost_separating": Asked("", "cost after it, ms/s", math.nan, 1e3, 2),
-}
+ALL = {name: Asked(*given) for name, given in TABLES["contact_truncation_tables"].items()}
+TABLED = {name: asked for name, asked in ALL.items() if asked.title}
+COSTS = {name: asked for name, asked in ALL.items() if not asked.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
 OPEN = ("case", "contact", "quantity", "values", "with so many modes")
@@ -62,7 +47,7 @@ NOT = "**not**"
 
 def summary(study: xr.Dataset) -> dict[str, Any]:
     """Numbers of a run for the pages: a row for each case, contact and model, None where there is no value."""
-    frame = study[["modes", *TABLED, *COSTS]].to_dataframe(dim_order=["case", "contact", "model"])
+    frame = study[["modes", *ALL]].to_dataframe(dim_order=["case", "contact", "model"])
     rounded = frame.map(lambda value: float(f"{value:.5g}")).astype(object)
     return {
         "machine": study.attrs["machine"],
@@ -124,7 +109,7 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
 
 def _of_all_models(study: pd.DataFrame) -> str:
     """The table of a case: a row for each model, with rigid and residual values in each cell."""
-    cells = {asked.head: study[name].map(asked.shown) for name, asked in (TABLED | COSTS).items()}
+    cells = {asked.head: study[name].map(asked.shown) for name, asked in ALL.items()}
     table = pd.DataFrame(cells).groupby("model", sort=False).agg(" / ".join)
     table.insert(0, "modes", study["modes"].groupby("model", sort=False).first().astype(int))
     table.insert(0, "diameters, circles", table.index.str.replace(",", ", "))

@@ -106,6 +106,8 @@ KINDS = {
     "measure_work_precision": Kind(f"{_BENCHMARK} {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"),
     "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
     "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report"),
-    "report_truncation": Kind(f"dataset benchmarks.truncation_pages {_TEXTS}"),
+    "report_truncation": Kind(
+        f"dataset benchmarks.truncation_pages benchmarks.grid benchmarks/variables.toml {_TEXTS}"
+    ),
 }
 """The kinds by name."""
