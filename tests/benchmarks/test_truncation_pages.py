@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import truncation_pages
-from disc_model.benchmarks.truncation_pages import COSTS, TABLED, passages, settled, summary, text
+from disc_model.benchmarks.truncation_pages import ALL, TABLED, passages, settled, summary, text
 
 MODES = (1.0, 9.0, 17.0, 34.0, 165.0)
 
@@ -16,7 +16,7 @@ MODES = (1.0, 9.0, 17.0, 34.0, 165.0)
 def study() -> xr.Dataset:
     """A case whose residual values have settled from nine modes on, while rigid ones go on growing."""
     rigid, residual = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2.0, 2.001, 2.0, 2.0])
-    data = {name: (("case", "contact", "model"), np.array([[rigid, residual]])) for name in (*TABLED, *COSTS)}
+    data = {name: (("case", "contact", "model"), np.array([[rigid, residual]])) for name in ALL}
     data["modes"] = (("case", "contact", "model"), np.broadcast_to(MODES, (1, 2, 5)).copy())
     growth = data["growth_rate"][1].copy()
     growth[..., -1] = np.nan  # too many modes

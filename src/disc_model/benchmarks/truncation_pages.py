@@ -35,7 +35,6 @@ class Asked(NamedTuple):
 
 ALL = {name: Asked(*given) for name, given in TABLES["contact_truncation_tables"].items()}
 TABLED = {name: asked for name, asked in ALL.items() if asked.title}
-COSTS = {name: asked for name, asked in ALL.items() if not asked.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
 OPEN = ("case", "contact", "quantity", "values", "with so many modes")

@@ -41,9 +41,9 @@ BESIDES = {
 }
 """Modules that are imported but do not affect results, with the reason."""
 
+_GRID = "benchmarks.grid benchmarks/variables.toml"
 _BENCHMARK = (
-    "case benchmarks.methods benchmarks.registry benchmarks/rivals.toml benchmarks.grid benchmarks/variables.toml "
-    "benchmarks.hardware benchmarks.scenes"
+    f"case {_GRID} benchmarks.methods benchmarks.registry benchmarks/rivals.toml benchmarks.hardware benchmarks.scenes"
 )
 _REFERENCES = (
     "benchmarks/data/benchmark_reference.json benchmarks/data/separating_start.json benchmarks/data/answers.json"
@@ -106,8 +106,6 @@ KINDS = {
     "measure_work_precision": Kind(f"{_BENCHMARK} {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}"),
     "measure": Kind(f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps"),
     "merge_answers": Kind(f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report"),
-    "report_truncation": Kind(
-        f"dataset benchmarks.truncation_pages benchmarks.grid benchmarks/variables.toml {_TEXTS}"
-    ),
+    "report_truncation": Kind(f"dataset {_GRID} benchmarks.truncation_pages {_TEXTS}"),
 }
 """The kinds by name."""
