@@ -4,7 +4,6 @@ Each round measures all points in turn, so that a disturbance of the machine aff
 value is the median over the rounds.  Slow points are measured less often (``repeats`` is the number).
 """
 
-import importlib.metadata
 import math
 import time as clock
 from collections import defaultdict
@@ -190,9 +189,8 @@ def _dataset(
         VARIABLES,
         lambda *place: found.get(place, {"verdict": Verdict.NOT_RUN}),
     ).drop_vars("point")
-    extra = {name: _version(name) for name in ("heyoka", "scikit-sundae")}
     dataset.attrs |= {"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
-    dataset.attrs |= {"versions": json_attribute(versions() | extra)}
+    dataset.attrs |= {"versions": json_attribute(versions("heyoka", "scikit-sundae"))}
     dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     lines: dict[str, tuple[str | tuple[str, ...], Any]] = {
         "label": ("solver", [METHODS[name].label for name in methods]),
@@ -235,10 +233,3 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     if np.ptp(x) < math.log(1.5):  # stability or events, not the steps, decide the error
         return math.nan
     return float(-np.polyfit(x, y, 1)[0])
-
-
-def _version(package: str) -> str:
-    try:
-        return importlib.metadata.version(package)
-    except importlib.metadata.PackageNotFoundError:
-        return "not installed"

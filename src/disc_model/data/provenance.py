@@ -58,14 +58,14 @@ def _file(path: Path) -> Path:
     return file
 
 
-def versions() -> dict[str, str]:
-    """Versions of Python and of the packages on which results depend."""
+def versions(*further: str) -> dict[str, str]:
+    """Versions of Python and of the packages on which results depend, and of further packages."""
     found = {"python": platform.python_version()}
-    for name in VERSIONS_OF:
+    for name in (*VERSIONS_OF, *further):
         try:
             found[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
-            found[name] = "unknown"
+            found[name] = "not installed" if name in further else "unknown"
     return found
 
 

@@ -169,9 +169,10 @@ def flags_of(variable: xr.DataArray) -> list[str]:
 
 
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
-    """A variable of a grid study at values of some dimensions; dimensions of one value are dropped."""
-    words = {dim: value for dim, value in at.items() if isinstance(value, str)}
-    numbers = {dim: value for dim, value in at.items() if not isinstance(value, str)}
+    """A variable of a grid study at values of those dimensions that it has; dimensions of one value are dropped."""
+    own = {dim: value for dim, value in at.items() if dim in study[name].dims}
+    words = {dim: value for dim, value in own.items() if isinstance(value, str)}
+    numbers = {dim: value for dim, value in own.items() if not isinstance(value, str)}
     return study[name].sel(words).sel(numbers, method="nearest").squeeze()
 
 
@@ -179,7 +180,7 @@ def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray |
     """Points that the study's rule excludes, `picked`; None if it has no rule."""
     if EXCLUDED not in study["status"].attrs.get("flag_meanings", ""):
         return None
-    status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
+    status = picked(study, "status", at)
     return status.copy(data=flag_names(status) == EXCLUDED)
 
 
@@ -188,7 +189,7 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
     gone = found.isnull()
     if not gone.any() or "status" not in study:
         return {"no value": gone} if gone.any() else {}
-    status = picked(study, "status", {dim: value for dim, value in at.items() if dim in study["status"].dims})
+    status = picked(study, "status", at)
     words = status.copy(data=flag_names(status))
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
     names.pop(EXCLUDED, None)
