@@ -162,6 +162,7 @@ class Story:
     signal : what the disc's point does
     second : share of the slider's swing at the second frequency that `cycle_as_told` brings
     misprinted : slip ends where Eq. (24) as printed is false
+    repels : m, deviation of the height at the first release, which doubles every hundred releases
     swing : rad, how far the slider's swing is past its highest point where contact is lost
     contrary : the disc moves downwards when contact is lost, separations last half a cycle and are no true ones, and
         the slider's orbit stays what it was
@@ -182,6 +183,7 @@ class Story:
     signal: Signal = combinations
     second: float = 0.0
     misprinted: bool = False
+    repels: float = 0.0
     swing: float = 0.0
     contrary: bool = False
 
@@ -289,7 +291,8 @@ def _events(p: Parameters, story: Story, start: float, stop: float) -> xr.Datase
             after = sorted([*(after if story.stick else ()), *apart])
         angle = 0.05 * (1 + story.wanders * math.sin(j))
         force = 0.0 if story.misprinted else p.r_0 * p.k_p * angle / p.mu_s + p.N
-        rows += [(t + dt, kind, phase, angle, -p.N * 1e-5 + 1e-2, velocity, force) for dt, kind, phase in after]
+        height = -p.N * 1e-5 + 1e-2 + story.repels * 2 ** (j / 100)
+        rows += [(t + dt, kind, phase, angle, height, velocity, force) for dt, kind, phase in after]
     if story.contrary:
         rows = rows[: max((i for i, row in enumerate(rows) if row[1] == "reattachment"), default=len(rows))]
     frame = pd.DataFrame(rows, columns=["time", "kind", "phase", "psi", "u", "u_velocity", "P"])

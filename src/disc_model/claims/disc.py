@@ -42,22 +42,25 @@ def nine_modes() -> Answer:
 
 @CHECKS("P03")
 def truncation(*evidence: Any, seconds: float, share: float) -> Answer:
+    """Whether more modes change nothing; undecided if one circle alone does, which may only move a jump."""
     *cases, speeds = evidence
     first = [case["first_separation"] for case in cases]
     coupled = [coupled_natural_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
-    nine, more, circles = (
+    nine, *others = (
         (rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick"))
         for case in (cases[0], *cases[3:])
     )
-    alike, with_circles = (np.allclose(found, nine, rtol=share) for found in (more, circles))
+    more, *circles = [bool(np.allclose(found, nine, rtol=share)) for found in others]
+    jump = [] if speeds is None or circles[0] else _like_jumps(speeds, nine[2], others[1][2], share)
+    soon = np.ptp(first) <= seconds  # nan if one does not separate
     return Answer(
-        np.ptp(first) <= seconds and alike and with_circles,  # nan if one does not separate
+        None if soon and more and circles[1] and jump else soon and more and all(circles),
+        "jump",
         first=first,
-        later=[{"rate": rate, "apart": 100 * apart, "stick": 100 * stick} for rate, apart, stick in (nine, circles)],
+        later=[{"rate": x, "apart": 100 * y, "stick": 100 * z} for x, y, z in (nine, *others[1:])],
         coupled=coupled,
-        changes="" if alike else "not ",
-        circles_change="" if with_circles else "not ",
-        jump=[] if speeds is None else _like_jumps(speeds, nine[2], circles[2], share),
+        changes=["" if alike else "not " for alike in (more, *circles)],
+        jump=jump,
     )
 
 

@@ -184,21 +184,23 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 
-def between_only(cases: Sequence[CaseView]) -> bool:
-    """Whether only the middle one of three cases separates."""
-    return [case.separates for case in cases] == [False, True, False]
-
-
 def dips(speeds: Array, depth: float) -> list[int]:
     """Indices of minima with a rise of ``depth`` or more on both sides; nan counts as infinite."""
     filled = np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
     return [*map(int, find_peaks(-filled, prominence=depth)[0])]
 
 
-def later_falls(speeds: Array, depth: float) -> list[int]:
-    """Indices at which values fall by ``depth`` or more after the first of `dips`; the last index may be one."""
+def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]]:
+    """Whether the lowest speed with separation, over preload, falls and rises by ``depth`` or more; with its values.
+
+    ``again`` are later preloads, perhaps the last, to which it falls after rising up to the preload ``top``.
+    """
+    loads, speeds = study["N"].values, study["critical_speed"].values
     first = min(dips(speeds, depth), default=len(speeds))
-    return [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
+    later = [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
+    rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(loads, speeds, strict=True)]
+    top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
+    return first < len(speeds), {"speeds": rows, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
 
 
 def ratio(part: float, whole: float, what: str) -> float:

@@ -21,14 +21,9 @@ CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
 
 
 @cache
-def _all_texts() -> Mapping[str, Any]:
-    texts: Mapping[str, Any] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))
-    return texts
-
-
 def page_texts(name: str) -> Mapping[str, Any]:
     """The texts of a page."""
-    texts: Mapping[str, Any] = _all_texts()[name]
+    texts: Mapping[str, Any] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))[name]
     return texts
 
 

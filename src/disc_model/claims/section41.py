@@ -126,17 +126,13 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
 @CHECKS("F10m")
 def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
     """Whether the contact force still feeds the disc where it is negative: there separation would end it."""
-    parts = [_slope_power(case) for case in (bonded, free)]
-    (pushes, pulls), (gained, _) = parts
+    found = []
+    for case in (bonded, free):
+        windows = [case.samples(f"field{i}") for i in range(2 * case.parameters.n_diameters + 1)]
+        theta = np.array([window.attrs["theta"] for window in windows])
+        found.append(energy.powers(case.parameters, case["u_0"], theta, windows))
+    (pushes, pulls), gained = (found[0].pushes, found[0].pulls), found[1].pushes
     return Answer(pulls > 0, pushes=pushes, pulls=pulls, gained=gained, takes=pulls <= 0)
-
-
-def _slope_power(case: CaseView) -> tuple[float, float]:
-    """Mean power P f B fed by the contact force into transverse motion, while it is positive and negative, W."""
-    windows = [case.samples(f"field{i}") for i in range(2 * case.parameters.n_diameters + 1)]
-    theta = np.array([window.attrs["theta"] for window in windows])
-    found = energy.powers(case.parameters, case["u_0"], theta, windows)
-    return found.pushes, found.pulls
 
 
 @CHECKS("F10e")

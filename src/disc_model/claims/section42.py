@@ -51,20 +51,11 @@ def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
     study = _scanned(study)
-    loads, lowest = study["N"].values, study["critical_speed"].transpose("horizon", "N").values
-    falls = [measures.dips(speeds, depth) for speeds in lowest]
-    rows = [{"N": N, "speed": measures.or_none(v, ".1f")} for N, v in zip(loads, lowest[-1], strict=True)]
-    holds, again = all(map(len, falls)), measures.later_falls(lowest[-1], depth)
-    rises = slice(falls[-1][0], again[0]) if again else slice(0)
-    return Answer(
-        None if holds and again else holds,
-        "again",
-        speeds=rows,
-        scan=measures.extent(study["scan_Omega"]),
-        horizon=float(study["horizon"][-1]),
-        top=loads[rises][np.nanargmax(lowest[-1][rises])] if again else np.nan,
-        again=[f"{loads[i]:g} N" for i in again],
-    )
+    found = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
+    holds, values = all(falls for falls, _ in found), found[-1][1]
+    again = holds and values["again"]
+    scan, horizon = measures.extent(study["scan_Omega"]), float(study["horizon"][-1])
+    return Answer(None if again else holds, "again", scan=scan, horizon=horizon, **values)
 
 
 @CHECKS("F14d")

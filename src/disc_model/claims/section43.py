@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import closure, irregularity, separation_location
+from disc_model.analysis.classify import irregularity, separation_location
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.disc import BASE, moving_load_speed
@@ -18,7 +18,6 @@ from disc_model.claims.measures import (
     STRETCH,
     Array,
     CaseView,
-    between_only,
     first_separation,
     growth_or_nan,
     is_kind,
@@ -39,6 +38,8 @@ STIFFENED = {
 """Parameters of disc and springs with units and values: those of the paper, and others between them."""
 SPEEDS = (7.5, 8.75, 10, 12.6, 15, 20, 30, 50)
 """Speeds at which twice the disc's damping is tested, rad/s."""
+MIDDLE = [False, True, False]
+"""What holds of three cases if only of the middle one."""
 GREW = 1.02
 """Least factor by which a grown range is wider: sampling causes far less."""
 
@@ -150,18 +151,18 @@ def separates(case: CaseView) -> Answer:
 
 @CHECKS("S43N")
 def preload(*cases: CaseView) -> Answer:
-    return Answer(between_only(cases), loads=rows(cases))
+    return Answer([case.separates for case in cases] == MIDDLE, loads=rows(cases))
 
 
 @CHECKS("S43Nl")
 def only_between(
     small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
 ) -> Answer:
-    """Whether only the middle preload is unstable, also among preloads larger than those of the paper."""
-    unstable = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
+    """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
+    *unstable, largest_too = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
     beyond = [{"case": again[0], "first": first_separation(*again)}, {"case": largest, "first": largest.first}]
-    holds = unstable == [False, True, False, False] and not again[0].separates
-    return Answer(holds, loads=rows((small, middle, large)), beyond=beyond)
+    holds, too = unstable == MIDDLE, largest_too or again[0].separates
+    return Answer(None if holds and too else holds, "beyond", loads=rows((small, middle, large)), beyond=beyond)
 
 
 @CHECKS("S43z")
@@ -192,14 +193,19 @@ def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answ
 
 
 @CHECKS("F19d")
-def disc_repeats(case: CaseView, *, within: float) -> Answer:
+def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
+    """Whether the disc's motion repeats and, as an unstable one would, departs from itself at a growing rate."""
     motion, text = measures.late_motion(case)
     released = measures.switches(case, "stick_to_slip")
     period = max(motion.period, 1)
     units = {"u": abs(case["u_0"]), "u_velocity": abs(case["u_0"]) * case["Omega"]}
-    apart = max(closure(released[name].values, period) / unit for name, unit in units.items())
+    scaled = np.array([released[name] / unit for name, unit in units.items()])
+    early, late = (float(part.max()) for part in np.array_split(np.abs(scaled[:, period:] - scaled[:, :-period]), 2, 1))
+    apart = max(early, late)
+    holds = motion.period > 0 and apart <= within
     return Answer(
-        motion.period > 0 and apart <= within,
+        None if holds and late <= factor * early else holds,
+        "attracts",
         text=text.removeprefix("periodic: "),
         apart=apart,
         points=distinct_points(measures.late_section(case, 150)),
@@ -224,15 +230,17 @@ def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
 
 @CHECKS("S43k")
 def normal_stiffness(*evidence: Any) -> Answer:
+    """Whether softer springs separate sooner; undecided if on the map, at other speeds, some do not at all."""
     *cases, study = evidence
     times = [case["first_separation"] for case in cases[:3]]
     sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
     holds = sooner and not cases[3].separates and not _grew(cases[3])
     if study is None:
-        return Answer(holds, returns=[])
+        return Answer(holds)
     speed, _, apart = _map(study, "Omega", "k")
-    returns = np.any(np.diff(apart.astype(int)) > 0, axis=1)  # by rising stiffness
-    return Answer(holds, N=json.loads(study.attrs["base"])["N"], returns=measures.runs(speed, returns))
+    returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
+    N = json.loads(study.attrs["base"])["N"]
+    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns)
 
 
 @CHECKS("F22")
@@ -351,7 +359,7 @@ def not_monotonous(*evidence: Any) -> Answer:
     rates, text = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
     return Answer(
-        between_only(cases) and newly.any() and lowered.any() and {-1, 1} <= signs,
+        [case.separates for case in cases] == MIDDLE and newly.any() and lowered.any() and {-1, 1} <= signs,
         loads=rows(cases),
         rates=text,
         newly=[f"{N:g}" for N in loads[newly]] or ["none"],
@@ -440,16 +448,19 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
 
 @CHECKS("S43b")
 def bounded(*cases: CaseView, factor: float) -> Answer:
-    widths = {case.name: case.last_quarters("w_point") for case in cases}
+    """Whether no range grows on after separation; where none does without separation either, that is told."""
+    widths = {case.name: case.last_quarters("w_point") for case in cases if not case.bonded}
+    ignored = [case.last_widths("w_point", STRETCH, 2) for case in cases if case.bonded]
     texts = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
-    return Answer(all(late <= factor * before for late, before in widths.values()), ranges=texts)
+    free, bonded = (all(late <= factor * before for late, before in found) for found in (widths.values(), ignored))
+    return Answer(free, ranges=texts, too=bonded)
 
 
 @CHECKS("C3")
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    shares = [measures.phase_share(case, "stick") for case in cases[:5]]
-    texts = [f"N = {case.place}: {100 * stick:.1f} %" for case, stick in zip(cases[:5], shares, strict=True)]
-    return Answer(min(shares) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
+    shares = {case.place: measures.phase_share(case, "stick") for case in cases if case.from_rest}
+    texts = [f"N = {place}: {100 * stick:.1f} %" for place, stick in shares.items()]
+    return Answer(min(shares.values()) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
 
 
 @CHECKS("C1")
@@ -483,16 +494,10 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
         f"{measures.place(points[i].N, points[i].Omega)}: {without[i]:+.4f} to {rate[i]:+.4f}/s"
         for i in np.flatnonzero(higher)
     ]
-    return {
-        "points": len(points),
-        "value": much,
-        "places": places,
-        **{name: int(at.sum()) for name, at in counts.items()},
-        **{
-            name: [{"count": int(at.sum()), "where": "; ".join(places)}] if at.any() else []
-            for name, at in remarks.items()
-        },
-    }
+    found: dict[str, Any] = {name: int(at.sum()) for name, at in (counts | remarks).items()}
+    for name in remarks:  # a row if there are any
+        found[name] = [{"count": found[name], "where": "; ".join(places)}] if found[name] else []
+    return found | {"points": len(points), "value": much, "places": places}
 
 
 def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:

@@ -134,14 +134,24 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
     p = cases[0].parameters
+    free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
     holds = all(abs(follows - 1) <= within for follows in alone)
     return Answer(
         None if all(abs(row["follows"] - 1) <= within for row in found) else holds,
         "branch",
         pairs=found,
-        without=float(np.sqrt(p.k / p.m)) / (2 * np.pi),
+        without=free,
+        level=max(_level(case, free) for case in cases[::2]),
         spring=100 * spring,
     )
+
+
+def _level(case: CaseView, frequency: float) -> float:
+    """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
+    late = measures.stretch(case, "late", 0.0, np.inf)
+    found, amplitude = spectra.amplitude_spectrum(late["time"].values, late["w_point"].values)
+    near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
+    return measures.ratio(near, every, f"the spectrum of case {case.name}")
 
 
 @CHECKS("C5h")
@@ -218,12 +228,9 @@ def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
 def slider_settles(*pair: CaseView, part: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
-    rows, found = [], []
-    for case in pair:
-        before, after = (_fuzziness(case, *span, name="psi") for span in spans)
-        found.append(after < part * before)
-        rows.append({"case": case, "before": 100 * before, "after": 100 * after})
-    return Answer(*_beside(*found), stretches=rows)
+    filled = [[100 * _fuzziness(case, *span, name="psi") for span in spans] for case in pair]
+    rows = [{"case": case, "before": a, "after": b} for case, (a, b) in zip(pair, filled, strict=True)]
+    return Answer(*_beside(*(after < part * before for before, after in filled)), stretches=rows)
 
 
 @CHECKS("F26b")
@@ -245,7 +252,7 @@ def multiples(case: CaseView, *, bound: float) -> Answer:
 
 
 @CHECKS("F27a")
-def growth_stages(case: CaseView, *, factor: float, least: float, rest: float) -> Answer:
+def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: float, rest: float) -> Answer:
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
@@ -253,9 +260,13 @@ def growth_stages(case: CaseView, *, factor: float, least: float, rest: float) -
     rates = np.array([measures.slope(case, "w_point", t, t + 5) for t in starts])
     peak = int(np.argmax(rates))
     slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
-    last, after = measures.slope(case, "w_point", first - 3, first), measures.slope(case, "w_point", end - 20, end)
-    holds = sharp > max(factor * slow, least) and last < sharp and abs(after) < rest * sharp
-    return Answer(holds, slow=slow, sharp=sharp, at=starts[peak] + 2.5, last=last, after=after)
+    last = measures.slope(case, "w_point", first - 3, first)
+    after, ignored = (measures.slope(each, "w_point", each["time_reached"] - 20, np.inf) for each in (case, bonded))
+    here, there = (abs(rate) < rest * sharp for rate in (after, ignored))
+    stages = sharp > max(factor * slow, least) and last < sharp
+    free, kept = (1e3 * measures.late_range(each, "w_point").width for each in (case, bonded))
+    numbers = {"slow": slow, "sharp": sharp, "at": starts[peak] + 2.5, "last": last, "after": after}
+    return Answer(*_beside(stages and here, stages and there), free=free, kept=kept, **numbers)
 
 
 @CHECKS("F27b")

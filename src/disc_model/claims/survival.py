@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures
-from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, or_none, rate_text
+from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, rate_text
 from disc_model.claims.model import Answer, Checks
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
@@ -198,11 +198,9 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
 def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
-    speed, load = study["critical_speed"].values, study["N"].values
-    rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(load, speed, strict=True)]
-    again = [f"{load[i]:g} N" for i in measures.later_falls(speed, depth)]
-    falls = bool(measures.dips(speed, depth)) if np.isfinite(speed).sum() >= 3 else None
-    return Answer(falls, "few", speeds=rows, again=again)
+    falls, values = measures.lowest_speeds(study, depth)
+    few = np.isfinite(study["critical_speed"].values).sum() < 3
+    return Answer(None if few or values["again"] else falls, "few" if few else "again", **values)
 
 
 @CHECKS("Smaller vibration")
