@@ -1,4 +1,4 @@
-"""The numbers of docs/findings.md are those of the ledger."""
+"""The numbers of docs/findings.md and the verdicts of docs/normalisation.md are those of the ledger."""
 
 import re
 from pathlib import Path
@@ -34,9 +34,22 @@ def test_every_row_of_the_ledger_is_counted() -> None:
     assert f"{WORDS[apart]} more rows of that table" in text
 
 
-@pytest.mark.skipif(not LEDGER.exists(), reason="needs results/paper/claims.csv, by `make reproduce`")
+needs_results = pytest.mark.skipif(not LEDGER.exists(), reason="needs results/paper/claims.csv, by `make reproduce`")
+
+
+@needs_results
 def test_the_verdicts_are_those_of_the_results() -> None:
     """After `make reproduce`."""
     table = pd.read_csv(LEDGER, keep_default_na=False)
     found = table["verdict"][table["apart"] == ""].value_counts()
     assert told()[1] == [found.get(verdict, 0) for verdict in (HOLDS, REMARK, FAILS, UNDECIDED, NOT_TESTABLE)]
+
+
+@needs_results
+def test_both_pages_have_one_verdict_for_a_statement() -> None:
+    """C5 was undecided in the ledger and held, with a remark, on the page on the normalisation."""
+    verdicts = pd.read_csv(LEDGER, keep_default_na=False).set_index("id")["verdict"]
+    page = (ROOT / "docs" / "normalisation.md").read_text(encoding="utf-8").partition("| Statement |")[2]
+    told = dict(re.findall(r"^\| (\w+): .*? \| ([a-z ]+) \| [a-z ]+ \| ", page, flags=re.MULTILINE))
+    assert len(told) > 20
+    assert told == verdicts[list(told)].to_dict()

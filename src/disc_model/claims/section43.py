@@ -235,8 +235,6 @@ def normal_stiffness(*evidence: Any) -> Answer:
     times = [case["first_separation"] for case in cases[:3]]
     sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
     holds = sooner and not cases[3].separates and not _grew(cases[3])
-    if study is None:
-        return Answer(holds)
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
     N = json.loads(study.attrs["base"])["N"]
