@@ -12,18 +12,15 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from disc_model.errors import DiscModelError, raise_faults, violations
+from disc_model.errors import DiscModelError, ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.truncation import (
     BAND,
-    CHOSEN_BY,
     FREQUENCIES,
     RICH,
     Asked,
     ModeChoice,
     by_frequencies,
-    checked_quantity,
-    checked_tolerance,
     count_modes,
     counts,
     resized,
@@ -80,21 +77,24 @@ def choose_modes(
         If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
         growth rate needs a cycle, and a first separation a motion that separates.
     """
-    quantity, faults = checked_quantity("quantity", quantity)
-    tolerance, more = checked_tolerance("tolerance", CHOSEN_BY.get(quantity, 1.0) if tolerance is None else tolerance)
+    faults: list[str] = []
+    try:
+        asked = Asked(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
+    except ParameterError as error:
+        faults += error.faults
     pair = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
-    others = violations(
+    faults += violations(
         (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
         (pair, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
         (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
     )
-    raise_faults([*faults, *more, *others])
+    raise_faults(faults)
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
     if quantity == FREQUENCIES:
-        return by_frequencies(case, tolerance, band, (int(rich[0]), int(rich[1])))
-    return by_motion(case, Asked(quantity, tolerance))
+        return by_frequencies(case, asked.tolerance, band, (int(rich[0]), int(rich[1])))
+    return by_motion(case, asked)
 
 
 def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:

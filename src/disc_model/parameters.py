@@ -279,6 +279,11 @@ class Strict(BaseModel):
         raise ParameterError(Fault((cls.__name__.lower(),), as_text(obj), "must be a mapping of names to values"))
 
 
+def given_values(model: Strict) -> dict[str, Any]:
+    """The values of a model that were given, in the order of its fields."""
+    return {name: getattr(model, name) for name in type(model).model_fields if name in model.model_fields_set}
+
+
 class _OwnNames(ModelMetaclass):
     """Metaclass of classes whose `help` and completion show their own names, without pydantic's hundred."""
 
@@ -703,11 +708,6 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
 def foreign_case(p: object) -> list[str]:
     """Faults of an argument that must be `Parameters`."""
     return [] if isinstance(p, Parameters) else [Fault(("p",), as_text(p), "must be Parameters")]
-
-
-def leaves_modes(values: Mapping[str, Any]) -> bool:
-    """Whether a file's values of a case leave the number of modes to `disc_model.truncation`."""
-    return values.get("n_diameters") == AUTO or any(name in values for name in CHOOSING)
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:

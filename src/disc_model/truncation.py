@@ -10,13 +10,14 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Any, NamedTuple
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import Field, model_validator
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, violations
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.flexibility import contact_compliance
-from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters, number
+from disc_model.parameters import AUTO, CHOOSING, Disc, Finite, Parameters, Strict
 from disc_model.plate import coupled_frequencies, mode_arrays
 
 FREQUENCIES = "frequencies"
@@ -29,6 +30,8 @@ TRUSTED = 1e-4
 """Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
 orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only, for any
 quantity, because growth rates and times depend on the frequencies."""
+_PREFIX = "truncation_"
+"""Begins the names of `CHOOSING`, beside the parameters of a case."""
 BAND = 2.0
 """Upper end of the band of compared frequencies, relative to the lowest frequency of the disc."""
 
@@ -76,11 +79,16 @@ class ModeChoice:
         return json.dumps(record, sort_keys=True)
 
 
-class Asked(NamedTuple):
-    """Quantity and tolerance for the choice of the number of modes."""
+class Asked(Strict):
+    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default tolerances."""
 
-    quantity: str
-    tolerance: float
+    quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
+    tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_tolerance(cls, given: dict[str, Any]) -> dict[str, Any]:
+        return {"tolerance": CHOSEN_BY.get(str(given.get("quantity")), CHOSEN_BY[FREQUENCIES])} | given
 
 
 def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
@@ -155,31 +163,15 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
     The request is None if the number of modes is given, or if there are faults.
     """
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
+    given = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
     if rest.get("n_diameters") != AUTO:
         rule = f"is used with n_diameters={AUTO!r} only"
-        return rest, None, [Fault((name,), as_text(values[name]), rule) for name in CHOOSING if name in values]
+        return rest, None, [Fault.of((_PREFIX + name,), value, rule) for name, value in given.items()]
     del rest["n_diameters"]
-    quantity, faults = checked_quantity("truncation_quantity", values.get("truncation_quantity", FREQUENCIES))
-    given = values.get("truncation_tolerance", CHOSEN_BY.get(quantity, 1.0))
-    tolerance, more = checked_tolerance("truncation_tolerance", given)
-    faults += more
-    return rest, None if faults else Asked(quantity, tolerance), faults
-
-
-def checked_quantity(name: str, value: Any) -> tuple[str, list[str]]:
-    """The quantity by which modes are chosen, "" if it is unknown, and its faults."""
-    known = isinstance(value, str) and value in CHOSEN_BY
-    return value if known else "", violations((known, name, value, f"must be one of {', '.join(CHOSEN_BY)}"))
-
-
-def checked_tolerance(name: str, value: Any) -> tuple[float, list[str]]:
-    """The tolerance as a number, and its faults."""
     try:
-        tolerance = float(number(value))
-    except ValueError:
-        return math.nan, [Fault((name,), as_text(value), "must be a number")]
-    rule = f"must be finite and >= {TRUSTED:g}"
-    return tolerance, violations((TRUSTED <= tolerance < math.inf, name, tolerance, rule))
+        return rest, Asked(**given), []
+    except ParameterError as error:
+        return rest, None, [Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults]
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:

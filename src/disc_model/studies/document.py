@@ -52,7 +52,6 @@ from disc_model.parameters import (
     Tolerance,
     Unit,
     each_in_si,
-    leaves_modes,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -249,11 +248,6 @@ class _Columns(Strict):
     """Values by what varies."""
 
     _unknown: ClassVar[str] = "cannot be an axis"
-
-    @property
-    def stated(self) -> dict[str, Any]:
-        """The given values, in the order of `VARIED`."""
-        return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set}
 
 
 def _described(name: str) -> dict[str, Any]:
@@ -798,7 +792,7 @@ class GivenParameters(SomeParameters):  # type: ignore[misc, valid-type]
 def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
-    return read_asked(values) if leaves_modes(values) else (Parameters.model_validate(values), None)
+    return read_asked(values)
 
 
 SomeSpan = TypeVar("SomeSpan", bound=Span)
@@ -851,7 +845,7 @@ class NamedCase(Strict):
         """Parameters, and how their modes were chosen or will be chosen when the case runs."""
         p, asked = self.parameters
         if asked is None or asked.quantity != FREQUENCIES:
-            return p, "", "" if asked is None else json.dumps(asked._asdict(), sort_keys=True)
+            return p, "", "" if asked is None else json.dumps(asked.model_dump(), sort_keys=True)
         try:
             choice = by_frequencies(p, asked.tolerance)
         except DiscModelError as error:  # no number of modes meets the tolerance

@@ -47,8 +47,8 @@ from disc_model.parameters import (
     case_of,
     content_key,
     cross_faults,
+    given_values,
     is_number,
-    leaves_modes,
     with_ratios,
 )
 from disc_model.plausibility import RULES
@@ -732,11 +732,7 @@ class GridStudy:
 
     def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
-        stated = self.document.base
-        given = {name: getattr(stated, name) for name in type(stated).model_fields if name in stated.model_fields_set}
-        if not leaves_modes(given):
-            return given, {}
-        fixed, asked, more = asked_modes(given)
+        fixed, asked, more = asked_modes(given_values(self.document.base))
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
             return fixed, {}
@@ -750,15 +746,15 @@ class GridStudy:
     def _dimensions(self) -> Iterator[Dimension]:
         """The valid dimensions of the file."""
         resolution = self.document.resolution
-        for name, blocks in self._columns(self.document.axes.stated, ("axes",), resolution).items():
+        for name, blocks in self._columns(given_values(self.document.axes), ("axes",), resolution).items():
             yield Dimension.of((name,), [[(value,) for value in block] for block in blocks])
         for i, group in enumerate(self.document.zip):
             place = ("zip", str(i)) if isinstance(self.raw["zip"], list) else ("zip",)
-            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group.stated, place).items()}
+            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(given_values(group), place).items()}
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
                 self._add(place, f"must have columns of equal length, not {lengths}")
-            elif columns and len(columns) == len(group.stated):
+            elif columns and len(columns) == len(group.model_fields_set):
                 yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
 
     def _columns(self, given: Mapping[str, Any], path: tuple[str, ...], resolution: int = 1) -> dict[str, Blocks]:
