@@ -16,24 +16,8 @@ from typing import Any
 
 import pytest
 
-from disc_model import (
-    Disc,
-    ParameterError,
-    Parameters,
-    Poincare,
-    Ramp,
-    Record,
-    State,
-    Window,
-    choose_modes,
-    cli,
-    deflection,
-    floquet,
-    read_disc,
-    simulate,
-    snapshots,
-    steady_sliding,
-)
+import disc_model as dm
+from disc_model import cli
 from disc_model.figures.kinds import PLOTS
 from disc_model.plausibility import doubts
 from disc_model.stability.bifurcation import bifurcation_samples
@@ -85,14 +69,14 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
     return list(shown.misfits_of(role, own_study, other_study))
 
 
-def table(text: str) -> Disc:
+def table(text: str) -> dm.Disc:
     """A disc from the text of its table."""
     with TemporaryDirectory() as folder:
         (path := Path(folder) / "disc.csv").write_text(text)
-        return read_disc(path)
+        return dm.read_disc(path)
 
 
-KINDS = {"p": Parameters, "record": Record, "ramps": Ramp}
+KINDS = {"p": dm.Parameters, "record": dm.Record, "ramps": dm.Ramp}
 
 
 def given_to(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -100,39 +84,39 @@ def given_to(function: Callable[..., Any]) -> Callable[..., Any]:
 
     def made(name: str, value: Any) -> Any:
         if isinstance(value, list) and name == "ramps":
-            return tuple(Ramp(**one) for one in value)
+            return tuple(dm.Ramp(**one) for one in value)
         return KINDS[name](**value) if name in KINDS and isinstance(value, dict) else value
 
     return lambda **given: function(**{name: made(name, value) for name, value in given.items()})
 
 
 @cache
-def slipping() -> State:
+def slipping() -> dm.State:
     """Of a disc of two modes."""
-    return simulate(Parameters(N=200, Omega=50, n_diameters=1), 0.0371).final_state
+    return dm.simulate(dm.Parameters(N=200, Omega=50, n_diameters=1), 0.0371).final_state
 
 
 def simulated_from(**changes: Any) -> None:
     """The case of `slipping`, from that state with some values changed."""
-    simulate(Parameters(N=200, Omega=50, n_diameters=1), 1.0, initial_state=slipping().replace(**changes))
+    dm.simulate(dm.Parameters(N=200, Omega=50, n_diameters=1), 1.0, initial_state=slipping().replace(**changes))
 
 
 def shown(r: float, theta: float, **case: Any) -> None:
     """The deflection of another case in a state of one of five modes."""
-    deflection(Parameters(**case), snapshots(Parameters(N=200, Omega=20), 0.1), r, theta)
+    dm.deflection(dm.Parameters(**case), dm.snapshots(dm.Parameters(N=200, Omega=20), 0.1), r, theta)
 
 
-PLAIN = (Parameters, Window, Poincare, Record, Disc, Ramp, simulated_from, shown, choose_modes)
-OF_A_CASE = (simulate, snapshots, floquet, steady_sliding, continue_cycle, lyapunov_exponents, bifurcation_samples)
-MADE = (
-    {one.__name__: one for one in PLAIN}
-    | {one.__name__: given_to(one) for one in (*OF_A_CASE, ReturnMap)}
-    | {"read_asked": lambda **v: read_asked(v), "table": table}
-)
+PUBLIC = "Parameters Window Poincare Record Disc Ramp choose_modes simulate snapshots floquet steady_sliding"
+STABILITY = (continue_cycle, lyapunov_exponents, bifurcation_samples, ReturnMap)
+MADE = {
+    **{name: given_to(getattr(dm, name)) for name in PUBLIC.split()},
+    **{one.__name__: given_to(one) for one in (*STABILITY, simulated_from, shown, table)},
+    "read_asked": lambda **v: read_asked(v),
+}
 CHECKED = {
     "figure": faults_of_figure,
     "figure beside": faults_beside,
-    "doubts": lambda **given: list(doubts(Parameters(**given)).values()),
+    "doubts": lambda **given: list(doubts(dm.Parameters(**given)).values()),
     "yaml": lambda text: faults_of(text),
 }
 
@@ -142,7 +126,7 @@ def faults_of_value(value: dict[str, dict[str, Any]]) -> list[str]:
     [(what, given)] = value.items()
     if what in CHECKED:
         return CHECKED[what](**given)
-    with pytest.raises(ParameterError) as error:
+    with pytest.raises(dm.ParameterError) as error:
         MADE[what](**given)
     return list(error.value.faults)
 
