@@ -103,7 +103,7 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     # what separates without a kick has no place on a logarithmic scale, and is not left out
-    assert [(text.get_position()[0], text.get_text()) for text in figure.axes[-1].texts] == [(15, "0")]
+    assert [(text.xy[0], text.get_text()) for text in figure.axes[-1].texts] == [(15, "0")]
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
 
 
