@@ -1,7 +1,5 @@
 """Kinds of kernels: which cases need which."""
 
-import json
-
 import pytest
 
 from disc_model import Parameters, Ramp
@@ -37,9 +35,9 @@ def test_an_example_is_what_the_compiler_takes_for_its_kind(kind: str) -> None:
         ({"parameters": P.replace(n_circles=1)}, {"simulate-rigid_vertical-wide"}),
         ({"parameters": P.replace(contact_compliance=1e-8)}, {"simulate-compliant_vertical"}),
         ({"ramps": (RAMP,)}, {"simulate-rigid_vertical", "ramp-rigid_vertical"}),
-        ({"modes": json.dumps(Asked("first_separation", 0.01)._asdict())}, SIMULATED),
+        ({"modes": Asked(quantity="first_separation", tolerance=0.01).model_dump_json()}, SIMULATED),
         (
-            {"modes": json.dumps(Asked("growth", 0.01)._asdict())},
+            {"modes": Asked(quantity="growth", tolerance=0.01).model_dump_json()},
             SIMULATED | {"floquet-rigid_vertical", "floquet-rigid_vertical-wide"},
         ),
         (
