@@ -732,7 +732,10 @@ class GridStudy:
 
     def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
-        fixed, asked, more = asked_modes(given_values(self.document.base))
+        given = given_values(self.document.base)
+        if given.get("n_diameters") != AUTO and given.keys().isdisjoint(CHOOSING):
+            return given, {}
+        fixed, asked, more = asked_modes(given)
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
             return fixed, {}
