@@ -191,14 +191,16 @@ def dips(speeds: Array, depth: float) -> list[int]:
 
 
 def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]]:
-    """Whether the lowest speed with separation, over preload, falls and rises by ``depth`` or more; with its values.
+    """Whether the lowest speed with separation, over preload, falls and rises by ``depth`` or more; where it turns.
 
     ``again`` are later preloads, perhaps the last, to which it falls after rising up to the preload ``top``.
     """
     loads, speeds = study["N"].values, study["critical_speed"].values
     first = min(dips(speeds, depth), default=len(speeds))
     later = [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
-    rows = [{"N": N, "speed": or_none(v, ".1f")} for N, v in zip(loads, speeds, strict=True)]
+    steps = np.sign(np.diff(np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 1.0, speeds)))
+    turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
+    rows = [{"N": loads[i], "speed": or_none(speeds[i], ".1f")} for i in turns]
     top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
     return first < len(speeds), {"speeds": rows, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
 
