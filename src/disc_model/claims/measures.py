@@ -184,10 +184,14 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 
+def _without_gaps(speeds: Array, depth: float) -> Array:
+    """Speeds with nan, which counts as infinite, replaced by one that is higher than all by more than ``depth``."""
+    return np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
+
+
 def dips(speeds: Array, depth: float) -> list[int]:
     """Indices of minima with a rise of ``depth`` or more on both sides; nan counts as infinite."""
-    filled = np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
-    return [*map(int, find_peaks(-filled, prominence=depth)[0])]
+    return [*map(int, find_peaks(-_without_gaps(speeds, depth), prominence=depth)[0])]
 
 
 def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]]:
@@ -198,7 +202,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]
     loads, speeds = study["N"].values, study["critical_speed"].values
     first = min(dips(speeds, depth), default=len(speeds))
     later = [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
-    steps = np.sign(np.diff(np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 1.0, speeds)))
+    steps = np.sign(np.diff(_without_gaps(speeds, depth)))
     turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
     rows = [{"N": loads[i], "speed": or_none(speeds[i], ".1f")} for i in turns]
     top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan

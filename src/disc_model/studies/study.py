@@ -734,7 +734,7 @@ class GridStudy:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         given = given_values(self.document.base)
         if given.get("n_diameters") != AUTO and given.keys().isdisjoint(CHOOSING):
-            return given, {}
+            return given, {}  # as asked_modes would: few files ask, and no others need to be followed into truncation
         fixed, asked, more = asked_modes(given)
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
