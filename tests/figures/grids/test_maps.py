@@ -19,7 +19,7 @@ from disc_model.figures.grids.cells import (
     alone,
     cycles_of,
     fill,
-    growth_cells,
+    growth_panels,
     scale_of,
     unresolved,
 )
@@ -48,10 +48,30 @@ def test_a_hatched_look_is_coloured_as_well() -> None:
     ax = Figure().subplots()
     edges = np.arange(3.0), np.arange(2.0)
     fill(ax, edges, np.array([["steady_sliding", "quiet"]]), OUTCOME_LOOKS)
-    hatch, colour = ax.collections
+    colour, hatch = ax.collections
     assert (hatch.get_hatch(), colour.get_hatch()) == (OUTCOME_LOOKS["steady_sliding"].hatch, None)
-    assert np.ma.count(colour.get_array()) == 2
+    assert np.count_nonzero(colour.get_array()[..., 3]) == 2
     assert hatch.get_zorder() > colour.get_zorder()
+
+
+def test_a_hatch_on_dark_red_could_not_be_seen() -> None:
+    """Black lines on the darkest colours of growth rates, of either sign, and white ones on the page would be lost."""
+    rate = np.full((5, 12), 0.01)
+    rate[2, 1], rate[2, 4], rate[2, 7], rate[2, 10] = 0.29, -0.29, -0.01, np.nan
+    codes = np.where(np.isnan(rate), regions.CYCLES.index("no_cycle"), regions.CYCLES.index("followed"))
+    cycle = (("N", "Omega"), codes, {"flag_meanings": " ".join(regions.CYCLES)})
+    data = xr.Dataset(
+        {"growth_rate": (("N", "Omega"), rate), "cycle": cycle}, {"N": np.arange(5.0), "Omega": np.arange(12.0)}
+    )
+    figure = Figure()
+    ax = figure.subplots()
+    growth_panels(figure, [ax], [data], "Omega", "N")
+    inks = {}
+    for cells in ax.collections:
+        if cells.get_hatch():
+            _, columns = np.nonzero(~np.ma.getmaskarray(cells.get_array()))
+            inks |= dict.fromkeys(columns.tolist(), np.dot(to_rgb(cells.get_edgecolor()[0]), (0.299, 0.587, 0.114)))
+    assert inks == pytest.approx({1: 1, 4: 1, 7: 0, 10: 0}), "white, white, black, black"
 
 
 @pytest.mark.parametrize(
@@ -91,9 +111,10 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     there[1, 1] = True
     np.testing.assert_array_equal(alone(rate), there)
     assert not alone(np.array([[0.1]])).any(), "without neighbours nothing can be said"
-    axes = Figure().subplots()
+    figure = Figure()
+    axes = figure.subplots()
     data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
-    assert growth_cells(axes, data, "Omega", "N") >= {"alone"}
+    assert growth_panels(figure, [axes], [data], "Omega", "N") >= {"alone"}
     assert axes.collections[0].get_array()[1, 1] == -0.1, "its value was hidden"
     assert _hatched(axes) == [there.tolist()]
 

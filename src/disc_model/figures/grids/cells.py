@@ -1,13 +1,13 @@
 """Cells of maps: colours and hatches of outcomes, growth rates of the stick-slip cycle, and missing cycles."""
 
-from collections.abc import Container, Mapping
-from typing import NamedTuple
+from collections.abc import Container, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
-from matplotlib.colors import AsinhNorm, BoundaryNorm, ListedColormap
+from matplotlib.colors import AsinhNorm, ListedColormap, to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
@@ -67,6 +67,8 @@ WITHOUT = {
 """Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
 """Looks of cells of outcomes."""
+GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
+"""Weights of red, green and blue in grey print, and the lightness below which a hatch is white."""
 
 
 def unresolved(words: Names) -> NDArray[np.bool_]:
@@ -104,21 +106,28 @@ def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
     return np.asarray(flag_names(data[name].transpose(y, x)))
 
 
-def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look]) -> None:
-    """Fill cells in the look of their word; cells whose word has no look remain unchanged."""
-    codes = np.full(words.shape, np.nan)
-    for i, (word, look) in enumerate(looks.items()):
-        here = words == word
-        if look.face != "none":
-            codes[here] = i
-        if look.hatch and here.any():
-            clear = ListedColormap(["none"])
-            ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=clear, hatch=look.hatch, zorder=1.1)
-    if np.isnan(codes).all():
-        return
-    colours = ListedColormap([look.face for look in looks.values()])
-    norm = BoundaryNorm(np.arange(len(looks) + 1) - 0.5, len(looks))
-    ax.pcolormesh(*edges, np.ma.masked_invalid(codes), cmap=colours, norm=norm, rasterized=True)
+def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
+    """Fill and hatch cells in the look of their word; cells whose word has no look remain unchanged.
+
+    A hatch is black over light colours and white over dark ones.
+
+    below : colours that are drawn there already, shape (rows, columns, 4)
+    """
+    colours = np.zeros((*words.shape, 4))
+    for word, look in looks.items():
+        colours[words == word] = to_rgba(look.face)
+    if colours.any():
+        ax.pcolormesh(*edges, colours, rasterized=True)
+    light = np.ones(words.shape)  # that of the page
+    for layer in (colours if below is None else below, colours):
+        light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
+    dark = light < DARK
+    for word, look in looks.items():
+        for ink, there in ((BLACK, ~dark), ("white", dark)):
+            here = there & (words == word)
+            if look.hatch and here.any():
+                hatched: dict[str, Any] = {"hatch": look.hatch, "edgecolor": ink, "linewidth": 0, "zorder": 1.1}
+                ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=ListedColormap(["none"]), **hatched)
 
 
 def outcome_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
@@ -158,17 +167,27 @@ def growth_norm(rates: Array) -> AsinhNorm:
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
-    """Draw `growth_rate` (1/s) over two parameters, or the status where no cycle is followed; isolated cells are
-    hatched. `growth_bar` sets the scale of all panels. Returns the used keys of `CYCLE_LOOKS`, and "".
+def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Dataset], x: str, y: str) -> set[str]:
+    """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
 
-    data : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
+    Isolated cells are hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
+
+    panels : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
-    edges, words = edges_of(data, x, y), cycles_of(data, x, y)
-    shown = np.ma.masked_where(~np.isin(words, ["", "alone"]), data["growth_rate"].transpose(y, x).values)
-    ax.pcolormesh(*edges, shown, cmap=cm.vik, norm=AsinhNorm(), rasterized=True)
-    fill(ax, edges, words, CYCLE_LOOKS)
-    return set(words.flat)
+    norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
+    used: set[str] = set()
+    for ax, data in zip(axes, panels, strict=True):
+        edges, words = edges_of(data, x, y), cycles_of(data, x, y)
+        rates = np.ma.masked_invalid(data["growth_rate"].transpose(y, x).values)
+        mesh = ax.pcolormesh(*edges, rates, cmap=cm.vik, norm=norm, rasterized=True)
+        fill(ax, edges, words, CYCLE_LOOKS, mesh.to_rgba(rates))
+        used |= set(words.flat)
+    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
+    bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
+    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
+    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
+    bar.minorticks_off()
+    return used
 
 
 def stability_of(data: xr.Dataset, x: str, y: str) -> Names:
@@ -206,16 +225,3 @@ def alone(rate: Array) -> NDArray[np.bool_]:
     like = np.abs(place[..., None, None] - around) < UNLIKE
     # each cell equals itself
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
-
-
-def growth_bar(figure: Figure, axes: list[Axes]) -> None:
-    """Draw one scale for the growth rates of all panels, beside them."""
-    meshes = [one for ax in axes for one in ax.collections if isinstance(one.norm, AsinhNorm)]
-    norm = growth_norm(np.concatenate([np.ma.asarray(mesh.get_array()).compressed() for mesh in meshes]))
-    for mesh in meshes:
-        mesh.set_norm(norm)
-    bar = figure.colorbar(meshes[0], ax=axes, extend="both", format="{x:g}", pad=0.01, aspect=30)
-    bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
-    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
-    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
-    bar.minorticks_off()

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_bar, growth_cells, patches
+from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patches
 from disc_model.figures.kinds import GrowthMap
 from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
 from disc_model.stability.resonances import Resonance
@@ -165,10 +165,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
     shown: list[list[Curve]] = []
     other: list[Curve] = []
-    gaps: set[str] = set()
-    for i, (ax, norm) in enumerate(zip(axes, norms, strict=True)):
-        grid = parts.of(study, norm)
-        gaps |= growth_cells(ax, grid, "Omega", "N")
+    grids = [parts.of(study, norm) for norm in norms]
+    gaps = growth_panels(figure, axes, grids, "Omega", "N")
+    for i, (ax, grid) in enumerate(zip(axes, grids, strict=True)):
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
         own, others_here = parted(curves_of(data[i]) if data else [], grid)
         shown.append(own)
@@ -181,5 +180,4 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     handles += patches(CYCLE_LOOKS, gaps)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
-    growth_bar(figure, axes)
     return figure

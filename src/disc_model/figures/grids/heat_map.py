@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_bar, growth_cells, patch, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patch, patches, scale_of
 from disc_model.figures.kinds import HeatMap
 from disc_model.figures.parts import BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, new_figure
 
@@ -40,8 +40,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: HeatMap) -
     axes = list(figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0])
     handles: list[Patch] = []
     if plot.variable == "growth_rate" and not plot.log:
-        handles = _growth(axes, study, plot, by)
-        growth_bar(figure, axes)
+        handles = _growth(figure, axes, study, plot, by)
     else:
         colours = _colours(found, plot)
         for ax, (_, panel) in zip(axes, panels, strict=True):
@@ -74,16 +73,14 @@ def _name(figure: Figure, axes: Sequence[Axes], values: Sequence[str], found: xr
     axes[0].set_ylabel(parts.label_of(found[plot.y])[0])
 
 
-def _growth(axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
+def _growth(figure: Figure, axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
     """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
     picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
-    words: set[str] = set()
-    for i, ax in enumerate(axes):
-        data = xr.Dataset({name: panels[i][1] for name, panels in picked.items()})
-        words |= growth_cells(ax, data, plot.x, plot.y)
-        for axis, name in plot.axes.items():
-            ax.set(**{f"{axis}scale": "log" if scale_of(name, data[name].values) == "log" else "linear"})
+    panels = [xr.Dataset({name: found[i][1] for name, found in picked.items()}) for i in range(len(axes))]
+    words = growth_panels(figure, axes, panels, plot.x, plot.y)
+    for axis, name in plot.axes.items():  # axes are shared
+        axes[0].set(**{f"{axis}scale": "log" if scale_of(name, study[name].values) == "log" else "linear"})
     return patches(CYCLE_LOOKS, words)
 
 

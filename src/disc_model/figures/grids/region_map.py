@@ -30,18 +30,16 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap)
     axes = figure.subplots(2, len(norms), sharex=True, sharey=True, squeeze=False)
     lines: list[Artist] = []
     outcomes: set[str] = set()
-    gaps: set[str] = set()
     parts.letters(axes.ravel(), [parts.MODES[norm] for norm in norms])
-    for column, norm in enumerate(norms):
-        one = parts.of(study, norm)
-        outcomes |= cells.outcome_cells(axes[0, column], one, plot.x, plot.y)
-        gaps |= cells.growth_cells(axes[1, column], one, plot.x, plot.y) - {"alone"}
-        for ax in axes[:, column]:
+    panels = [parts.of(study, norm) for norm in norms]
+    gaps = cells.growth_panels(figure, axes[1], panels, plot.x, plot.y) - {"alone"}
+    for column, one in zip(axes.T, panels, strict=True):
+        outcomes |= cells.outcome_cells(column[0], one, plot.x, plot.y)
+        for ax in column:
             lines += _curves(ax, one, overlays) if "curves" in overlays else _borders(ax, one, plot)
     above: list[Artist] = [*cells.patches(cells.CELL_LOOKS, outcomes)]
     above += {line.get_label(): line for line in lines}.values()
     legend_above(figure, [*above, *finish(axes, study, plot)])
-    cells.growth_bar(figure, list(axes[1]))
     below: list[Artist] = list(cells.patches(cells.CYCLE_LOOKS, gaps))
     below.append(Line2D([], [], linestyle="", label="\n".join(_captions(study, plot))))
     figure.legend(handles=below, loc="outside lower center", ncols=len(below), handlelength=1.2)

@@ -17,7 +17,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_bar, growth_cells, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches, scale_of
 from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
 
@@ -42,16 +42,14 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)
     parts.letters(axes[0], [parts.MODES[norm] for norm in norms])
-    gaps: set[str] = set()
     for ax, norm in zip(axes[0], norms, strict=True):
-        if "growth" in overlays:
-            growth = parts.of(overlays["growth"], norm)
-            gaps |= growth_cells(ax, growth, plot.x, plot.y)
-            _neutral_line(ax, growth, plot)
         _points(ax, parts.of(study, norm), plot)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
-        growth_bar(figure, list(axes[0]))
+        growth = [parts.of(overlays["growth"], norm) for norm in norms]
+        gaps = growth_panels(figure, axes[0], growth, plot.x, plot.y)
+        for ax, one in zip(axes[0], growth, strict=True):
+            _neutral_line(ax, one, plot)
         handles = [Line2D([], [], **parts.border("neutral")), *patches(CYCLE_LOOKS, gaps), *handles]
     present = set(flag_names(study["outcome"]).flat)
     look: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
