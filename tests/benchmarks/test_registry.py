@@ -14,7 +14,6 @@ def test_every_rival_is_made_as_registered() -> None:
         assert (method.name, method.requires, method.label) == (rival.name, rival.requires, rival.label)
         assert bool(method.unavailable()) == bool(absent(rival.requires))
         assert set(method.settings) <= set(SCENES)
-        assert not rival.maps or method.map_values
         assert math.isnan(method.order) or method.order > 0
 
 

@@ -347,6 +347,7 @@ def scans(
     strong: str = "",
     soft: tuple[str, ...] = ("separation",) * 3,
     faster: float = 0.3,
+    others: float = 0.9,
 ) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
 
@@ -356,6 +357,7 @@ def scans(
     damped, strong : outcome at large preloads with in-plane damping, and with more of it; growth falls if they separate
     soft : outcome with the softest spring at 10, 11.25 and 20 rad/s
     faster : share of stick beyond 15.25 rad/s
+    others : share of random starts that separate at 385 N, 15 rad/s, where the static one does not
     """
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
@@ -410,7 +412,13 @@ def scans(
     plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})
     sticks = {"stick_fraction": ("Omega", [0.31, 0.3, faster, faster])}
     diagram = xr.Dataset(sticks, {"Omega": [15.0, 15.25, 15.5, 16.0]})
-    found = {"bonded": plain, "critical_speed": critical_speed, "bifurcation_Omega": diagram}
+    apart = {
+        "separating_fraction": (("Omega", "normalization"), [[0.0], [others]]),
+        "separating_fraction_low": (("Omega", "normalization"), [[0.0], [others / 2]]),
+    }
+    speeds_tried = {"Omega": [10.0, 15.0], "normalization": ["as_published"]}
+    basins = xr.Dataset(apart, speeds_tried, {"base": '{"N": 385}'})
+    found = {"basins": basins, "bonded": plain, "critical_speed": critical_speed, "bifurcation_Omega": diagram}
     return found | {"map_E": map_E, "map_c_p": map_c_p, "map_k": map_k}
 
 

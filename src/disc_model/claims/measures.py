@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -307,6 +308,22 @@ def another_motion(*cases: CaseView) -> list[str]:
         for case, other in both
         if stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
     ]
+
+
+def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
+    """Shares of random starts that keep losing contact, in words, at the places of cases that do not separate.
+
+    basins : the grid study of this name, if there is one
+    """
+    if basins is None:
+        return []
+    quiet = {case.parameters: case.place for case in cases if case.from_rest and not case.separates}
+    base, found = json.loads(basins.node.attrs["base"]), []
+    points = basins.node.dataset[["separating_fraction", "separating_fraction_low"]].to_dataframe().reset_index()
+    for point in points[points["separating_fraction_low"] > 0].to_dict("records"):
+        p = Parameters(**base | {name: value for name, value in point.items() if name in Parameters.model_fields})
+        found += [f"{100 * point['separating_fraction']:.0f} % at {quiet[p]}"] if p in quiet else []
+    return found
 
 
 def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:

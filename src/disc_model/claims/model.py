@@ -16,7 +16,7 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from disc_model.analysis.classify import SETTLED
-from disc_model.claims.measures import STRETCH, Absent, CaseView, rows, simulate_again
+from disc_model.claims.measures import STRETCH, Absent, CaseView, elsewhere, rows, simulate_again
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Parts, Sentences
 from disc_model.errors import DiscModelError
@@ -99,7 +99,8 @@ class Text(BaseModel):
     scans : the grid studies that the check is given besides
     beside : further ones, for remarks only: None instead of one that is missing
     ours : what we found
-    remark, remarks : what should be known besides: in any case; where the value of that name is true
+    remark, remarks : what should be known besides: in any case; where the value of that name is true.  ``elsewhere`` is
+        one of any claim, see `disc_model.claims.measures.elsewhere`
     undecided : by name, reasons why the evidence may decide nothing
     parts : by name of a value, how its rows are said
     apart : why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint
@@ -193,7 +194,9 @@ class Claim:
                 return Finding(text, NOT_TESTABLE)
             wanted = (*self.texts.scans, *self.texts.beside)
             scans = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
-            found = self._found(self.check(*needed.values(), *scans, **self.numbers), needed)
+            answer = self.check(*needed.values(), *scans, **self.numbers)
+            answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
+            found = self._found(answer, needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
             return _without(missing)
@@ -287,7 +290,6 @@ class Checks(dict[str, Callable[..., Answer]]):
         faults, found = [], []
         common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
         for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
-            raw["remark"] = common.get(raw.get("remark"), raw.get("remark", ""))
             for key in ("remarks", "undecided"):  # keys without a text use the common one
                 raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
             try:

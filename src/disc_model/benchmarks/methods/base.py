@@ -108,7 +108,7 @@ class Method(ABC):
     order: float = math.nan
     requires: tuple[str, ...] = ()
     settings: Mapping[str, Sequence[float]]
-    map_values: Sequence[float] = ()
+    map_values: Sequence[float] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
     map_budget: float = 1.0  # beyond it a method gave up: the engine needs a ten-thousandth of it
 
     def unavailable(self) -> str:
