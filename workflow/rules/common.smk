@@ -114,20 +114,31 @@ def made_of(rule, *sources, of=()):
     return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
 
 
-FILE = workflow.configfiles and os.path.relpath(Path(workflow.configfiles[0]).resolve())
+FILES = [os.path.relpath(Path(file).resolve()) for file in workflow.configfiles]
 OWNER = Path(RESULTS, "logs", "study_file.txt")
 
 
 def refuse_results_of_another_study():
-    """Stop if another study file of this name has made the results, which this one would overwrite."""
-    other = OWNER.read_text() if OWNER.exists() else FILE
-    if FILE and other != FILE and Path(other).is_file():
-        content = read_file(Path(other))[0]
-        if isinstance(content, dict) and content.get("study") == STUDY.name:
-            raise WorkflowError(
-                f"study = {STUDY.name!r}: is also the name of the study in {other}, whose results are in {RESULTS}"
-                " and would be overwritten; give one of them another name, or another folder with --directory"
-            )
+    """Stop if other study files of this name have made the results, which these would overwrite.
+
+    The same files with further ones laid over them, or without these, are the same study in other detail.
+    """
+    others = OWNER.read_text().splitlines() if OWNER.exists() else FILES
+    both = min(len(FILES), len(others))
+    there = all(Path(other).is_file() for other in others)
+    if not there or others[:both] == FILES[:both]:
+        return
+    contents = [read_file(Path(other))[0] for other in others]
+    names = [
+        content["study"]
+        for content in contents
+        if isinstance(content, dict) and "study" in content
+    ]
+    if names[-1:] == [STUDY.name]:
+        raise WorkflowError(
+            f"study = {STUDY.name!r}: is also the name of the study in {', '.join(others)}, whose results are in {RESULTS}"
+            " and would be overwritten; give one of them another name, or another folder with --directory"
+        )
 
 
 def refuse_unknown_targets():
