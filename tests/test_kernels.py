@@ -7,7 +7,7 @@ from disc_model.engine.layout import HALF
 from disc_model.kernels import KINDS, LAWS, PAIRS_OF_A_BLOCK, example, kinds_of, kinds_of_case
 from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import engine_case
-from disc_model.truncation import Asked
+from disc_model.truncation import ModeRequest
 
 P = Parameters(N=385, Omega=15)
 RAMP = Ramp(parameter="Omega", to=10.0, start=1.0, end=2.0)
@@ -35,9 +35,9 @@ def test_an_example_is_what_the_compiler_takes_for_its_kind(kind: str) -> None:
         ({"parameters": P.replace(n_circles=1)}, {"simulate-rigid_vertical-wide"}),
         ({"parameters": P.replace(contact_compliance=1e-8)}, {"simulate-compliant_vertical"}),
         ({"ramps": (RAMP,)}, {"simulate-rigid_vertical", "ramp-rigid_vertical"}),
-        ({"modes": Asked(quantity="first_separation", tolerance=0.01).model_dump_json()}, SIMULATED),
+        ({"modes": ModeRequest(quantity="first_separation", tolerance=0.01).model_dump_json()}, SIMULATED),
         (
-            {"modes": Asked(quantity="growth", tolerance=0.01).model_dump_json()},
+            {"modes": ModeRequest(quantity="growth", tolerance=0.01).model_dump_json()},
             SIMULATED | {"floquet-rigid_vertical", "floquet-rigid_vertical-wide"},
         ),
         (

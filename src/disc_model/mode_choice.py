@@ -18,8 +18,8 @@ from disc_model.truncation import (
     BAND,
     FREQUENCIES,
     RICH,
-    Asked,
     ModeChoice,
+    ModeRequest,
     by_frequencies,
     count_modes,
     counts,
@@ -79,7 +79,7 @@ def choose_modes(
     """
     faults: list[str] = []
     try:
-        asked = Asked(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
+        asked = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     except ParameterError as error:
         faults += error.faults
     pair = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
@@ -99,11 +99,11 @@ def choose_modes(
 
 def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
     """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as JSON."""
-    choice = by_motion(p, Asked(**json.loads(asked)))
+    choice = by_motion(p, ModeRequest(**json.loads(asked)))
     return choice.parameters, choice.to_json()
 
 
-def by_motion(p: Parameters, asked: Asked) -> ModeChoice:
+def by_motion(p: Parameters, asked: ModeRequest) -> ModeChoice:
     """The first candidate with which larger models agree; raises `DiscModelError` if there is none."""
     values: dict[tuple[int, ...], float] = {}
     change = math.inf

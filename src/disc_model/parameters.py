@@ -35,14 +35,22 @@ CYCLE_TOLERANCES = (1e-14, 1e-6)
 """Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
 
 
-@dataclass(frozen=True)
-class Unit:
-    """Marks the type of a number, or of a structure of numbers, with its SI unit."""
+Units = str | Mapping[str, "Units"]
+"""A unit; or, for values by name, those that have one."""
 
-    name: str
+
+@dataclass(frozen=True, eq=False)
+class Unit:
+    """Marks the type of a number, or of a structure of numbers, with its SI unit.
+
+    of : the field that names the parameter whose unit it is, where that is a matter of choice
+    """
+
+    name: Units = ""
+    of: str = ""
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {**handler(schema), "unit": self.name}
+        return {**handler(schema), "unit": self.name} if self.name and isinstance(self.name, str) else handler(schema)
 
 
 class Unfit(str):
@@ -67,17 +75,18 @@ def _units() -> Any:
     return pint.UnitRegistry()
 
 
-def in_si(value: Any, unit: str) -> Any:
+def in_si(value: Any, unit: Units) -> Any:
     """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
 
     Results have 15 digits, so that equal decimal numbers in different units are equal.
     """
-    if isinstance(value, list | tuple):
-        return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
+    if not unit or not isinstance(value, str | list | tuple | dict):
+        return value
     if isinstance(value, dict):
-        return {name: in_si(one, unit) for name, one in value.items()}
-    found = _WITH_UNIT.fullmatch(value) if isinstance(value, str) and unit else None
-    if found is None or _is_float(value):
+        return {name: in_si(one, unit if isinstance(unit, str) else unit.get(name, "")) for name, one in value.items()}
+    if not isinstance(value, str):
+        return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
+    if not isinstance(unit, str) or not (found := _WITH_UNIT.fullmatch(value)) or _is_float(value):
         return value
     try:
         if not _UNIT.fullmatch(found[2]):
@@ -100,12 +109,13 @@ def _is_float(text: str) -> bool:
     return True
 
 
-def number(value: Any) -> Any:
+def number(value: Any, unit: str = "") -> Any:
     """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else.
 
     Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
     treats it so.
     """
+    value = in_si(value, unit)
     if isinstance(value, Unfit):
         kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
         kind += ", such as rpm; Hz may mean turns or radians" * (value.unit == "rad/s")
@@ -210,33 +220,24 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
             yield from faults_of_names(value, (*path, str(i)))
 
 
-def each_in_si(data: Any, units: Mapping[str, str]) -> Any:
-    """The mapping with `in_si` applied to each value whose name has a unit."""
-    if not isinstance(data, dict):
-        return data
-    texts = [name for name, value in data.items() if isinstance(value, str | list | tuple | dict) and name in units]
-    return data | {name: in_si(data[name], units[name]) for name in texts} if texts else data
-
-
 @functools.cache
-def _units_of(model: type[BaseModel]) -> dict[str, str]:
-    """SI units of the fields of a model, by name, for fields with a unit."""
-    found = {name: _unit_of(field) for name, field in model.model_fields.items()}
-    return {name: unit for name, unit in found.items() if unit}
+def _units_of(model: type[BaseModel]) -> dict[str, Unit]:
+    """Marks of the fields of a model that have a unit, by name, from their schema or from their type."""
+    found = {}
+    for name, field in model.model_fields.items():
+        extra = field.json_schema_extra
+        marks = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else _marks(field)
+        if mark := next((mark for mark in marks if isinstance(mark, Unit)), None):
+            found[name] = mark
+    return found
 
 
-def _unit_of(field: FieldInfo) -> str:
-    """Unit of a field, from its schema or from a `Unit` in its type; "" if it has none."""
-    extra = field.json_schema_extra
-    if isinstance(extra, dict) and "unit" in extra:
-        return str(extra["unit"])
-    return next((mark.name for mark in (*field.metadata, *_marks(field.annotation)) if isinstance(mark, Unit)), "")
-
-
-def _marks(annotation: Any) -> Iterator[Any]:
-    for part in get_args(annotation):
-        yield part
-        yield from _marks(part)
+def _marks(field: FieldInfo) -> Iterator[Any]:
+    parts = [field.annotation]
+    yield from field.metadata
+    for part in parts:
+        parts += get_args(part)
+    yield from parts
 
 
 class Strict(BaseModel):
@@ -252,7 +253,7 @@ class Strict(BaseModel):
             name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
             example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
             raise ParameterError(f"{name} takes named values: {name}({example})")
-        data = each_in_si(data, _units_of(type(self)))
+        data = in_si(data, self._units(data))
         faults: list[str] = list(faults_of_names(data))
         try:
             if not faults:
@@ -262,6 +263,13 @@ class Strict(BaseModel):
         faults += self._more_faults(data)
         if faults:
             raise ParameterError(*faults) from None
+
+    @classmethod
+    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
+        """SI units of the values that have one, by the marks of their types."""
+        fields, marks = cls.model_fields, _units_of(cls).items()
+        of = {name: str(data.get(mark.of, fields[mark.of].default)) for name, mark in marks if mark.of}
+        return {name: Parameters.unit(of[name]) if mark.of else mark.name for name, mark in marks}
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
@@ -687,7 +695,7 @@ class Parameters(Checked):
     @classmethod
     def unit(cls, name: str) -> str:
         """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown name."""
-        return _units_of(cls).get(name, "")
+        return str(_units_of(cls)[name].name) if name in _units_of(cls) else ""
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

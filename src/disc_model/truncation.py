@@ -79,7 +79,7 @@ class ModeChoice:
         return json.dumps(record, sort_keys=True)
 
 
-class Asked(Strict):
+class ModeRequest(Strict):
     """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default tolerances."""
 
     quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
@@ -89,6 +89,12 @@ class Asked(Strict):
     @classmethod
     def _with_tolerance(cls, given: dict[str, Any]) -> dict[str, Any]:
         return {"tolerance": CHOSEN_BY.get(str(given.get("quantity")), CHOSEN_BY[FREQUENCIES])} | given
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The request as `read_asked` reads it; the default quantity is left out."""
+        quantity = {} if self.quantity == FREQUENCIES else {"truncation_quantity": self.quantity}
+        return {"n_diameters": AUTO, "truncation_tolerance": self.tolerance, **quantity}
 
 
 def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
@@ -134,7 +140,7 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
     return real_modes(*size) if p.disc is None else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
 
 
-def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
+def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
     """Parameters from the values of a file or command line, and the request to choose their modes, if there is one.
 
     With ``n_diameters="auto"`` the modes are chosen by ``truncation_quantity`` (`FREQUENCIES` by default) and
@@ -157,7 +163,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, Asked | None]:
     return p, asked
 
 
-def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None, list[str]]:
+def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None, list[str]]:
     """Split the values of a file or command line: values without the request for a choice of modes, request, faults.
 
     The request is None if the number of modes is given, or if there are faults.
@@ -169,7 +175,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], Asked | None
         return rest, None, [Fault.of((_PREFIX + name,), value, rule) for name, value in given.items()]
     del rest["n_diameters"]
     try:
-        return rest, Asked(**given), []
+        return rest, ModeRequest(**given), []
     except ParameterError as error:
         return rest, None, [Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults]
 

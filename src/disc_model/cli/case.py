@@ -15,7 +15,7 @@ from rich.table import Column, Table
 
 from disc_model.disc import read_disc
 from disc_model.errors import Fault, ParameterError, as_text
-from disc_model.parameters import Parameters, in_si
+from disc_model.parameters import Parameters
 from disc_model.parameters import number as number_of
 from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
@@ -162,7 +162,7 @@ def number(
         faults.append(Fault((name,), "", "is required"))
         return math.nan
     try:
-        value = float(number_of(in_si(text, unit)))
+        value = float(number_of(text, unit))
     except ValueError as error:
         faults.append(Fault((name,), as_text(text), str(error)))
         return math.nan

@@ -4,11 +4,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from disc_model.data.variables import PERTURBATIONS, SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title, Unit, each_in_si, in_si
+from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title, Unit, Units
 from disc_model.simulation.case import Poincare, Window
 
 Number = Annotated[Real, Field(allow_inf_nan=False)]
@@ -95,23 +95,6 @@ class Plot(Kind):
     roles: ClassVar[Roles] = {}
 
     overlays: dict[str, str] = Field({})
-
-    @model_validator(mode="before")
-    @classmethod
-    def _in_units(cls, given: Any) -> Any:
-        """Convert values along its dimensions to SI units."""
-        if not isinstance(given, dict):
-            return given
-        units = {axis: Parameters.unit(str(given.get(axis))) for axis in ("x", "y")}
-        marks, at = given.get("marks"), given.get("at")
-        if isinstance(marks, dict):
-            marks = {name: each_in_si(mark, units) for name, mark in marks.items()}
-        places = {
-            "marks": marks,
-            "at": each_in_si(at, {name: Parameters.unit(name) for name in Parameters.model_fields}),
-            "paper_cases": in_si(given.get("paper_cases"), units["x"]),
-        }
-        return given | {name: place for name, place in places.items() if name in given}
 
     @property
     def axes(self) -> dict[str, str]:
@@ -202,6 +185,12 @@ class StabilityMap(Plot):
     y: str
     marks: dict[str, Mark] = Field({})
 
+    @classmethod
+    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
+        axes = {axis: Parameters.unit(str(data.get(axis))) for axis in ("x", "y")}
+        marks = data.get("marks")
+        return super()._units(data) | {"marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""}
+
     def faults(self, values: Values) -> Iterator[Fault]:
         """Faults as of any figure; in addition, each marked case must be a computed point, not between points."""
         yield from super().faults(values)
@@ -280,7 +269,7 @@ class Bifurcation(Plot):
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
     scale: Number = 1.0e3
-    paper_cases: dict[str, Number] = Field({})
+    paper_cases: Annotated[dict[str, Number], Unit(of="x")] = Field({})
 
 
 class Branches(Plot):
@@ -366,7 +355,9 @@ class General(Plot):
 
     variable: str
     x: str
-    at: dict[str, Number | str] = Field({})
+    at: Annotated[dict[str, Number | str], Unit({name: Parameters.unit(name) for name in Parameters.model_fields})] = (
+        Field({})
+    )
     by: str | None = None
     log: bool = False
 

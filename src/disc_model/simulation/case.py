@@ -30,7 +30,6 @@ from disc_model.parameters import (
     Unit,
     canonical_json,
     content_key,
-    each_in_si,
 )
 from disc_model.simulation.ramps import Ramp
 
@@ -78,12 +77,17 @@ class Span(Checked):
         ParameterError
             If the span has no stop time and begins at the end of the run or later.
         """
-        if self.last is None and self.stop < math.inf:
+        first, stop = self.ends(start, t_end)
+        if (first, stop) == (self.start, self.stop):
             return self
-        first = self.start if self.last is None else max(t_end - self.last, start)
         if not first < t_end:
             raise ParameterError(Fault(("start",), as_text(first), f"must be < t_end={as_text(t_end)}"))
-        return self.replace(start=first, stop=self._end(first, t_end), last=None)
+        return self.replace(start=first, stop=stop, last=None)
+
+    def ends(self, start: float, t_end: float) -> tuple[float, float]:
+        """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are not within the run."""
+        first = self.start if self.last is None else max(t_end - self.last, start)
+        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
@@ -114,7 +118,7 @@ class Window(Span):
         """End of the span; an envelope up to ``t_end`` excludes that instant, which would be a bin of its own."""
         if self.envelope is None:
             return t_end
-        return max(t_end - 0.5 / self.rate, first + 0.25 / self.rate)
+        return min(max(t_end - 0.5 / self.rate, first + 0.25 / self.rate), t_end)
 
     @property
     def count(self) -> int:
@@ -236,12 +240,7 @@ class Start(Strict):
     """
 
     prerun: Prerun | None = None
-    perturbation: dict[Coordinate, Finite] = Field({})
-
-    @field_validator("perturbation", mode="before")
-    @classmethod
-    def _in_units(cls, given: Any) -> Any:
-        return each_in_si(given, {"u": "m", "u_velocity": "m/s", "f": "rad/s"})
+    perturbation: Annotated[dict[Coordinate, Finite], Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"})] = Field({})
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -3,14 +3,14 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from disc_model.errors import Fault, ParameterError, as_text
-from disc_model.parameters import Checked, Parameters, Positive, Real, Seconds, Unit, each_in_si
+from disc_model.parameters import Checked, Parameters, Positive, Real, Seconds, Unit
 
 Ramped = Literal["Omega", "N"]
 RAMPED: tuple[Ramped, ...] = ("Omega", "N")
@@ -29,14 +29,9 @@ class Ramp(Checked):
     """
 
     parameter: Ramped
-    to: Positive
+    to: Annotated[Positive, Unit(of="parameter")]
     start: Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
     end: Seconds
-
-    @model_validator(mode="before")
-    @classmethod
-    def _in_unit(cls, data: Any) -> Any:
-        return each_in_si(data, {"to": Parameters.unit(str(data.get("parameter")))}) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:

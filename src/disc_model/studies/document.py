@@ -26,7 +26,6 @@ from pydantic import (
     WithJsonSchema,
     WrapValidator,
     create_model,
-    field_validator,
     model_validator,
 )
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
@@ -51,7 +50,7 @@ from disc_model.parameters import (
     Title,
     Tolerance,
     Unit,
-    each_in_si,
+    Units,
 )
 from disc_model.simulation.case import START, CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -61,7 +60,7 @@ from disc_model.truncation import (
     CHOSEN_BY,
     FREQUENCIES,
     TRUSTED,
-    Asked,
+    ModeRequest,
     by_frequencies,
     read_asked,
 )
@@ -111,19 +110,9 @@ class Ruled(Strict):
     """A part of a file with conditions between its fields.
 
     _rules : conditions, each with its message, which may show values of the part
-    _units : fields in the unit of a parameter, each with the field that names the parameter
     """
 
     _rules: ClassVar[Rules] = ()
-    _units: ClassVar[tuple[tuple[str, str], ...]] = ()
-
-    @model_validator(mode="before")
-    @classmethod
-    def _in_units(cls, stated: Any) -> Any:
-        if not (cls._units and isinstance(stated, dict)):
-            return stated
-        named = {name: stated.get(by, cls.model_fields[by].default) for name, by in cls._units}
-        return each_in_si(stated, {name: Parameters.unit(str(one)) for name, one in named.items()})
 
     @model_validator(mode="after")
     def _keep_rules(self) -> Self:
@@ -536,8 +525,8 @@ class StabilityCurvesOptions(Ruled):
 
     x: Free = "Omega"
     y: Free = "N"
-    x_range: tuple[Finite, Finite]
-    y_lines: Range
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
+    y_lines: Annotated[Range, Unit(of="y")]
     margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
     points: Annotated[Count, Field(ge=2, le=10_000)] = 31
     max_step: Positive = 0.1
@@ -545,7 +534,6 @@ class StabilityCurvesOptions(Ruled):
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
 
-    _units = (("x_range", "x"), ("y_lines", "y"))
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
         (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
@@ -566,7 +554,7 @@ class BranchesOptions(Ruled):
     """
 
     parameter: Free = "Omega"
-    scan: Range
+    scan: Annotated[Range, Unit(of="parameter")]
     dwell: Seconds
     evaluation_time: Seconds = 2.0
     releases: Annotated[Count, Field(ge=1, le=100)] = 4
@@ -575,7 +563,6 @@ class BranchesOptions(Ruled):
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
 
-    _units = (("scan", "parameter"),)
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
 
@@ -602,12 +589,12 @@ class SensitivityOptions(Ruled):
     tol: CycleTolerance = 1e-12
     motion_tol: Tolerance = 1e-10
 
-    @field_validator("distributions", mode="before")
     @classmethod
-    def _each_in_units(cls, given: Any) -> Any:
-        named = given if isinstance(given, Mapping) else ()
-        of_modes = {name: "rad/s" for name in named if str(name).startswith("omega_")}
-        return each_in_si(given, {name: Parameters.unit(name) for name in NUMBERS} | of_modes)
+    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
+        given = data.get("distributions")
+        names = map(str, given if isinstance(given, Mapping) else ())
+        of_modes = {name: "rad/s" for name in names if name.startswith("omega_")}
+        return super()._units(data) | {"distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes}
 
     _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
 
@@ -789,7 +776,7 @@ class GivenParameters(SomeParameters):  # type: ignore[misc, valid-type]
     )
 
 
-def _of_case(values: Any) -> tuple[Parameters, Asked | None]:
+def _of_case(values: Any) -> tuple[Parameters, ModeRequest | None]:
     if not isinstance(values, Mapping):
         raise ValueError("must be a mapping")
     return read_asked(values)
@@ -804,7 +791,7 @@ class NamedCase(Strict):
     title: str
     reference: str = ""
     parameters: Annotated[
-        tuple[Parameters, Asked | None], PlainValidator(_of_case, json_schema_input_type=GivenParameters)
+        tuple[Parameters, ModeRequest | None], PlainValidator(_of_case, json_schema_input_type=GivenParameters)
     ] = Field({}, validate_default=True)
     t_end: Seconds
     tol: Tolerance = 1e-10
@@ -855,8 +842,7 @@ class NamedCase(Strict):
 
     def _within(self, span: SomeSpan, place: tuple[str, ...], faults: list[Fault]) -> SomeSpan:
         """A stretch of the run with absolute times."""
-        start = span.start if span.last is None else max(self.t_end - span.last, 0.0)
-        stop = min(span.stop, self.t_end) if math.isinf(span.stop) else span.stop
+        start, stop = span.ends(0.0, self.t_end)
         if 0 <= start < stop <= self.t_end:
             return span.resolved(0.0, self.t_end)
         rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"

@@ -70,7 +70,7 @@ from disc_model.studies.document import (
 from disc_model.studies.grids.run import module_of, own_coordinates
 from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.rules import holds, names_in
-from disc_model.truncation import FREQUENCIES, asked_modes
+from disc_model.truncation import FREQUENCIES, ModeRequest, asked_modes
 
 TAKEN = ("compiled", "bench")
 """Folders of results whose names no study may have."""
@@ -604,7 +604,7 @@ class GridStudy:
         """Parameters that the quantity varies by itself."""
         self.wanted = {str(name) for group in _groups(raw) for name in mapping(group)}
         """Names that are to vary, even if the file describes them incorrectly."""
-        self.base, self.automatic = self._base()
+        self.base, self.asked = self._base()
         self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
         self._check()
 
@@ -649,8 +649,8 @@ class GridStudy:
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the sources of its points, beyond the common ones, as in `disc_model.data.sources`."""
-        asked = asked_modes(self.base)[1]
-        return self.quantity, *["modes_by_motion"] * (asked is not None and asked.quantity != FREQUENCIES)
+        by_motion = self.asked is not None and self.asked.quantity != FREQUENCIES
+        return self.quantity, *["modes_by_motion"] * by_motion
 
     @property
     def grid(self) -> list[dict[str, Any]]:
@@ -721,30 +721,29 @@ class GridStudy:
         first = case_of({**self.base, **point}, self.discs)
         unused = {name: 0.0 for name in self.scanned if name in REQUIRED}
         try:
-            whole = Parameters(**{**unused, **first}).canonical | self.automatic
+            whole = Parameters(**{**unused, **first}).canonical
         except ParameterError as error:  # faults of varying and fixed values together
             self.faults += [fault.inside(("base",)) for fault in error.faults]
             return
-        dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS), *["n_circles"] * bool(self.automatic)}
+        dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS)}
+        if self.asked is not None:
+            dropped.add("n_circles")
+            whole |= self.asked.given
         self.base = {name: value for name, value in whole.items() if name not in dropped}
 
     # ---- what the file says
 
-    def _base(self) -> tuple[dict[str, Any], dict[str, Any]]:
+    def _base(self) -> tuple[dict[str, Any], ModeRequest | None]:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
-        given = given_values(self.document.base)
-        if given.get("n_diameters") != AUTO and given.keys().isdisjoint(CHOOSING):
-            return given, {}  # as asked_modes would: few files ask, and no others need to be followed into truncation
-        fixed, asked, more = asked_modes(given)
+        fixed, asked, more = asked_modes(given_values(self.document.base))
         self.faults += [fault.inside(("base",)) for fault in more if isinstance(fault, Fault)]
         if asked is None:
-            return fixed, {}
+            return fixed, None
         # chosen numbers of modes cannot be given as well
         also = [("axes", name) for name in ("n_diameters", "n_circles") if name in self.wanted]
         for path in [*also, *[("base", "n_circles")] * ("n_circles" in fixed)]:
             self._add(path, f"is chosen for each point, since base.n_diameters is {AUTO!r}")
-        quantity = {} if asked.quantity == FREQUENCIES else {"truncation_quantity": asked.quantity}
-        return fixed, {"n_diameters": AUTO, "truncation_tolerance": asked.tolerance, **quantity}
+        return fixed, asked
 
     def _dimensions(self) -> Iterator[Dimension]:
         """The valid dimensions of the file."""
