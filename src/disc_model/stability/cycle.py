@@ -174,14 +174,20 @@ def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) ->
     if not may_stick_and_slip(p):
         return _degenerate(p, tol)
     map_ = ReturnMap(p, tol)
-    point = guess is None or is_finite_array(guess, map_.size)
+    if guess is None:
+        return cycle_from_rest(map_, tol)
+    point = is_finite_array(guess, map_.size)
     raise_faults(violations((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
-    found = newton(map_, map_.static if guess is None else np.asarray(guess, float), tol=tol)
-    if found is not None:
-        return cycle_of(map_, tol, found)
-    if guess is not None:
+    found = newton(map_, np.asarray(guess, float), tol=tol)
+    if found is None:
         return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
-    return _second_try(map_, tol)
+    return cycle_of(map_, tol, found)
+
+
+def cycle_from_rest(map_: ReturnMap, tol: float) -> FloquetResult:
+    """The cycle that `find_cycle` finds from the static equilibrium, with a return map that is there."""
+    found = newton(map_, map_.static, tol=tol)
+    return _second_try(map_, tol) if found is None else cycle_of(map_, tol, found)
 
 
 def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-12) -> FloquetResult:

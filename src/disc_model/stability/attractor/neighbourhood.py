@@ -19,7 +19,15 @@ from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State, engine_case
-from disc_model.stability.cycle import CycleStatus, FloquetResult, cycle_of, find_cycle, run_through_once
+from disc_model.stability.cycle import (
+    CycleStatus,
+    FloquetResult,
+    cycle_from_rest,
+    cycle_of,
+    find_cycle,
+    may_stick_and_slip,
+    run_through_once,
+)
 from disc_model.stability.return_map import RETURNED, Array, ComplexArray, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
 
@@ -103,11 +111,11 @@ class NearCycle:
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     """The cycle near the static start, and whether the start follows it; without a cycle, the result of the search."""
-    cycle = find_cycle(p, CYCLE_TOL)
-    if cycle.status is not CycleStatus.OK:
-        return cycle
+    if not may_stick_and_slip(p):
+        return find_cycle(p, CYCLE_TOL)
     map_ = ReturnMap(p, CYCLE_TOL)
-    return _near(map_, cycle, map_.static)
+    cycle = cycle_from_rest(map_, CYCLE_TOL)
+    return _near(map_, cycle, map_.static) if cycle.status is CycleStatus.OK else cycle
 
 
 def cycle_near(

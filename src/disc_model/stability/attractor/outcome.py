@@ -6,7 +6,7 @@ Newton's method finds from it.  docs/algorithms.md, Regions, describes the concl
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -22,11 +22,14 @@ from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
     ARRIVED,
     CYCLE_TOL,
+    NEAR,
+    SAME_POINT,
     NearCycle,
     cycle_near,
     cycle_of_static_start,
     departure,
     first_release,
+    follows,
     nears_sliding,
     recurrence,
 )
@@ -169,7 +172,10 @@ def find_outcome(
     course = _OutcomeSearch(p, horizon, tol, furthest, start, early, late)
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
-        return course.run(near if isinstance(near, NearCycle) and near.follows_cycle else None)
+        if isinstance(near, NearCycle):
+            if near.follows_cycle:
+                return course.run(near)
+            course.near_start = near
     return course.run(None)
 
 
@@ -179,6 +185,7 @@ class _OutcomeSearch:
 
     shown : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
     left : the unstable cycle from which the motion has departed
+    near_start : the cycle near the static start, while the motion does not follow it
     """
 
     p: Parameters
@@ -192,6 +199,7 @@ class _OutcomeSearch:
     simulated: float = 0.0
     shown: FloquetResult | None = None
     left: NearCycle | None = None
+    near_start: NearCycle | None = None
     segment: Segment | None = None
     changes: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
@@ -272,7 +280,7 @@ class _OutcomeSearch:
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:
-        """The cycle that the motion follows linearly; after a departure only a stable one counts."""
+        """The cycle that the motion follows linearly; after a departure only a stable one or the start's own counts."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         if self.map is None or x is None or code != RETURNED:
             return None
@@ -282,7 +290,17 @@ class _OutcomeSearch:
         if not self.early and self.time < self.horizon:
             return None
         near = cycle_near(self.map, x, again, stable=self.left is not None)
-        return near if near is not None and near.follows_cycle else None
+        return near if near is not None and near.follows_cycle else self._back(x)
+
+    def _back(self, x: Array) -> NearCycle | None:
+        """The unstable cycle near the start, if the motion follows it after it has passed another unstable one."""
+        near, left = self.near_start, self.left
+        if near is None or left is None or near.cycle.stable or not np.linalg.norm(x - near.x) <= NEAR * near.size:
+            return None
+        if np.linalg.norm(left.x - near.x) <= SAME_POINT * near.size or not follows(near, x):
+            return None
+        self.near_start = self.shown = None
+        return replace(near, follows_cycle=True, distance=x - near.x)
 
 
 def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
