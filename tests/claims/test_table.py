@@ -1,6 +1,7 @@
 """The table of claims: complete, computed, and honest about what it lacks."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +22,11 @@ from disc_model.claims.model import (
     REMARK,
     UNDECIDED,
     Answer,
-    Checks,
     Claim,
     ClaimError,
     Finding,
     Text,
+    claims,
     paper_cases,
 )
 from disc_model.claims.pages import to_markdown
@@ -113,32 +114,42 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"perturbation": {"f": 1.0}}}
-    claim = Claim("x", Text(location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
+    claim = Claim("x", Text(check="", location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
     phrase = "case F11 does not begin with the static start in this study"
     assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {phrase}"
     assert claim.evaluate(views(tree_of(F11=case | {"start": {}}))).verdict == HOLDS
 
 
-TEXT = {"location": "Sec. 1", "claim": "It moves", "ours": "by {mm:.1f} mm; {rows}", "parts": {"rows": "{N:g} N"}}
+TEXT = {
+    "check": "A",
+    "location": "Sec. 1",
+    "claim": "It moves",
+    "ours": "by {mm:.1f} mm; {rows}",
+    "parts": {"rows": "{N:g} N"},
+}
 
 
-def claims_from(tmp_path: Path, checks: Checks, **texts: object) -> tuple[Claim, ...]:
+def claims_from(tmp_path: Path, checks: dict[str, Callable[..., Answer]], **texts: object) -> tuple[Claim, ...]:
     (tmp_path / "x.yaml").write_text(yaml.safe_dump(texts, sort_keys=False), encoding="utf-8")
-    return checks.claims("x.yaml", folder=tmp_path)
+    return claims(checks, "x.yaml", folder=tmp_path)
+
+
+def claim_of(tmp_path: Path, check: Callable[..., Answer], **more: object) -> Claim:
+    (claim,) = claims_from(tmp_path, {"A": check}, X=TEXT | more)
+    return claim
 
 
 def test_a_text_is_filled_with_the_numbers_of_its_check(tmp_path: Path) -> None:
-    checks, extra = Checks(), {"bounds": {"least": 2.0}, "remarks": {"why": "beyond {least:g}", "chaos": None}}
-    checks("A", "B")(lambda least, **_: Answer(True, mm=[1, 2.25], rows=[{"N": 3}, {"N": 5}], why=least > 1, chaos=0))
-    first, second = claims_from(tmp_path, checks, A=TEXT | extra, B=TEXT | {"bounds": {"least": 1.0}})
+    check = lambda least: Answer(True, mm=[1, 2.25], rows=[{"N": 3}, {"N": 5}], why=least > 1, chaos=0)  # noqa: E731
+    extra = {"bounds": {"least": 2.0}, "remarks": {"why": "beyond {least:g}", "chaos": None}}
+    first, second = claims_from(tmp_path, {"A": check}, X=TEXT | extra, Y=TEXT | {"bounds": {"least": 1.0}})
     assert first.judge() == Finding("by 1.0, 2.2 mm; 3 N; 5 N", REMARK, "beyond 2")
     assert second.judge() == Finding("by 1.0, 2.2 mm; 3 N; 5 N", HOLDS)
 
 
 def test_an_open_question_says_why(tmp_path: Path) -> None:
-    checks = Checks()
-    checks("A")(lambda: Answer(None, "chaos", mm=1, rows=[], other=True))
-    (claim,) = claims_from(tmp_path, checks, A=TEXT | {"remarks": {"other": "but"}, "undecided": {"chaos": None}})
+    check = lambda: Answer(None, "chaos", mm=1, rows=[], other=True)  # noqa: E731
+    claim = claim_of(tmp_path, check, remarks={"other": "but"}, undecided={"chaos": None})
     assert claim.judge() == Finding("by 1.0 mm; ", UNDECIDED, "the 0-1 test lies between regular and chaotic motion")
 
 
@@ -154,9 +165,8 @@ def test_an_open_question_says_why(tmp_path: Path) -> None:
     ],
 )
 def test_a_verdict_says_which_bound_it_turns_on(tmp_path: Path, bounds: dict[str, float], turned: str) -> None:
-    checks = Checks()
-    checks("A")(lambda most=9, share=0: Answer(None if share > 1.3 else most > 3, "chaos", mm=3, rows=[]))
-    (claim,) = claims_from(tmp_path, checks, A=TEXT | {"bounds": bounds, "undecided": {"chaos": None}})
+    check = lambda most=9, share=0: Answer(None if share > 1.3 else most > 3, "chaos", mm=3, rows=[])  # noqa: E731
+    claim = claim_of(tmp_path, check, bounds=bounds, undecided={"chaos": None})
     found, by = claim.settle(lambda one, *changed: one.evaluate({}, *changed))
     assert by == turned
     hangs = turned not in ("", "stable")
@@ -164,25 +174,21 @@ def test_a_verdict_says_which_bound_it_turns_on(tmp_path: Path, bounds: dict[str
 
 
 def test_texts_and_checks_that_do_not_fit_are_refused_at_once(tmp_path: Path) -> None:
-    checks = Checks()
-    checks("Known", "Unsaid")(lambda: Answer(True))
-    texts = {"Known": TEXT | {"case": {"F02": 1}}, "Undecidable": TEXT, "Elsewhere": TEXT | {"cases": {"F99": 1}}}
+    unknown = TEXT | {"check": "decide"}
+    texts = {"Known": TEXT | {"case": {"F02": 1}}, "Undecidable": unknown, "Elsewhere": TEXT | {"cases": {"F99": 1}}}
     with pytest.raises(ClaimError) as refused:
-        claims_from(tmp_path, checks, **texts)
+        claims_from(tmp_path, dict.fromkeys("AB", lambda: Answer(True)), **texts)
     assert str(refused.value).splitlines() == [
         "x.yaml: Known.case: Extra inputs are not permitted",
-        "x.yaml: Undecidable: no check",
-        "x.yaml: Elsewhere: no check",
+        "x.yaml: Undecidable: no check decide",
         "x.yaml: Elsewhere: no case F99 in the paper's",
-        "Unsaid: a check without a text",
+        "B: a check without a text",
     ]
 
 
 def test_a_number_that_a_text_lacks_is_named(tmp_path: Path) -> None:
-    checks = Checks()
-    checks("A")(lambda: Answer(True, mm=1))
-    (claim,) = claims_from(tmp_path, checks, A=TEXT)
-    with pytest.raises(ClaimError, match=r"^claim A: no value 'rows' among those of its check: cases, mm$"):
+    claim = claim_of(tmp_path, lambda: Answer(True, mm=1))
+    with pytest.raises(ClaimError, match=r"^claim X: no value 'rows' among those of its check: cases, mm$"):
         claim.judge()
 
 

@@ -8,7 +8,7 @@ import xarray as xr
 from scipy.integrate import fixed_quad
 
 from disc_model.claims.measures import phase_share, rate_of
-from disc_model.claims.model import CHECKS, Answer
+from disc_model.claims.model import Answer
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 
@@ -20,19 +20,16 @@ ATTACHED_HZ = (135.42, 237.55, 241.40, 288.85, 290.28, 441.53, 438.95, 693.99, 6
 """Printed frequencies: of the disc alone, Hz and rad/s; with the slider attached, rad/s and Hz."""
 
 
-@CHECKS("P01")
 def disc_frequencies(*, within: float) -> Answer:
     ours = plate_modes(BASE)["omega"].to_numpy()
     return Answer(np.all(np.abs(ours - DISC) <= within), omega=ours)
 
 
-@CHECKS("P01h")
 def disc_hertz(*, within: float) -> Answer:
     ours = plate_modes(BASE)["omega"].to_numpy() / (2 * np.pi)
     return Answer(np.all(np.abs(ours - DISC_HZ) <= within), frequency=ours)
 
 
-@CHECKS("P02")
 def nine_modes() -> Answer:
     diameters = plate_modes(BASE).sort_values("omega")["diameters"].to_numpy()
     single, pairs = int((diameters == 0).sum()), int((diameters > 0).sum())
@@ -40,7 +37,6 @@ def nine_modes() -> Answer:
     return Answer(holds, single=single, pairs=pairs, lowest=diameters[0])
 
 
-@CHECKS("P03")
 def truncation(*evidence: Any, seconds: float, share: float) -> Answer:
     """Whether more modes change nothing; undecided if one circle alone does, which may only move a jump."""
     *cases, speeds = evidence
@@ -74,7 +70,6 @@ def _like_jumps(study: xr.Dataset, before: float, after: float, share: float) ->
     ]
 
 
-@CHECKS("P04")
 def attached(*, within: float) -> Answer:
     ours = coupled_natural_frequencies(BASE)
     other = coupled_natural_frequencies(BASE.replace(normalization="orthonormal"))
@@ -82,14 +77,12 @@ def attached(*, within: float) -> Answer:
     return Answer(np.all(np.abs(ours - ATTACHED) <= within), omega=ours, shifted=shifted)
 
 
-@CHECKS("P05")
 def attached_hertz(*, within: float) -> Answer:
     ours = coupled_natural_frequencies(BASE) / (2 * np.pi)
     swapped = np.array(ATTACHED_HZ)[np.abs(ours - ATTACHED_HZ) > within]
     return Answer(np.all(np.abs(np.sort(ATTACHED_HZ) - ours) <= within), frequency=ours, swapped=list(swapped))
 
 
-@CHECKS("P06")
 def pairs_split(*, within: float) -> Answer:
     """Whether frequencies interlace: one of the coupled system lies between two of the disc if the slider lowers it."""
     attached = coupled_natural_frequencies(BASE)
@@ -104,7 +97,6 @@ def pairs_split(*, within: float) -> Answer:
     return Answer(None if split and kept else split, "one", **counts)
 
 
-@CHECKS("P07")
 def moving_load(*, printed: float, within: float) -> Answer:
     ours = moving_load_speed(BASE)
     modes = plate_modes(BASE)
@@ -119,7 +111,6 @@ def moving_load_speed(p: Parameters) -> float:
     return float(np.min(modes["omega"] / modes["diameters"]))
 
 
-@CHECKS("E17")
 def second_relation(*, within: float) -> Answer:
     """Check both relations of Eq. (17), with modes normalised by the first."""
     p = BASE.replace(normalization="orthonormal")

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.claims import disc, measures, section41, section42, section43, section44
 from disc_model.claims.measures import CaseView
-from disc_model.claims.model import CHECKS, HOLDS, NOT_COMPUTED, REMARK, Claim
+from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, checks_of, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import values_text
@@ -30,7 +30,7 @@ COLUMNS = (
     "robust",
 )
 SECTIONS = (disc, section41, section42, section43, section44)
-CLAIMS: tuple[Claim, ...] = CHECKS.claims(*(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
+CLAIMS = claims(checks_of(*SECTIONS), *(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
 """All claims, in the order of the files."""
 
 

@@ -1,14 +1,17 @@
 """Model of a claim: a text, a check, and the cases that the check examines.
 
-The text is data, in the YAML file beside the module that holds the check; see `Text` for its keys.  The check receives
-cases and bounds. It returns an `Answer`: a verdict, and the numbers for the text's sentences.
+The text is data, in the YAML file of its section; see `Text` for its keys.  It names the check, a function of the
+module beside that file, or of another section's. The check receives cases and bounds. It returns an `Answer`: a
+verdict, and the numbers for the text's sentences.
 """
 
+import inspect
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Literal
 
 import numpy as np
@@ -85,6 +88,7 @@ class Text(BaseModel):
 
     Attributes
     ----------
+    check : name of the function that decides it
     location : the place in the paper
     claim : the statement in our own words
     paper : the value the paper gives, or "" if it only shows it
@@ -107,6 +111,7 @@ class Text(BaseModel):
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    check: str
     location: str
     claim: str
     paper: str = ""
@@ -269,48 +274,38 @@ def rows_of(cases: Mapping[str, CaseView]) -> dict[str, Any]:
     return {**cases, "cases": rows(cases.values())} | ({"case": next(iter(cases.values()))} if cases else {})
 
 
-class Checks(dict[str, Callable[..., Answer]]):
-    """Checks by the claim that they decide; as a decorator, an instance registers one more."""
-
-    def __call__(self, *names: str) -> Callable[[Callable[..., Answer]], Callable[..., Answer]]:
-        def take(check: Callable[..., Answer]) -> Callable[..., Answer]:
-            self.update(dict.fromkeys(names, check))
-            return check
-
-        return take
-
-    def claims(self, *files: str, folder: Path = FOLDER) -> tuple[Claim, ...]:
-        """The claims of these files, each with its check, in the files' order.
-
-        Raises
-        ------
-        ClaimError
-            For a text without a check, a check without a text, and all other faults of texts, together.
-        """
-        faults, found = [], []
-        common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
-        for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
-            for key in ("remarks", "undecided"):  # keys without a text use the common one
-                raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
-            try:
-                text = Text.model_validate(raw)
-            except ValidationError as error:
-                faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
-                continue
-            faults += [] if name in self else [f"{file}: {name}: no check"]
-            faults += [
-                f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()
-            ]
-            found.append(Claim(name, text, self.get(name, Answer)))
-        named = {name for _, read in texts for name in read}
-        faults += [f"{name}: a check without a text" for name in self if name not in named]
-        if faults:
-            raise ClaimError("\n".join(faults))
-        return tuple(found)
+def checks_of(*modules: ModuleType) -> dict[str, Callable[..., Answer]]:
+    """The checks of some modules by name: their functions that return an `Answer`."""
+    found = {name: one for module in modules for name, one in vars(module).items() if inspect.isfunction(one)}
+    return {name: one for name, one in found.items() if inspect.signature(one).return_annotation is Answer}
 
 
-CHECKS = Checks()
-"""Checks of the paper's claims."""
+def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Path = FOLDER) -> tuple[Claim, ...]:
+    """The claims of these files, each with its check, in the files' order.
+
+    Raises
+    ------
+    ClaimError
+        For a text without a check, a check without a text, and all other faults of texts, together.
+    """
+    faults, found, unsaid = [], [], {*checks}
+    common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
+    for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
+        for key in ("remarks", "undecided"):  # keys without a text use the common one
+            raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
+        try:
+            text = Text.model_validate(raw)
+        except ValidationError as error:
+            faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
+            continue
+        faults += [] if text.check in checks else [f"{file}: {name}: no check {text.check}"]
+        faults += [f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()]
+        found.append(Claim(name, text, checks.get(text.check, Answer)))
+        unsaid.discard(text.check)
+    faults += [f"{name}: a check without a text" for name in sorted(unsaid)]
+    if faults:
+        raise ClaimError("\n".join(faults))
+    return tuple(found)
 
 
 # ----------------------------------------------------------------------------------------------------

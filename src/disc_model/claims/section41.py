@@ -11,7 +11,7 @@ from disc_model.analysis.classify import closure, irregularity, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import energy, measures
 from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
-from disc_model.claims.model import CHECKS, Answer
+from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
 
@@ -19,7 +19,6 @@ FULL = 1.1
 """A section is full if its last points hold at most this factor more distinct points than their last half."""
 
 
-@CHECKS("F02a", "F13g")
 def force_grows_to_zero(case: CaseView, *, factor: float, fewest: float) -> Answer:
     if not case.separates:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
@@ -28,7 +27,6 @@ def force_grows_to_zero(case: CaseView, *, factor: float, fewest: float) -> Answ
     return Answer(late.width > factor * case.early.width and count >= fewest, late=late, count=count)
 
 
-@CHECKS("F02b")
 def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
     window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
@@ -39,7 +37,6 @@ def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
     return Answer(count >= fewest and force == 0.0, count=count, ms=span * 1e3, rate=rate, force=force)
 
 
-@CHECKS("F03a")
 def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
     lost = measures.switches(case, "separation")
     velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
@@ -48,7 +45,6 @@ def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
     return Answer(upward >= share, percent=100 * upward, **numbers)
 
 
-@CHECKS("F03b")
 def separations_are_short(*cases: CaseView, part: float) -> Answer:
     found = []
     for case in cases:
@@ -58,7 +54,6 @@ def separations_are_short(*cases: CaseView, part: float) -> Answer:
     return Answer(max(row["percent"] for row in found) < 100 * part, longest=found)
 
 
-@CHECKS("F03c")
 def separations_end(*cases: CaseView, factor: float) -> Answer:
     """Whether no separation lasts much longer than the longest one that has ended."""
     lasting, count = [], 0
@@ -70,14 +65,12 @@ def separations_end(*cases: CaseView, factor: float) -> Answer:
     return Answer(not lasting, count=count, lasting=lasting)
 
 
-@CHECKS("F04", "F06", "F12")
 def releases_regularly(case: CaseView, *, within: float) -> Answer:
     intervals = measures.release_intervals(case)
     spread = irregularity(intervals)
     return Answer(spread <= within, interval=1e3 * intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
 
-@CHECKS("F05", "F07", "F28")
 def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
     """Whether the in-plane motion is quasi-periodic.
 
@@ -95,26 +88,22 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
     )
 
 
-@CHECKS("F08")
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
     stick, (motion, _) = measures.phase_share(case, "stick"), measures.late_motion(case)
     return Answer(stick > share, percent=100 * stick, motion=motion, modulated=not motion.period)
 
 
-@CHECKS("S41s")
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
     shares = [measures.phase_share(case, "stick") for case in cases]
     rows = [{"case": case, "percent": 100 * stick} for case, stick in zip(cases, shares, strict=True)]
     return Answer(min(shares) > share, sticks=rows)
 
 
-@CHECKS("F09")
 def stick_is_gone(case: CaseView, *, share: float) -> Answer:
     whole, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
     return Answer(stick_disappears(whole, late, share), whole=100 * whole, late=100 * late)
 
 
-@CHECKS("F10", "C3s")
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     """Decided by the first pairs, which the paper shows; the results of the others are a remark."""
     rows = _ranges(cases)
@@ -123,7 +112,6 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     return Answer(max(row["ratio"] for row in first) < ratio, ranges=first, others=others if exceeds else [])
 
 
-@CHECKS("F10m")
 def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
     """Whether the contact force still feeds the disc where it is negative: there separation would end it."""
     found = []
@@ -135,7 +123,6 @@ def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
     return Answer(pulls > 0, pushes=pushes, pulls=pulls, gained=gained, takes=pulls <= 0)
 
 
-@CHECKS("F10e")
 def excites_less(*cases: CaseView, part: float) -> Answer:
     """Whether separation withholds energy that maintained contact supplies, at the amplitude that separation allows."""
     rows, withheld = [], []
@@ -161,7 +148,6 @@ def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
     return rows
 
 
-@CHECKS("S41c")
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
     rows: list[dict[str, Any]] = []
     for pair in pairs(cases):
@@ -181,7 +167,6 @@ def _by_start(rows: Sequence[dict[str, Any]]) -> tuple[list[dict[str, Any]], lis
     return [row for row in rows if row["case"].from_rest], others
 
 
-@CHECKS("S41p")
 def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
     """Whether the section has `factor` times as many points as one without separation that is filled."""
     found: list[dict[str, Any]] = []
@@ -202,7 +187,6 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
     return Answer(holds, why, pairs=published, another=another, filling=[*dict.fromkeys(filling)])
 
 
-@CHECKS("S41d", "F18t")
 def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     """Whether the width of the section, or the fraction of its points in stick, changes with the first separation.
 
@@ -223,7 +207,6 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found, another=another)
 
 
-@CHECKS("C3d")
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
     published = [case for case in cases if case.from_rest]
@@ -238,13 +221,11 @@ def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     )
 
 
-@CHECKS("C6")
 def should_be_considered(*cases: CaseView) -> Answer:
     """Undecided: computations of one system cannot decide for many."""
     return Answer(None, ranges=_ranges(cases))
 
 
-@CHECKS("A1")
 def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
     """Whether the orbit returns to itself at each release."""
     psi = measures.switches(case, "stick_to_slip")["psi"].values
@@ -256,7 +237,6 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
     return Answer(apart <= within, apart=apart)
 
 
-@CHECKS("A2", "F17c")
 def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
     """Whether the in-plane motion has no short period; ``other`` as in `is_quasi_periodic`."""
     motion, _ = measures.late_motion(case)
@@ -264,7 +244,6 @@ def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
     return Answer(not 0 < motion.period < fewest, periodic=motion.period > 0, another=another)
 
 
-@CHECKS("E24")
 def slip_condition(*cases: CaseView) -> Answer:
     """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
     true, ends = 0, 0
@@ -278,7 +257,6 @@ def slip_condition(*cases: CaseView) -> Answer:
     return Answer(not true, misprint=true, ends=ends)
 
 
-@CHECKS("S41a")
 def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
     """Check a grid of preloads and speeds, not only the paper's points."""
     points = study[["stick_fraction", "settling_time"]].stack(point=("N", "Omega"))
@@ -304,7 +282,6 @@ def _least_stick(shares: xr.DataArray) -> str:
     return f"{100 * least.item():.2g} % of the time or more, least at {measures.place(least.N, least.Omega)}"
 
 
-@CHECKS("S41b")
 def stick_on_a_line(*cases: CaseView, within: float) -> Answer:
     worst, count = 0.0, 0
     for case in cases:

@@ -25,7 +25,7 @@ from disc_model.claims.measures import (
     rows,
     sliding_growth,
 )
-from disc_model.claims.model import CHECKS, Answer
+from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.parameters import Parameters
@@ -44,7 +44,6 @@ GREW = 1.02
 """Least factor by which a grown range is wider: sampling causes far less."""
 
 
-@CHECKS("S43N0")
 def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
     p = case.parameters
     onset = _sliding_onset(p, step)
@@ -64,7 +63,6 @@ def _sliding_onset(p: Parameters, step: float) -> float:
     return next((speed for speed in speeds if not sliding_growth(p.replace(Omega=speed)) < 1e-6), math.inf)
 
 
-@CHECKS("S43Ninf")
 def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
     p = large.parameters
     times = large.events["time"].values
@@ -81,7 +79,6 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
     )
 
 
-@CHECKS("S43Ns")
 def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
     """Whether the case only sticks, which is damped; undecided if the largest preload with releases is not stable."""
     holds = stuck["time_slip"] == 0 and not stuck.separates
@@ -89,13 +86,11 @@ def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
     return Answer(None if holds and released else holds, "released")
 
 
-@CHECKS("S43s")
 def stick_longer(*cases: CaseView) -> Answer:
     small, large = (100 * measures.cycle_of(case.parameters).stick_fraction for case in cases)
     return Answer(large > small, small=small, large=large)
 
 
-@CHECKS("S43c")
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float, wait: float) -> Answer:
     scan = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
@@ -115,7 +110,6 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     )
 
 
-@CHECKS("S43D", "C4c")
 def damping_stabilises(case: CaseView, **damper: float) -> Answer:
     """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
     ((name, value),) = damper.items()
@@ -132,7 +126,6 @@ def _grew(case: CaseView, factor: float = GREW) -> bool:
     return factor * case.early.width < case.late.width
 
 
-@CHECKS("F16", "F20")
 def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
     intervals = measures.release_intervals(case)
@@ -144,17 +137,6 @@ def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Ans
     )
 
 
-@CHECKS("F17", "F18")
-def separates(case: CaseView) -> Answer:
-    return Answer(case.separates)
-
-
-@CHECKS("S43N")
-def preload(*cases: CaseView) -> Answer:
-    return Answer([case.separates for case in cases] == MIDDLE, loads=rows(cases))
-
-
-@CHECKS("S43Nl")
 def only_between(
     small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
 ) -> Answer:
@@ -165,7 +147,6 @@ def only_between(
     return Answer(None if holds and too else holds, "beyond", loads=rows((small, middle, large)), beyond=beyond)
 
 
-@CHECKS("S43z")
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
     undamped, damped, slow = cases[0], cases[1:4], cases[4:]
     runs = [slow, [undamped], *([case] for case in damped)]
@@ -177,7 +158,6 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
     return Answer(lowest[0] < lowest[1], runs=found)
 
 
-@CHECKS("S43d")
 def disc_damping(*cases: CaseView, factor: float) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
     texts = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
@@ -186,13 +166,11 @@ def disc_damping(*cases: CaseView, factor: float) -> Answer:
     return Answer(holds, "speed", rates=texts)
 
 
-@CHECKS("F19")
 def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answer:
     periodic = measures.late_motion(case, closes)[0].period > 0
     return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p", 0.0, case["c_p"]))
 
 
-@CHECKS("F19d")
 def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
     """Whether the disc's motion repeats and, as an unstable one would, departs from itself at a growing rate."""
     motion, text = measures.late_motion(case)
@@ -212,7 +190,6 @@ def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
     )
 
 
-@CHECKS("F21")
 def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     count = int(case["time_reached"] / (4 * STRETCH))
     widths = case.last_widths("P", STRETCH, 2 * count)
@@ -221,14 +198,12 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     return Answer(not case.separates and grown and last < bounded * before, last=last, before=before, most=max(widths))
 
 
-@CHECKS("F21q")
 def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
     motion = measures.late_motion(case, closes)[0]
     irregular = motion.kind is Outcome.IRREGULAR
     return Answer(None, "irregular") if irregular else Answer(*is_kind(Outcome.QUASI_PERIODIC, motion))
 
 
-@CHECKS("S43k")
 def normal_stiffness(*evidence: Any) -> Answer:
     """Whether softer springs separate sooner; undecided if on the map, at other speeds, some do not at all."""
     *cases, study = evidence
@@ -241,14 +216,12 @@ def normal_stiffness(*evidence: Any) -> Answer:
     return Answer(None if holds and returns else holds, "speed", N=N, returns=returns)
 
 
-@CHECKS("F22")
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
     motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
     repeats, nearby = motion.period > 0, measures.nearby(motion, beside)
     return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates, beside), repeats=repeats, nearby=nearby)
 
 
-@CHECKS("S43kp")
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     faster = growth_or_nan(base.parameters) > growth_or_nan(soft.parameters)
@@ -257,7 +230,6 @@ def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer
     return Answer(sooner and faster and not stiff.separates and not _grew(stiff), between=changes > 1 and changes)
 
 
-@CHECKS("F23")
 def lowest_position(case: CaseView, *, bound: float) -> Answer:
     window = case.samples("zoom")
     time, height = window["time"].values, window["u"].values - case["u_0"]
@@ -289,7 +261,6 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
     )
 
 
-@CHECKS("F23u")
 def always_upward(*cases: CaseView, share: float) -> Answer:
     shares = {}
     for case in cases:
@@ -302,7 +273,6 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
     return Answer(min(shares.values(), default=0.0) >= share, shares=texts or ["none that separates"])
 
 
-@CHECKS("C4N")
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
     """Whether, from some preload on, all separate with any damper that do not without it: the largest decide."""
     loads, damping, apart = _map(study, "N", "c_p")
@@ -345,7 +315,6 @@ def _published(study: xr.Dataset, variable: str, *names: str) -> xr.DataArray:
     return study[variable].sel(normalization="as_published").sortby(list(names)).transpose(*names)
 
 
-@CHECKS("C4m")
 def not_monotonous(*evidence: Any) -> Answer:
     """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
     *cases, study = evidence
@@ -368,7 +337,6 @@ def not_monotonous(*evidence: Any) -> Answer:
     )
 
 
-@CHECKS("C4")
 def inplane_damping_alone(*cases: CaseView) -> Answer:
     without, shown, weak, strong, small = cases
     damped = [case.separates for case in (weak, shown, strong)]
@@ -380,7 +348,6 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
     )
 
 
-@CHECKS("S43E")
 def stiffer_disc(*cases: CaseView) -> Answer:
     by_speed = {speed: _stiffened(cases[0].parameters.replace(Omega=speed, E=BASE.E), "E") for speed in (11, 20)}
     falls = [bool(np.all(np.diff(rates) < 0)) for rates, _ in by_speed.values()]
@@ -388,14 +355,12 @@ def stiffer_disc(*cases: CaseView) -> Answer:
     return Answer(all(falls), discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=rates)
 
 
-@CHECKS("S43kg")
 def stiffer_spring(case: CaseView) -> Answer:
     by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), "k") for speed in (20, 50)}
     falls = [not np.any(np.diff(rates[np.isfinite(rates)]) >= 0) for rates, _ in by_speed.values()]
     return Answer(all(falls), rates=[{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()])
 
 
-@CHECKS("C4E")
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     E, Omega, apart = _map(study, "E", "Omega")
     E, at = E / 1e9, Omega == slow
@@ -417,7 +382,6 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     )
 
 
-@CHECKS("F22a")
 def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> Answer:
     """Whether the in-plane motion has a second frequency long before separation, and whether it persists."""
     cycle = measures.cycle_of(case.parameters)
@@ -444,7 +408,6 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
     )
 
 
-@CHECKS("S43b")
 def bounded(*cases: CaseView, factor: float) -> Answer:
     """Whether no range grows on after separation; where none does without separation either, that is told."""
     widths = {case.name: case.last_quarters("w_point") for case in cases if not case.bonded}
@@ -454,14 +417,12 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
     return Answer(free, ranges=texts, too=bonded)
 
 
-@CHECKS("C3")
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     shares = {case.place: measures.phase_share(case, "stick") for case in cases if case.from_rest}
     texts = [f"N = {place}: {100 * stick:.1f} %" for place, stick in shares.items()]
     return Answer(min(shares.values()) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
 
 
-@CHECKS("C1")
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]

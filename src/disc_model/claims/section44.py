@@ -8,7 +8,7 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.claims import measures
 from disc_model.claims.measures import CaseView, is_kind
-from disc_model.claims.model import CHECKS, Answer
+from disc_model.claims.model import Answer
 from disc_model.claims.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
@@ -22,7 +22,6 @@ STILL = 3e-4
 """Greatest growth rate of a motion that counts as steady, 1/s, see `disc_model.claims.measures.STRETCH`."""
 
 
-@CHECKS("T2a")
 def lines(case: CaseView, *, bound: float) -> Answer:
     found, table = table_2_lines(case), table_2(case)
     window = measures.stretch(case, *EARLY)
@@ -47,7 +46,6 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     )
 
 
-@CHECKS("T2b")
 def drive(case: CaseView, *, level: float) -> Answer:
     drive = case["Omega"] / (2 * np.pi)
     (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
@@ -61,7 +59,6 @@ def drive(case: CaseView, *, level: float) -> Answer:
     return Answer(near and strongest and loud, lines=rows)
 
 
-@CHECKS("T2c")
 def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away, near = [], [], [], []
@@ -85,7 +82,6 @@ def follow(*cases: CaseView, within: float) -> Answer:
     )
 
 
-@CHECKS("T2d")
 def inplane_pair(case: CaseView, *, within: float) -> Answer:
     rate, drive = stick_slip_rate(case), case["Omega"] / (2 * np.pi)
     found = measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2)
@@ -93,14 +89,12 @@ def inplane_pair(case: CaseView, *, within: float) -> Answer:
     return Answer(len(pair) == 2 and np.allclose(pair, split, atol=within, rtol=0), rate=rate, pair=pair, split=split)
 
 
-@CHECKS("T2f")
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
     rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
     holds = abs(rate - printed) <= within
     return Answer(holds, rate=rate, free=free, slower=not holds)
 
 
-@CHECKS("T2e")
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
     natural, found = _natural(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in found])
@@ -119,7 +113,6 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     )
 
 
-@CHECKS("C5")
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
     """Whether the rate of separations rises with a stiffer spring as the frequency of slider and spring alone does.
 
@@ -154,7 +147,6 @@ def _level(case: CaseView, frequency: float) -> float:
     return measures.ratio(near, every, f"the spectrum of case {case.name}")
 
 
-@CHECKS("C5h")
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate = stick_slip_rate(case)
     found = measures.lines(case, *EARLY, above=LOW, below=HIGH, floor=1e-3)
@@ -164,7 +156,6 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     return Answer(percent > 100 * share, percent=percent, made=len(made), count=len(found), rate=rate, low=LOW)
 
 
-@CHECKS("F24")
 def three_kinds(case: CaseView, *, factor: float) -> Answer:
     spans = (EARLY, LATER, LATE)
     ranges = [float(np.ptp(measures.stretch(case, *span)["w_point"].values)) for span in spans]
@@ -182,7 +173,6 @@ def three_kinds(case: CaseView, *, factor: float) -> Answer:
     return Answer(all(differ), spans=rows)
 
 
-@CHECKS("F25b")
 def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
     """Whether lines appear that, unlike all main ones, do not combine the stick-slip frequency and the drive's."""
     rate = stick_slip_rate(case)
@@ -196,7 +186,6 @@ def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
     return Answer(later > factor * max(early, 1), early=early, later=later)
 
 
-@CHECKS("F25c")
 def higher(case: CaseView, bonded: CaseView, *, factor: float, floor: float) -> Answer:
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_c", first, 60), LATE)
@@ -210,7 +199,6 @@ def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
     return None if here and there else here, "control"
 
 
-@CHECKS("F25d")
 def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
     rows, found = [], []
     for case in pair:
@@ -224,7 +212,6 @@ def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
     return Answer(*_beside(*found), stretches=rows)
 
 
-@CHECKS("F26")
 def slider_settles(*pair: CaseView, part: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
@@ -233,7 +220,6 @@ def slider_settles(*pair: CaseView, part: float) -> Answer:
     return Answer(*_beside(*(after < part * before for before, after in filled)), stretches=rows)
 
 
-@CHECKS("F26b")
 def multiples(case: CaseView, *, bound: float) -> Answer:
     first = case["first_separation"]
     late = _lines_of_psi(case, *LATE)
@@ -251,7 +237,6 @@ def multiples(case: CaseView, *, bound: float) -> Answer:
     )
 
 
-@CHECKS("F27a")
 def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: float, rest: float) -> Answer:
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
@@ -269,7 +254,6 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
     return Answer(*_beside(stages and here, stages and there), free=free, kept=kept, **numbers)
 
 
-@CHECKS("F27b")
 def natural_lines(case: CaseView, *, share: float) -> Answer:
     span = ("spectrum_d", 143.0, 153.0)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
@@ -289,7 +273,6 @@ def natural_lines(case: CaseView, *, share: float) -> Answer:
     )
 
 
-@CHECKS("F27c")
 def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
@@ -302,7 +285,6 @@ def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Ans
     return Answer(*_beside(*found), stretches=rows, high=HIGH)
 
 
-@CHECKS("F29")
 def no_high_line(case: CaseView, *, share: float) -> Answer:
     omega = float(plate_modes(case.parameters)["omega"].max())
     base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
@@ -311,7 +293,6 @@ def no_high_line(case: CaseView, *, share: float) -> Answer:
     return Answer(max(first, last) < share, omega=omega, low=LOW, first=first, last=last, base=base)
 
 
-@CHECKS("F29c")
 def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
     """Whether weak lines of one stretch are missing in the next."""
     first, second = (
@@ -323,7 +304,6 @@ def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> A
     return Answer(len(moved) > part * len(weak), moved=len(moved), count=len(weak))
 
 
-@CHECKS("F29b")
 def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
     """Whether the spectrum is erratic; undecided if the number of frequencies depends on the resolution of lines."""
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)

@@ -7,6 +7,7 @@ computed.
 
 import json
 import math
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures
 from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, rate_text
-from disc_model.claims.model import Answer, Checks
+from disc_model.claims.model import Answer, checks_of, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
@@ -96,12 +97,10 @@ def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
 # ----------------------------------------------------------------------------------------------------
 # Conclusions
 
-CHECKS = Checks()
 SLOW = 1e-3
 """Growth rate below which a cycle counts as neither stable nor unstable, 1/s."""
 
 
-@CHECKS("Onset")
 def onset(found: Evidence, *, beside: float) -> Answer:
     points = found.grid("survival_outcome")
     outcome, growth = _beside(points, found.grid("survival_growth"))
@@ -138,7 +137,6 @@ def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], 
     return flag_names(words), there["growth_rate"].transpose("N", "Omega").values
 
 
-@CHECKS("Fold at N = 385 N")
 def fold(found: Evidence, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), load)))
     highs, width = _beginnings(found.grid("survival_speed"), load)
@@ -194,7 +192,6 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
         raise Missing(f"study {name} has points that failed")
 
 
-@CHECKS("Critical speed")
 def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     study = found.grid("survival_speed").isel(horizon=0)
     _require_ok(study, "survival_speed")
@@ -203,7 +200,6 @@ def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
     return Answer(None if few or values["again"] else falls, "few" if few else "again", **values)
 
 
-@CHECKS("Smaller vibration")
 def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
     smaller: list[bool | None] = []
     rows = []
@@ -219,7 +215,6 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
     return Answer(*_all_cases(smaller), cases=rows)
 
 
-@CHECKS("Stick vanishes")
 def stick_vanishes(found: Evidence, *, share: float) -> Answer:
     stays, rows = [], []
     for case in found.separating():
@@ -230,7 +225,6 @@ def stick_vanishes(found: Evidence, *, share: float) -> Answer:
     return Answer(len(stays) < len(rows) if rows else None, "none", cases=rows, stays=stays)
 
 
-@CHECKS("Damper normal to the disc")
 def normal_damping(found: Evidence) -> Answer:
     without, with_damper, _ = _damped(found, "c")
     compared = (without > SLOW) & np.isfinite(with_damper)
@@ -239,7 +233,6 @@ def normal_damping(found: Evidence) -> Answer:
     return Answer(lowered == count if count else None, "none", lower=lowered, count=count, stable=int(stable.sum()))
 
 
-@CHECKS("Damper in the disc's plane")
 def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
     without, damped, status = _damped(found, "c_p")
     heavy = (found.grid("survival_damping")["N"].values >= large)[:, None]
@@ -270,7 +263,6 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
     return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
 
 
-@CHECKS("Not periodic afterwards")
 def not_periodic(found: Evidence) -> Answer:
     cases = found.separating()
     repeats = [_repeats(case) for case in cases]
@@ -302,7 +294,7 @@ def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
     return (None, "open" if holds else "none") if None in holds or not holds else (True, "")
 
 
-CONCLUSIONS = CHECKS.claims("survival.yaml")
+CONCLUSIONS = claims(checks_of(sys.modules[__name__]), "survival.yaml")
 
 # ----------------------------------------------------------------------------------------------------
 # The page
