@@ -14,17 +14,7 @@ from disc_model.analysis.classify import irregularity, separation_location
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.disc import BASE, moving_load_speed
-from disc_model.claims.measures import (
-    STRETCH,
-    Array,
-    CaseView,
-    first_separation,
-    growth_or_nan,
-    is_kind,
-    rate_text,
-    rows,
-    sliding_growth,
-)
+from disc_model.claims.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
@@ -142,9 +132,11 @@ def only_between(
 ) -> Answer:
     """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
     *unstable, largest_too = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
-    beyond = [{"case": again[0], "first": first_separation(*again)}, {"case": largest, "first": largest.first}]
+    beyond = [{"case": again[0], "first": measures.first_separation(*again)}, {"case": largest, "first": largest.first}]
     holds, too = unstable == MIDDLE, largest_too or again[0].separates
-    return Answer(None if holds and too else holds, "beyond", loads=rows((small, middle, large)), beyond=beyond)
+    return Answer(
+        None if holds and too else holds, "beyond", loads=measures.rows((small, middle, large)), beyond=beyond
+    )
 
 
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
@@ -154,7 +146,7 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
         min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
         for group in ((undamped, slow[0]), damped)
     ]
-    found = [{"case": case, "first": first_separation(case, *again)} for case, *again in runs]
+    found = [{"case": case, "first": measures.first_separation(case, *again)} for case, *again in runs]
     return Answer(lowest[0] < lowest[1], runs=found)
 
 
@@ -327,7 +319,7 @@ def not_monotonous(*evidence: Any) -> Answer:
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
     return Answer(
         [case.separates for case in cases] == MIDDLE and newly.any() and lowered.any() and {-1, 1} <= signs,
-        loads=rows(cases),
+        loads=measures.rows(cases),
         rates=text,
         newly=[f"{N:g}" for N in loads[newly]] or ["none"],
         most=damping[-1],
@@ -342,7 +334,7 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
     damped = [case.separates for case in (weak, shown, strong)]
     return Answer(
         not without.separates and any(damped) and not small.separates,
-        large=rows((without, weak, shown, strong)),
+        large=measures.rows((without, weak, shown, strong)),
         not_all=not all(damped),
         **_effect_of(shown, "c_p", 0.0, shown["c_p"]),
     )

@@ -10,6 +10,7 @@ import pytest
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Meter, Problem
+from tests.benchmarks.methods.problems import BASE
 
 ONE_MODE = SimpleNamespace(
     a=slice(0, 1), b=slice(1, 2), alpha=slice(2, 3), f=3, shape=np.array([2.0]), slope=np.array([1.0])
@@ -30,7 +31,8 @@ def test_turning_points_between_steps_are_seen() -> None:
     cubic = np.polynomial.Polynomial([0.1, 1.0, -3.0, 2.0])
     times = np.array([0.0, 0.4, 1.1])
     states = np.column_stack([cubic(times) / 2, np.ones(3), (cubic.deriv()(times) - 0.5) / 2, np.full(3, 0.5)])
-    seen = Meter(Problem(None, None, 1.0, watched=True), ONE_MODE, math.inf)
+    seen = Meter(Problem(BASE, None, 1.0, watched=True), math.inf)
+    seen.physics = ONE_MODE
     assert math.isnan(seen.low)
     seen.path(times, states)
     # 6 x^2 - 6 x + 1 = 0

@@ -11,9 +11,7 @@ from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
 from disc_model.benchmarks.methods.base import GaveUp, Meter
 from disc_model.benchmarks.methods.phases import run_phases
-from disc_model.benchmarks.methods.physics import Physics
 from tests.benchmarks.methods.problems import task
-from tests.references.printed import P
 
 
 @pytest.mark.parametrize(
@@ -34,7 +32,7 @@ def test_what_ends_a_run_of_phases(what, outcome, words):
             return None, t, y * math.nan
         return 1 if phase.name == "slip" else 0, t, y  # one switch after the other, at once
 
-    result = run_phases(problem, Physics(P), advance, Meter(problem, Physics(P), math.inf))
+    result = run_phases(advance, Meter(problem, math.inf))
     assert result.outcome is outcome
     assert words in result.message
 

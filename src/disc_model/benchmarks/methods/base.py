@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.registry import absent
 from disc_model.errors import DiscModelError
@@ -149,10 +150,14 @@ class GaveUp(Exception):
 
 
 class Meter:
-    """A meter that counts right-hand sides, watches the clock and, if requested, the disc's range."""
+    """A run of a problem, with the constants of its case (``physics``, and ``modes`` and ``c`` for `kernels`).
 
-    def __init__(self, problem: Problem, physics: Physics, budget: float) -> None:
-        self.problem, self.physics, self.budget = problem, physics, budget
+    It counts right-hand sides, watches the clock and, if requested, the disc's range.
+    """
+
+    def __init__(self, problem: Problem, budget: float) -> None:
+        self.problem, self.physics, self.budget = problem, Physics(problem.parameters), budget
+        self.modes, self.c = kernels.tables(self.physics)
         self.work, self.longest_step, self.low, self.high = 0, math.nan, math.nan, math.nan
         self.outcome, self.message = RunStatus.FINISHED, ""
 

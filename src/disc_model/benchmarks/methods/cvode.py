@@ -18,7 +18,7 @@ from numba import carray, types
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
 from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
-from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.benchmarks.methods.physics import Array
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 
 STEPS_PER_LOOK = 5_000
@@ -37,10 +37,9 @@ class Cvode(Method):
         self.family = family
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        physics = Physics(problem.parameters)
-        modes, c = kernels.tables(physics)
-        meter = Meter(problem, physics, budget)
-        state, given = np.zeros(4 * physics.n + 4), np.concatenate([[0.0, 0.0, physics.n], c, modes.ravel()])
+        meter = Meter(problem, budget)
+        n, scale = meter.physics.n, value * absolute_scale(meter.physics)
+        state, given = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
         time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
         falling = (ctypes.c_int * 3)(-1, -1, -1)
         call, switches = _library(), _callbacks()[1]
@@ -67,8 +66,8 @@ class Cvode(Method):
             call.CVodeGetRootInfo(memory, roots)
             return next(i for i, found in enumerate(roots) if found), time.value, state
 
-        with _solver(self.family, state, value, value * absolute_scale(physics), given) as (memory, vector):
-            return run_phases(problem, physics, advance, meter)
+        with _solver(self.family, state, value, scale, given) as (memory, vector):
+            return run_phases(advance, meter)
 
 
 @cache

@@ -9,8 +9,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem, RunStatus
-from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, RunStatus
+from disc_model.benchmarks.methods.physics import Array
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 CROWD = 50
@@ -51,9 +51,9 @@ class Advance(Protocol):
     def __call__(self, phase: Phase, t: float, y: Array, t_end: float) -> Ended: ...
 
 
-def run_phases(problem: Problem, physics: Physics, advance: Advance, meter: Meter) -> MethodResult:
-    """Integrate phase by phase to the end of ``problem``."""
-    modes, c = kernels.tables(physics)
+def run_phases(advance: Advance, meter: Meter) -> MethodResult:
+    """Integrate phase by phase to the end of the problem."""
+    problem, physics, modes, c = meter.problem, meter.physics, meter.modes, meter.c
     phase = PHASE[PHASES.index(problem.start.phase), problem.start.direction]
     t, y, span = 0.0, physics.pack(problem.start), problem.span
     new = np.zeros(2, np.int64)

@@ -83,11 +83,10 @@ class Regularised(Method):
     algorithm = "LSODA"
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        physics = Physics(problem.parameters)
-        law = Law(physics, value)
+        meter = Meter(problem, budget)
+        physics, law = meter.physics, Law(meter.physics, value)
         y = law.start(problem.start)
         law.rate(y)  # compiles
-        meter = Meter(problem, physics, budget)
         events = [
             crossing(lambda _t, z: abs(z[physics.f]) - CREEP * value, 0, last=False),
             crossing(lambda _t, z: law.force(z), 0, last=False),

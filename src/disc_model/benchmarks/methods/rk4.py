@@ -11,7 +11,6 @@ import numpy as np
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import Meter, Method, MethodResult, Problem, RunStatus
-from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 
 STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
@@ -26,15 +25,13 @@ class FixedStep(Method):
     map_values = tuple(float(h) for h in np.geomspace(2e-5, 2e-3, 61)[::-1])
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        physics = Physics(problem.parameters)
-        modes, c = kernels.tables(physics)
-        start = problem.start
-        y = physics.pack(start)
+        meter, start = Meter(problem, budget), problem.start
+        y = meter.physics.pack(start)
         times, kinds = np.empty(MAX_EVENTS), np.empty(MAX_EVENTS, np.int64)
         limit = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
         phase = PHASES.index(start.phase)
         heights = np.array([math.inf, -math.inf])
-        case, meter = (modes, c, phase, start.direction), Meter(problem, physics, budget)
+        case = (meter.modes, meter.c, phase, start.direction)
         kernels.rk4_run(*case, y.copy(), 0.0, value, 1, problem.stop, times, kinds, heights)  # compiles
         with meter.running():
             why, t, phase, direction, n, steps = kernels.rk4_run(
@@ -42,5 +39,5 @@ class FixedStep(Method):
             )  # fmt: skip
         meter.outcome = (RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why]
         meter.work, meter.longest_step, (meter.low, meter.high) = 4 * steps, value, heights.tolist()
-        final = physics.unpack(start.time + t, PHASES[phase], direction, y)
+        final = meter.physics.unpack(start.time + t, PHASES[phase], direction, y)
         return meter.result(times[:n], [EVENT_KINDS[kind] for kind in kinds[:n]], final)

@@ -25,10 +25,8 @@ class SolveIvp(Method):
         self.algorithm = algorithm
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        physics = Physics(problem.parameters)
-        scale = absolute_scale(physics)
-        meter = Meter(problem, physics, budget)
-        parts = self._functions(physics)
+        meter = Meter(problem, budget)
+        scale, parts = absolute_scale(meter.physics), self._functions(meter)
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
             rate, slopes, events = parts(phase)
@@ -44,12 +42,11 @@ class SolveIvp(Method):
             cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
             return cause, float(found.t[-1]), found.y[:, -1].copy()
 
-        return run_phases(problem, physics, advance, meter)
+        return run_phases(advance, meter)
 
-    def _functions(self, physics: Physics) -> Callable[[Phase], Parts]:
+    def _functions(self, meter: Meter) -> Callable[[Phase], Parts]:
         """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
-        modes, c = kernels.tables(physics)
-        values = np.empty(3)
+        modes, c, values = meter.modes, meter.c, np.empty(3)
 
         def parts(phase: Phase) -> Parts:
             code, direction = phase.code, phase.direction

@@ -44,11 +44,9 @@ class Heyoka(Method):
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         import heyoka as hy
 
-        physics = Physics(problem.parameters)
-        p = problem.parameters
-        given = (p.N - p.k * physics.u_0, p.Omega)  # in the order of `system`
+        meter, p = Meter(problem, budget), problem.parameters
+        given = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
         at_end, no_more = int(hy.taylor_outcome.time_limit), int(hy.taylor_outcome.step_limit)
-        meter = Meter(problem, physics, budget)
         path: list[tuple[float, Array]] = []
         inside = 0.0
 
@@ -92,7 +90,7 @@ class Heyoka(Method):
             y[:size] = state
             return cause, integrator.time, y
 
-        result = run_phases(problem, physics, advance, meter)
+        result = run_phases(advance, meter)
         return replace(result, glue=result.seconds * (1.0 - inside / meter.wall))
 
 
