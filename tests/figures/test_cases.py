@@ -80,9 +80,10 @@ def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str
     figure = draw(name, separates=separates)
     assert figure.get_figwidth() in (COLUMN, PAGE)
     for ax in figure.axes:
-        if ax.get_label() == "shares the axis to its left" or not ax.axison:  # an empty panel says why
+        if not ax.axison:  # an empty panel says why
             continue
-        assert ax.get_ylabel().endswith(")"), "a unit in brackets"
+        shared = [ax.get_ylabel(), *(one.get_ylabel() for one in ax.get_shared_y_axes().get_siblings(ax))]
+        assert any(text.endswith(")") for text in shared), "a unit in brackets"
         assert ax.has_data() or not separates
     assert figure.get_suptitle() == ""
     assert min(text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()) >= 7

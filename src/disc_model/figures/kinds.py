@@ -204,6 +204,7 @@ class StabilityMap(Plot):
 class RegionMap(StabilityMap):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
+    drawn_by = "grids.stability_map.draw_regions"
     quantities = ("regions",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -421,6 +422,8 @@ def _listed(values: Sequence[Any]) -> str:
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
 
+    drawn_by = "grids.general.draw_heat_map"
+
     kind: Literal["heat_map"] = "heat_map"
     y: str
 
@@ -431,6 +434,7 @@ class CurvePlot(General):
     limits : ends of the variable's axis, so that figures can be compared
     """
 
+    drawn_by = "grids.general.draw_curve"
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"

@@ -53,17 +53,14 @@ PAPER_SAYS: dict[str, Any] = {
 }
 """Look of a number of the paper among curves."""
 
-BORDERS: dict[str, tuple[str, Any]] = {
-    "neutral": ("cycle loses stability", "-"),
-    "fold": ("stable cycle ends (fold)", (0, (1.2, 0.8))),
+BORDERS: dict[str, dict[str, Any]] = {
+    kind: {"color": BLACK, "linewidth": 1.0, "linestyle": dashes, "label": label}
+    for kind, label, dashes in (
+        ("neutral", "cycle loses stability", "-"),
+        ("fold", "stable cycle ends (fold)", (0, (1.2, 0.8))),
+    )
 }
-"""Names and dashes of the lines of stability charts; the dashes are so short that corners of cells stay visible."""
-
-
-def border(kind: str) -> dict[str, Any]:
-    """Appearance and label of a line of `BORDERS` in all charts."""
-    label, dashes = BORDERS[kind]
-    return {"color": BLACK, "linewidth": 1.0, "linestyle": dashes, "label": label}
+"""Looks and labels of the lines of all stability charts; the dashes are so short that corners of cells stay visible."""
 
 
 @contextmanager
@@ -103,6 +100,12 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
     return Figure(figsize=(width, height), layout="constrained")
+
+
+def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> tuple[Figure, list[Axes]]:
+    """A figure of a size in inches with panels, row by row; `shared` as `Figure.subplots` has it."""
+    figure = new_figure(width, height)
+    return figure, list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
@@ -297,15 +300,6 @@ def spaced_by_factor(values: np.ndarray) -> bool:
     return bool(np.allclose(steps, steps[0], rtol=1e-6))
 
 
-def envelope(ax: Axes, history: xr.Dataset, name: str, *, scale: float = 1.0, color: str, label: str = "") -> None:
-    """Draw the range of a variable against time, as a band that stays visible where it is thin."""
-    time = history["time"].values
-    low = history[f"{name}_min"].values * scale
-    high = history[f"{name}_max"].values * scale
-    ax.fill_between(time, low, high, facecolor=color, edgecolor=color, linewidth=0.5, label=label)
-    ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
-
-
 COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
 """Colours of sampled variables; all others belong to the slider."""
 
@@ -321,19 +315,30 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     return label, factor, COLOURS.get(name, SLIDER)
 
 
-def show_run(ax: Axes, case: xr.DataTree, name: str, until: float = np.inf) -> str:
-    """Draw the range of a variable over the run and the first separation; returns the axis label."""
-    ranges = history(case, until)
-    label, factor, colour = sampled(name, ranges)
-    envelope(ax, ranges, name, scale=factor, color=colour)
+def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
+    """Draw the range of a variable against time, as a band that stays visible where it is thin."""
+    time, (_, factor, own) = ranges["time"].values, sampled(name)
+    low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
+    ax.fill_between(time, low, high, color=color or own, linewidth=0.5, label=label)
+    ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
+
+
+def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str) -> None:
+    """Draw a variable against time, as a line or as ranges, and mark the first separation."""
+    label, factor, colour = sampled(name, window)
+    if f"{name}_min" in window:
+        envelope(ax, window, name)
+    else:
+        ax.plot(window["time"], window[name].values * factor, color=colour, linewidth=0.6)
+        ax.set_xlim(*window["time"].values[[0, -1]])
+    ax.set(xlabel="Time (s)", ylabel=label)
     mark_first_separation(ax, case)
-    return label
 
 
 def headroom(ax: Axes, share: float) -> None:
     """Leave room above the data, a fraction of their height."""
     low, high = ax.get_ylim()
-    ax.set_ylim(low, high + share * (high - low))
+    ax.set_ylim(top=high + share * (high - low))
 
 
 def broken(x: np.ndarray, y: np.ndarray, jump: float) -> list[np.ndarray]:
@@ -348,13 +353,14 @@ def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
-def mark_first_separation(ax: Axes, case: xr.DataTree) -> None:
+def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
     """Mark the first separation by a line with its time above it; nothing if the time shown has none."""
     time, (low, high) = float(case["first_separation"]), ax.get_xlim()
-    if not low <= time <= high:
-        return
-    ax.axvline(time, color=SEPARATED, linewidth=0.8, linestyle=(0, (4, 2)))
-    say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
+    if low <= time <= high:
+        dashed: dict[str, Any] = {"color": SEPARATED, "linewidth": 0.8, "linestyle": (0, (4, 2))}
+        ax.axvline(time, **dashed | look)
+        if named:
+            say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
 
 
 def say(ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:

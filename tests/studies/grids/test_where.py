@@ -11,7 +11,7 @@ import pytest
 from disc_model import Parameters, floquet
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids import heat_map
+from disc_model.figures.grids import general
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.rules import holds
@@ -81,7 +81,7 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert list(parts.gaps(study, study["period"], {})) == []
     assert (parts.excluded(study, {}) == left_out).all()
     for name, plot in grid.plots.items():
-        heat_map.draw(study, {}, plot).savefig(tmp_path / f"{name}.png")
+        general.draw_heat_map(study, {}, plot).savefig(tmp_path / f"{name}.png")
     with pytest.raises(MergeError, match="missing"):
         merge_batches(batches, grid.grid, {})
 

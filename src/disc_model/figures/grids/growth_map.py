@@ -136,14 +136,14 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
     for ax, own in zip(axes, curves, strict=True):
         for curve in own:
-            ax.plot(curve.Omega, curve.N, **parts.border(curve.kind) | {"label": "_nolegend_"})
+            ax.plot(curve.Omega, curve.N, **parts.BORDERS[curve.kind] | {"label": "_nolegend_"})
             if curve.label and np.isfinite(curve.N).any():
                 i = int(np.nanargmax(curve.N))
                 end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
                 look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": parts.halo()}
                 parts.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
     kinds = {curve.kind for own in curves for curve in own}
-    handles = [Line2D([], [], **parts.border(kind)) for kind in parts.BORDERS if kind in kinds]
+    handles = [Line2D([], [], **parts.BORDERS[kind]) for kind in parts.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]

@@ -48,5 +48,5 @@ def _fold(ax: Axes, curves: list[Curve], load: float, onset: np.ndarray) -> None
     folds = np.concatenate([[], *(crossings(curve, load) for curve in curves if curve.kind == "fold")])
     below = folds[folds <= np.nanmin(onset, initial=np.inf)]
     if below.size and np.isfinite(onset).any():
-        ax.axhline(below.max(), **parts.border("fold"), zorder=0)
+        ax.axhline(below.max(), **parts.BORDERS["fold"], zorder=0)
         parts.say_beside(ax, below.max(), f"{below.max():.2f}")

@@ -1,25 +1,29 @@
 """Stability maps: outcome of the static start over two parameters, and the growth rate of the stick-slip cycle.
 
-Studies of the quantity `outcome` are drawn as marks over the growth rate; for `regions` see `region_map`.
+Studies of the quantity `outcome` are drawn as marks over the growth rate, those of `regions` as cells beside it.
 """
 
-from collections.abc import Iterable, Mapping
+import json
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from matplotlib.ticker import FixedLocator, NullFormatter
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches, scale_of
-from disc_model.figures.kinds import StabilityMap
-from disc_model.figures.parts import BLACK, PAGE, PAPER, new_figure
+from disc_model.figures.grids import cells
+from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
+from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted
+from disc_model.figures.kinds import RegionMap, StabilityMap
+from disc_model.figures.parts import BLACK, BORDERS, MODES, PAGE, PAPER, panels
 
 MARKS: dict[str, dict[str, Any]] = {
     "quiet": {"marker": "o", "facecolor": "white", "s": 9},
@@ -36,26 +40,32 @@ LARGE = 55.0
 """Area of the marks of the paper."""
 
 
+LINES: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
+"""Edges of the marks."""
+
+
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
     """Draw one panel per normalization and one mark per point, over the further study ``growth`` if it is given."""
     norms = parts.normalizations(study)
-    figure = new_figure(PAGE, 3.3)
-    axes = figure.subplots(1, len(norms), sharex=True, sharey=True, squeeze=False)
-    parts.letters(axes[0], [parts.MODES[norm] for norm in norms])
-    for ax, norm in zip(axes[0], norms, strict=True):
-        _points(ax, parts.of(study, norm), plot)
+    figure, axes = panels(PAGE, 3.3, 1, len(norms), sharex=True, sharey=True)
+    parts.letters(axes, [MODES[norm] for norm in norms])
+    marks: dict[str, Artist] = {}
+    for ax, norm in zip(axes, norms, strict=True):
+        one = parts.of(study, norm)
+        x, y = np.meshgrid(*(one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
+        outcome = cells.words_of(one, "outcome", plot.x, plot.y)
+        for name, look in MARKS.items():
+            if (there := outcome == name).any():
+                marks[name] = ax.scatter(x[there], y[there], zorder=3, clip_on=False, **LINES, **look)
+                marks[name].set_label(OUTCOME_LOOKS[name].label)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
         growth = [parts.of(overlays["growth"], norm) for norm in norms]
-        gaps = growth_panels(figure, axes[0], growth, plot.x, plot.y)
-        for ax, one in zip(axes[0], growth, strict=True):
+        gaps = growth_panels(figure, axes, growth, plot.x, plot.y)
+        for ax, one in zip(axes, growth, strict=True):
             _neutral_line(ax, one, plot)
-        handles = [Line2D([], [], **parts.border("neutral")), *patches(CYCLE_LOOKS, gaps), *handles]
-    present = set(flag_names(study["outcome"]).flat)
-    look: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
-    marks = [name for name in MARKS if name in present]
-    empty = [axes[0, 0].scatter([], [], label=OUTCOME_LOOKS[name].label, **look, **MARKS[name]) for name in marks]
-    legend_above(figure, [*empty, *handles])
+        handles = [Line2D([], [], **BORDERS["neutral"]), *patches(CYCLE_LOOKS, gaps), *handles]
+    _legend_above(figure, [*(marks[name] for name in MARKS if name in marks), *handles])
     return figure
 
 
@@ -67,28 +77,96 @@ def _neutral_line(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> None:
         ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
 
 
-def _points(ax: Axes, study: xr.Dataset, plot: StabilityMap) -> None:
-    x, y = np.meshgrid(*(study[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
-    outcome = flag_names(study["outcome"].transpose(plot.y, plot.x))
-    for name, look in MARKS.items():
-        there = outcome == name
-        ax.scatter(x[there], y[there], linewidth=0.5, edgecolor=BLACK, zorder=3, clip_on=False, **look)
+def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
+    """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked.
+
+    Lines come from the further study ``curves``, if it is given, and else lie between cells.
+    """
+    shown = [parts.of(study, norm) for norm in parts.normalizations(study)]
+    figure, axes = panels(PAGE, 5.6, 2, len(shown), sharex=True, sharey=True)
+    above, below = axes[: len(shown)], axes[len(shown) :]
+    parts.letters(axes, [MODES[norm] for norm in parts.normalizations(study)])
+    gaps = growth_panels(figure, below, shown, plot.x, plot.y) - {"alone"}
+    outcomes: set[str] = set()
+    lines: list[Artist] = []
+    for upper, lower, one in zip(above, below, shown, strict=True):
+        outcomes |= cells.outcome_cells(upper, one, plot.x, plot.y)
+        for ax in (upper, lower):
+            lines += _curves(ax, one, overlays["curves"]) if "curves" in overlays else _borders(ax, one, plot)
+    named = {line.get_label(): line for line in lines}.values()
+    _legend_above(figure, [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, plot)])
+    said = Line2D([], [], linestyle="", label="\n".join(_captions(study, plot)))
+    handles = [*patches(CYCLE_LOOKS, gaps), said]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=1.2)
+    return figure
+
+
+def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
+    """Draw continued curves of the map's cycle; growth maps show their numbers."""
+    found = parted(curves_of(parts.of(curves, parts.normalizations(data)[0])), data)[0]
+    return draw_curves([ax], [[curve.unnumbered for curve in found]], [])
+
+
+def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Line2D]:
+    """Draw borders between cells: where the same cycle changes its stability, and where a stable one ends.
+
+    A cycle ends where the next cell has no cycle and the motion does not stay quiet there. A start that follows no
+    cycle, or another one, does not prove an end. Nothing is drawn around unresolved cells.
+    """
+    x, y = cells.edges_of(data, plot.x, plot.y)
+    state = cells.stability_of(data, plot.x, plot.y)
+    state[cells.unresolved(state)] = "unresolved"
+    stable, unstable = state == "stable", state == "unstable"
+    gone = cells.words_of(data, "cycle", plot.x, plot.y) == "no_cycle"
+    gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
+    # the axes of the study's plane may be exchanged
+    names = ("branch_continues_first", "branch_continues_second")
+    up, right = names if str(data["outcome"].dims[0]) == plot.y else names[::-1]
+    found: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
+    for joined, ahead, here, ends in (
+        (up, np.s_[1:, :], np.s_[:-1, :], lambda i, j: [(x[j], y[i + 1]), (x[j + 1], y[i + 1])]),
+        (right, np.s_[:, 1:], np.s_[:, :-1], lambda i, j: [(x[j + 1], y[i]), (x[j + 1], y[i + 1])]),
+    ):
+        same = cells.words_of(data, joined, plot.x, plot.y)[here] == "yes"
+        changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
+        stops = (stable[here] & gone[ahead]) | (gone[here] & stable[ahead])
+        found["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
+        found["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
+    for kind, lines in found.items():
+        ax.add_collection(LineCollection(lines, capstyle="projecting" if kind == "neutral" else None, **BORDERS[kind]))
+    return [Line2D([], [], **BORDERS[kind]) for kind, lines in found.items() if lines]
+
+
+def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
+    """Captions: the horizon, and disagreements between paper, start and cycle."""
+    yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the static start."
+    if "as_published" not in parts.normalizations(study):
+        return
+    data = parts.of(study, "as_published")
+    for name, mark in plot.marks.items():
+        here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
+        outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
+        found = OUTCOME_LOOKS[outcome].label
+        if outcome != mark.paper_outcome:
+            stated = OUTCOME_LOOKS[mark.paper_outcome].label
+            yield f"{name}: paper: “{stated}”, static start: {found}."
+        if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
+            kind = "stable" if rate < 0 else "unstable"
+            why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
+            yield f"{name}: {found}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
 
 
 # ----------------------------------------------------------------------------------------------------
-# Common parts of all maps of outcomes
+# Common parts of both
 
 
-def finish(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
-    """Scale and label the axes, and mark the paper's cases in the first panel, if it has the published modes.
-
-    axes : shape (rows, columns), all over the same two parameters
-    """
+def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
+    """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes."""
     set_scales(axes, study, plot)
     if parts.normalizations(study)[0] != "as_published":
         return []
     for name in plot.marks:
-        _paper_mark(axes[0, 0], plot, name)
+        _paper_mark(axes[0], plot, name)
     return _paper_handles(plot)
 
 
@@ -96,14 +174,10 @@ def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
     """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
     mark = plot.marks[name]
     at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-    ring: dict[str, Any] = {
-        "marker": MARKS[mark.paper_outcome]["marker"],
-        "facecolor": "none",
-        "zorder": 4,
-        "clip_on": False,
-    }
+    shape = MARKS[mark.paper_outcome]["marker"]
     for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
-        ax.scatter(*at, LARGE, edgecolor=color, linewidth=width, **ring)
+        ring: dict[str, Any] = {"facecolor": "none", "edgecolor": color, "linewidth": width}
+        ax.scatter(*at, LARGE, marker=shape, zorder=4, clip_on=False, **ring)
     across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
     offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
     parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=parts.halo(2.0))
@@ -121,29 +195,25 @@ def _paper_handles(plot: StabilityMap) -> list[Artist]:
     ]
 
 
-def set_scales(axes: np.ndarray, study: xr.Dataset, plot: StabilityMap) -> None:
-    """Set limits, labels and scales; a logarithmic scale with a 0 is linear up to the second value.
-
-    axes : shape (rows, columns)
-    """
-    for name, which in ((plot.x, "x"), (plot.y, "y")):
+def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> None:
+    """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
+    for which, name in plot.axes.items():
         label, factor = parts.axis_of(name)
         values = study[name].values * factor
-        scale = scale_of(name, values)
-        for ax in axes.flat:
-            axis = getattr(ax, f"{which}axis")
-            if scale != "linear":
-                start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
-                getattr(ax, f"set_{which}scale")(scale, **start)
-                axis.set_major_locator(FixedLocator(_round_values(values)))
-                axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-                axis.set_minor_formatter(NullFormatter())
-            to_axis = axis.get_transform()
-            low, high = to_axis.transform(values[[0, -1]])
-            margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
-            getattr(ax, f"set_{which}lim")(to_axis.inverted().transform([low - margin, high + margin]))
-        for ax in axes[-1] if which == "x" else axes[:, 0]:
+        axis = getattr(axes[0], f"{which}axis")
+        if (scale := cells.scale_of(name, values)) != "linear":
+            start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
+            getattr(axes[0], f"set_{which}scale")(scale, **start)
+            axis.set_major_locator(FixedLocator(_round_values(values)))
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter(NullFormatter())
+        to_axis = axis.get_transform()
+        low, high = to_axis.transform(values[[0, -1]])
+        margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
+        axes[0].set(**{f"{which}lim": to_axis.inverted().transform([low - margin, high + margin])})
+        for ax in axes:
             ax.set(**{f"{which}label": label})
+            ax.label_outer()
 
 
 def _round_values(values: np.ndarray) -> list[float]:
@@ -155,7 +225,6 @@ def _round_values(values: np.ndarray) -> list[float]:
     return [*([0.0] if values[0] == 0 else []), *inside.tolist()]
 
 
-def legend_above(figure: Figure, handles: Iterable[Artist]) -> None:
+def _legend_above(figure: Figure, handles: Sequence[Artist]) -> None:
     """Draw a legend over all panels; `parts.head` is its title."""
-    shown = list(handles)
-    figure.legend(handles=shown, loc="outside upper center", ncols=min(len(shown), 4), title_fontsize=8)
+    figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)

@@ -17,7 +17,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.figures import parts
-from disc_model.figures.parts import AFTER, BEFORE, BLACK, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, new_figure
+from disc_model.figures.parts import AFTER, BEFORE, BLACK, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, panels
 from disc_model.parameters import Parameters
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -36,42 +36,40 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
     The first case is shown; the axes of (a) fit the others too, so that figures of a pair can be compared.
     """
     case, *others = cases.values()
-    figure = new_figure(PAGE, 2.75)
-    slider, disc = figure.subplots(1, 2)
+    figure, [slider, disc] = panels(PAGE, 2.75, 1, 2)
     with parts.blank_if_missing(slider, disc):
         samples = dataset.samples(case, window, at_least=1)
         first, end = float(case["first_separation"]), float(case["time_reached"])
         found = stages(samples["time"].values, samples["phase"].values, first, end)
         parts.letters((slider, disc))
         for ax, name in ((slider, "psi"), (disc, "w_point")):
-            pair = (name, f"{name}_velocity")
-            (across, in_x, _), (up, in_y, _) = (parts.sampled(one, samples) for one in pair)
-            room = [dataset.samples(other, window, at_least=1) for other in others] if ax is slider else []
-            _scatter(ax, samples[pair[0]].values * in_x, samples[pair[1]].values * in_y, found)
-            _limit(ax, *(np.concatenate([each[one] for each in (samples, *room)]) * by
-                         for one, by in zip(pair, (in_x, in_y), strict=True)))  # fmt: skip
-            ax.set(xlabel=across, ylabel=up)
+            room = [samples, *(dataset.samples(other, window, at_least=1) for other in others if ax is slider)]
+            at = []
+            for axis, one in (("x", name), ("y", f"{name}_velocity")):
+                label, factor, _ = parts.sampled(one, samples)
+                at.append(samples[one].values * factor)
+                ax.set(
+                    **{f"{axis}label": label, f"{axis}lim": _around(np.concatenate([w[one] for w in room]) * factor)}
+                )
+            for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
+                there = getattr(found, stage)
+                look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
+                ax.scatter(*(values[there] for values in at), **look)
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
         _legend(figure, disc, found, first, bonded)
     return figure
 
 
-def _scatter(ax: Axes, x: np.ndarray, y: np.ndarray, found: Stages) -> None:
-    for order, name in enumerate(("early", "later", "separated")):  # later stages are drawn over earlier ones
-        shown = getattr(found, name)
-        ax.scatter(x[shown], y[shown], **MARKS[name], zorder=2 + 0.1 * order, rasterized=bool(shown.sum() > 2000))
-
-
-def _limit(ax: Axes, x: np.ndarray, y: np.ndarray) -> None:
-    for set_limits, values in ((ax.set_xlim, x), (ax.set_ylim, y)):
-        low, high = float(values.min()), float(values.max())
-        margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
-        set_limits(low - margin, high + margin)
+def _around(values: np.ndarray) -> tuple[float, float]:
+    """Limits of an axis with room for the marks."""
+    low, high = float(values.min()), float(values.max())
+    margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
+    return low - margin, high + margin
 
 
 def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool) -> None:
     labels = BY_SEPARATION if found.divided_by_separation else BY_HALVES
-    names = [name for name in ("early", "later", "separated") if getattr(found, name).any()]
+    names = [name for name in MARKS if getattr(found, name).any()]
     handles = [ax.scatter([], [], label=labels[name], **(MARKS[name] | {"s": 14})) for name in names]
     title = "Separation ignored:" if bonded else "No separation:"
     if found.divided_by_separation:
@@ -85,8 +83,7 @@ def portrait(
 ) -> Figure:
     """Draw one variable over another in a window, coloured by phase."""
     (case,) = cases.values()
-    figure = new_figure(COLUMN, 2.7)
-    ax = figure.subplots()
+    figure, [ax] = panels(COLUMN, 2.7)
     with parts.blank_if_missing(ax):
         samples = dataset.samples(case, window)
         (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
@@ -97,8 +94,7 @@ def portrait(
 
 def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
-    figure = new_figure(PAGE, 2.6)
-    axes = figure.subplots(1, len(cases), sharey=True, squeeze=False)[0]
+    figure, axes = panels(PAGE, 2.6, 1, len(cases), sharey=True)
     for ax, case in zip(axes, cases.values(), strict=True):
         with parts.blank_if_missing(ax):
             events = dataset.events(case)

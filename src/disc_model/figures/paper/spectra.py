@@ -16,7 +16,7 @@ from disc_model.data.dataset import Missing
 from disc_model.figures import parts
 from disc_model.figures.kinds import HIGHEST
 from disc_model.figures.paper.catalogue import ZOOM
-from disc_model.figures.parts import BLACK, PAGE, SKY, new_figure
+from disc_model.figures.parts import BLACK, PAGE, SKY, new_figure, panels
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -45,8 +45,7 @@ def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float
         found.time, found.frequency[shown], power, cmap=POWERS, vmin=FLOOR, vmax=0, shading="nearest", rasterized=True
     )
     ax.set_facecolor(POWERS(0.0))
-    ax.set_xlim(*stretch(found))
-    ax.set_ylim(0, highest)
+    ax.set(xlim=stretch(found), ylim=(0, highest))
     return mesh
 
 
@@ -56,11 +55,9 @@ def stretch(found: TimeFrequency) -> tuple[float, float]:
     return (0.0 if start < 1 else start), stop
 
 
-def mark_time(ax: Axes, time: float) -> None:
-    """Draw a dashed line at a time, if the panel shows it."""
-    low, high = ax.get_xlim()
-    if np.isfinite(time) and low < time < high:
-        ax.axvline(time, color="white", linewidth=0.9, linestyle=(0, (4, 2)))
+def mark_separation(ax: Axes, case: xr.DataTree) -> None:
+    """Draw a dashed line at the first separation, if the panel shows it."""
+    parts.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
 
 
 def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
@@ -73,7 +70,7 @@ def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) 
 def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequency, highest: float) -> None:
     """Draw power in dB below the strongest line, up to a frequency in Hz; the first separation is marked."""
     mesh = spectrogram(ax, found, float(found.power.max()), highest)
-    mark_time(ax, float(case["first_separation"]))
+    mark_separation(ax, case)
     ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
     colour_bar(figure, mesh, ax)
 
@@ -81,8 +78,7 @@ def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequen
 def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: str, highest: float) -> Figure:
     """Draw the spectrum in time of a variable of any case."""
     (case,) = cases.values()
-    figure = new_figure(PAGE / 2, 2.7)
-    ax = figure.subplots()
+    figure, [ax] = panels(PAGE / 2, 2.7)
     with parts.blank_if_missing(ax):
         spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
         ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
@@ -95,14 +91,13 @@ WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
     """Figure 24: range of the disc's displacement at r_0 and a fixed angle, with the stretches of figure 25."""
     case = cases["F13"]
-    figure = new_figure(PAGE, 2.2)
-    ax = figure.subplots()
+    figure, [ax] = panels(PAGE, 2.2)
     with parts.blank_if_missing(ax):
         for name in WINDOWS:
             start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
             ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
             ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-        ax.set(xlabel="Time (s)", ylabel=parts.show_run(ax, case, "w_point", until))
+        parts.show(ax, case, parts.history(case, until), "w_point")
         parts.headroom(ax, 0.15)
     return figure
 
@@ -137,14 +132,12 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
             continue
         for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
             mesh = spectrogram(ax, found[name], reference, highest)
-            mark_time(ax, float(case["first_separation"]))
+            mark_separation(ax, case)
         parts.letter(column[0], name[-1])
         column[1].set_xlabel("Time (s)")
         column[1].xaxis.set_major_locator(MaxNLocator(3))
     for ax in axes[:, 0]:
         ax.set_ylabel("Frequency (Hz)")
-    for ax in axes[:, 1:].flat:
-        ax.set_label("shares the axis to its left")
     if found:
         _name_lines(axes[1, -1])
         colour_bar(figure, mesh, list(axes.flat))
@@ -159,7 +152,6 @@ def _name_lines(ax: Axes) -> None:
     right.tick_params(length=0, pad=7)  # names keep clear of the ticks of single lines
     right.tick_params(which="minor", length=3, width=0.6)
     right.spines["right"].set_visible(False)
-    right.set_label("shares the axis to its left")
 
 
 def response(
@@ -181,9 +173,9 @@ def response(
     """
     (case,) = cases.values()
     figure = new_figure(PAGE, 2.7)
-    layout = [["whole"] * max(len(zooms), 1)] + ([[f"zoom{i}" for i in range(len(zooms))]] if zooms else [])
     left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
-    panels = left.subplot_mosaic(layout)
+    letters = "cd"[: len(zooms)]
+    axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(zooms), 1), letters])))
     shown = right.subplots()
     marked = None
     with parts.blank_if_missing(shown):
@@ -195,38 +187,37 @@ def response(
             p = Parameters.model_validate_json(case.attrs["parameters"])
             natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
             shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    with parts.blank_if_missing(panels["whole"]):
-        _whole_run(panels["whole"], case, variable, marked, until)
-    for i, (name, start) in enumerate(zooms):
-        if i:
-            panels[f"zoom{i}"].sharey(panels["zoom0"])
-            panels[f"zoom{i}"].tick_params(labelleft=False)
-        with parts.blank_if_missing(panels[f"zoom{i}"]):
-            _closer(panels[f"zoom{i}"], dataset.samples(case, name), variable, start, first=i == 0)
-            parts.letter(panels[f"zoom{i}"], "cd"[i])
+    with parts.blank_if_missing(axes["a"]):
+        parts.show(axes["a"], case, parts.history(case, until), variable)
+        _mark(axes["a"], marked)
+        parts.letter(axes["a"], "a")
+    for letter, (name, start) in zip(letters, zooms, strict=True):
+        ax = axes[letter]
+        if letter != "c":
+            ax.sharey(axes["c"])
+            ax.tick_params(labelleft=False)
+        with parts.blank_if_missing(ax):
+            label = _closer(ax, dataset.samples(case, name), variable, start)
+            ax.set_ylabel(label if letter == "c" else "")
+            parts.letter(ax, letter)
     return figure
 
 
-def _whole_run(ax: Axes, case: xr.DataTree, variable: str, marked: tuple[float, float] | None, until: float) -> None:
-    ax.set(xlabel="Time (s)", ylabel=parts.show_run(ax, case, variable, until))
+def _mark(ax: Axes, marked: tuple[float, float] | None) -> None:
+    """Shade the stretch of (b), with a line where it is too narrow to be seen."""
     if marked is not None:
         ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
         if marked[1] - marked[0] < 0.02 * ax.get_xlim()[1]:
-            # a line where the stretch of (b) is too narrow to be seen
             ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8, zorder=0)
             parts.say_above(ax, sum(marked) / 2, "(b)")
-    parts.letter(ax, "a")
 
 
-def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float, *, first: bool) -> None:
+def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:
+    """Draw a closer look; returns the label of the variable's axis."""
     part = window.sel(time=slice(start, start + ZOOM))
     if part.sizes["time"] < 2:
         raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
     label, scale, colour = parts.sampled(variable, window)
     ax.plot((part["time"].values - start) * 1e3, part[variable].values * scale, color=colour, linewidth=0.6)
-    ax.set_xlabel(f"Time after {start:g} s (ms)")
-    ax.set_xlim(0, ZOOM * 1e3)
-    if first:
-        ax.set_ylabel(label)
-    else:
-        ax.set_label("shares the axis to its left")
+    ax.set(xlabel=f"Time after {start:g} s (ms)", xlim=(0, ZOOM * 1e3))
+    return label
