@@ -202,7 +202,7 @@ def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     ]
     assert math.isnan(found["seconds"].values[0, 4])  # not tried where a coarser one took too long
     assert found["modes"].values.tolist() == [3, 9]
-    figure = figures.answer_maps([found, found])
+    figure = figures.answer_maps(found, found)
     assert figure.axes[1].get_title(loc="left") == "(b) late"
 
 

@@ -33,7 +33,7 @@ def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
     adaptive = failure_maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
     smooth = failure_maps.failure_map("regularised", "separating", (1,), (10.0, 1.0))
     assert np.isfinite(adaptive["longest_step"]).all()
-    figure = figures.failure_maps([found, engine, adaptive, smooth, adaptive])
+    figure = figures.failure_maps(found, engine, adaptive, smooth, adaptive)
     titles = [ax.get_title(loc="left") for ax in figure.axes if ax.get_title(loc="left")]
     assert titles[0] == f"(a) {METHODS['RK4'].label}"
     assert len(titles) == 5

@@ -5,7 +5,7 @@ All are pure functions of the datasets of `disc_model.benchmarks`.
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ import yaml
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
+from matplotlib.colors import LogNorm, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
@@ -25,7 +25,7 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import values_text
 from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, new_figure
+from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, panels
 
 _TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TITLES: dict[str, str] = _TEXTS["titles"]
@@ -82,8 +82,7 @@ def _panels(
 ) -> tuple[Figure, list[Axes]]:
     """Create `count` panels; a row is `row` inches high, and `more` inches are left for the legend."""
     rows = -(-count // columns)
-    figure = new_figure(PAGE, row * rows + more)
-    axes = list(np.ravel(figure.subplots(rows, columns, squeeze=False, **shared)))
+    figure, axes = panels(PAGE, row * rows + more, rows, columns, **shared)
     for ax in axes[count:]:
         ax.set_axis_off()
     for ax in axes[::columns]:
@@ -227,8 +226,7 @@ def prices(dataset: xr.Dataset) -> Figure:
     names = [name for name in HEADS if name in dataset["answer"].values]
     labels = found.drop_duplicates("line")["label"]
     lines = [*found["line"].unique()]
-    figure = new_figure(PAGE, 0.9 + 0.4 * len(lines))
-    ax = figure.subplots()
+    figure, [ax] = panels(PAGE, 0.9 + 0.4 * len(lines))
     colors = ScalarMappable(LogNorm(1e-3, 1e3), colormaps["YlGnBu"])
     for (line, name), part in found.groupby(["line", "answer"], sort=False):
         _price(ax, part, names.index(str(name)), lines.index(line), colors)
@@ -272,7 +270,7 @@ def _seconds(value: float) -> str:
 # Where methods fail
 
 
-def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
+def failure_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
     borders = {
         "-": r"RK4: $h\,\omega_{max} = 2\sqrt{2}$",
@@ -282,7 +280,7 @@ def failure_maps(maps: Sequence[xr.Dataset]) -> Figure:
     return _map_panels(maps, WORDS, borders, row=1.45, more=0.75)
 
 
-def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
+def answer_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: whether it finds the first separation, over setting and number of modes."""
     return _map_panels(maps, ANSWERED, {}, row=1.35, more=0.4)
 
@@ -290,57 +288,45 @@ def answer_maps(maps: Sequence[xr.Dataset]) -> Figure:
 def _map_panels(
     maps: Sequence[xr.Dataset], verdicts: Mapping[str, tuple[str, str]], borders: Mapping[Any, str], **size: float
 ) -> Figure:
-    """Panels with the shades of verdicts, and a legend of those that occur and of the borders by line style."""
+    """Panels with the shades of verdicts, and a legend of those that occur and of the borders by line style.
+
+    Fine settings, which cost more, are on the right.
+    """
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
+    shades = np.array([to_rgb(shade) for _, shade in verdicts.values()])
     for ax, one, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         dataset = one.sortby("value")
-        _verdict_cells(ax, dataset, [shade for _, shade in verdicts.values()])
+        edges, rows = _log_edges(dataset["value"].values), np.arange(dataset.sizes["diameters"] + 1) - 0.5
+        ax.pcolormesh(edges, rows, shades[dataset["verdict"].values])
+        ax.set(xscale="log", xlim=(edges[-1], edges[0]))
+        ax.set_yticks(rows[:-1] + 0.5, [f"{int(n)}" for n in dataset["modes"].values])
+        ax.set_xlabel(SETTINGS[dataset.attrs["setting"]][0], labelpad=1)
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
         parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
-        if borders:
-            _map_borders(ax, dataset)
+        for style, values in _borders(dataset) if borders else ():
+            x = np.repeat(np.clip(values, edges[0], edges[-1]), 2)
+            for color, dashes, width in (("white", "-", 2.4), (BLACK, style, 1.4)):
+                ax.plot(x, np.repeat(rows, 2)[1:-1], color=color, linestyle=dashes, linewidth=width)  # a staircase
     used = np.unique(np.concatenate([dataset["verdict"].values.ravel() for dataset in maps]))
     named = [verdict for number, verdict in enumerate(verdicts.values()) if number in used]
     handles: list[Any] = [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in named]
-    handles += [
-        Line2D([], [], color=BLACK, linestyle=style, linewidth=1.4, label=word) for style, word in borders.items()
-    ]
+    for style, word in borders.items():
+        handles.append(Line2D([], [], color=BLACK, linewidth=1.4, linestyle=style, label=word))
     figure.legend(handles=handles, loc="outside lower center", ncols=3)
     return figure
 
 
-def _map_borders(ax: Axes, dataset: xr.Dataset) -> None:
-    """Draw lines that explain where a method fails."""
+def _borders(dataset: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
+    """Line style and values, one per row, of the lines that explain where a method fails."""
     setting = dataset.attrs["setting"]
     if setting == "step":
-        _steps_line(ax, dataset["step_limit"].values, "-")
+        yield "-", dataset["step_limit"].values
         if dataset.attrs["scene"] == "separating":
-            _steps_line(ax, dataset["shortest_phase"].values, ":")
+            yield ":", dataset["shortest_phase"].values
     elif setting == "epsilon":
-        _steps_line(ax, dataset["stiff_epsilon"].values, "--")
+        yield "--", dataset["stiff_epsilon"].values
     elif np.isfinite(dataset["longest_step"].values).any():
-        _steps_line(ax, _crossing(dataset), ":")
-
-
-def _verdict_cells(ax: Axes, dataset: xr.Dataset, shades: Sequence[str]) -> None:
-    """Draw the cells of a map, one colour per verdict; fine settings, which cost more, on the right."""
-    edges = _log_edges(dataset["value"].values)
-    rows = np.arange(dataset.sizes["diameters"] + 1) - 0.5
-    norm = BoundaryNorm(np.arange(-0.5, len(shades)), len(shades))
-    ax.pcolormesh(edges, rows, dataset["verdict"].values, cmap=ListedColormap(shades), norm=norm)
-    ax.set_xscale("log")
-    ax.set_xlim(edges[-1], edges[0])
-    ax.set_yticks(np.arange(dataset.sizes["diameters"]), [f"{int(n)}" for n in dataset["modes"].values])
-    ax.set_xlabel(SETTINGS[dataset.attrs["setting"]][0], labelpad=1)
-
-
-def _steps_line(ax: Axes, x: np.ndarray, linestyle: str) -> None:
-    """Draw a border with one value per row as a staircase."""
-    y = np.repeat(np.arange(len(x) + 1) - 0.5, 2)[1:-1]
-    low, high = sorted(ax.get_xlim())
-    inside = np.clip(np.repeat(x, 2), low, high)
-    ax.plot(inside, y, color="white", linewidth=2.4)
-    ax.plot(inside, y, color=BLACK, linestyle=linestyle, linewidth=1.4)
+        yield ":", _crossing(dataset)
 
 
 def _crossing(dataset: xr.Dataset) -> np.ndarray:
@@ -355,9 +341,8 @@ def _crossing(dataset: xr.Dataset) -> np.ndarray:
 def _log_edges(values: np.ndarray) -> np.ndarray:
     """Edges of cells around ascending values, halfway between them in the logarithm."""
     x = np.log(values)
-    middle = 0.5 * (x[1:] + x[:-1])
-    edges: np.ndarray = np.exp(np.concatenate([[2 * x[0] - middle[0]], middle, [2 * x[-1] - middle[-1]]]))
-    return edges
+    whole = np.concatenate([[2 * x[0] - x[1]], x, [2 * x[-1] - x[-2]]])
+    return np.asarray(np.exp(0.5 * (whole[1:] + whole[:-1])))
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -390,25 +375,23 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
         ax.autoscale(False)
     axes["late"].set_ylim(-FAR, FAR)
     for line, (color, _), _ in lines:
-        _beyond(axes["late"], line, color)
-        _gone(axes["growth_rate"], line, color)
+        behind = line["late"].values
+        for name, there, height, look in (
+            ("late", behind > FAR, 0.98, {"marker": "^", "markersize": 3, "alpha": 0.7}),
+            ("late", behind < -FAR, 0.02, {"marker": "v", "markersize": 3, "alpha": 0.7}),
+            (
+                "growth_rate",
+                ~np.isfinite(line["growth_rate"].values),
+                0,
+                {"marker": "x", "markersize": 3.5, "zorder": 4},
+            ),
+        ):
+            at_edge: dict[str, Any] = {"color": color, "linestyle": "", "clip_on": False, **look}
+            if there.any():
+                x, edge = line["modes"].values[there], axes[name].get_xaxis_transform()
+                axes[name].plot(x, np.full(x.size, height), transform=edge, **at_edge)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     return figure
-
-
-def _beyond(ax: Axes, line: xr.Dataset, color: str) -> None:
-    """Draw arrows at the edge for first separations outside the panel."""
-    late = line["late"].values
-    for marker, edge, there in (("^", FAR, late > FAR), ("v", -FAR, late < -FAR)):
-        ax.plot(line["modes"][there], np.full(there.sum(), 0.96 * edge), marker, color=color, markersize=3, alpha=0.7)
-
-
-def _gone(ax: Axes, line: xr.Dataset, color: str) -> None:
-    """Draw crosses at the foot for models without a cycle."""
-    gone = ~np.isfinite(line["growth_rate"].values)
-    if gone.any():
-        at_foot: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "clip_on": False}
-        ax.plot(line["modes"][gone], np.zeros(gone.sum()), "x", color=color, markersize=3.5, zorder=4, **at_foot)
 
 
 def truncation(dataset: xr.Dataset) -> Figure:
@@ -452,8 +435,8 @@ def _against_modes(
     ticks : numbers of modes with a label
     labels, further : names of the colours, and the last entry of the legend
     """
-    figure = new_figure(PAGE, 3.9)
-    axes = {panel[0]: ax for panel, ax in zip(_TEXTS[name], figure.subplots(2, 4, sharex=True).flat, strict=True)}
+    figure, shown = panels(PAGE, 3.9, 2, 4, sharex=True)
+    axes = {panel[0]: ax for panel, ax in zip(_TEXTS[name], shown, strict=True)}
     marks = dict(zip(dict.fromkeys(mark for *_, mark in lines), _MARKS, strict=False))
     for (variable, label, log), letter in zip(_TEXTS[name], "abcdefgh", strict=True):
         ax = axes[variable]
@@ -468,7 +451,7 @@ def _against_modes(
         ax.set_xticks(ticks, [str(tick) for tick in ticks])
         for axis in (ax.xaxis, ax.yaxis):
             axis.set_minor_formatter(NullFormatter())
-    for ax in [*axes.values()][4:]:
+    for ax in shown[4:]:
         ax.set_xlabel("Real modes")
     named = [(label, *look, _MARKS[0]) for label, look in zip(labels, cycle(_LOOKS))]
     named += [(mark, BLACK, "o", look) for mark, look in marks.items()]
@@ -494,15 +477,15 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
 # All of them
 
 SCENE = "work_precision_"
-OF_ONE = {function.__name__: function for function in (overview, answers, prices, truncation, contact_truncation)}
-OF_MAPS = {function.__name__: function for function in (failure_maps, answer_maps)}
+DRAWN: dict[str, Callable[..., Figure]] = {
+    function.__name__: function
+    for function in (overview, answers, prices, truncation, contact_truncation, failure_maps, answer_maps)
+}
 
 
 def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
     """Draw a figure by its name; the figure of a scene is named `SCENE` and the scene."""
     datasets = [tree.to_dataset() for tree in inputs.values()]
-    if figure in OF_MAPS:
-        return OF_MAPS[figure](datasets)
     if figure.startswith(SCENE):
         return work_precision(datasets[0], figure.removeprefix(SCENE))
-    return OF_ONE[figure](datasets[0])
+    return DRAWN[figure](*datasets)

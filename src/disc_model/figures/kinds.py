@@ -263,6 +263,7 @@ class Bifurcation(Plot):
     paper_cases : cases of the paper by name, each with its value of x
     """
 
+    drawn_by = "grids.motions.draw_bifurcation"
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
 
@@ -279,6 +280,7 @@ class Branches(Plot):
     paper_cases : cases of the paper by name, each with its value of the parameter
     """
 
+    drawn_by = "grids.motions.draw_branches"
     quantities = ("branches",)
 
     kind: Literal["branches"] = "branches"
@@ -288,6 +290,7 @@ class Branches(Plot):
 class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
+    drawn_by = "grids.motions.draw_basins"
     quantities = ("basins",)
 
     kind: Literal["basins"] = "basins"
@@ -297,6 +300,7 @@ class BasinShares(Plot):
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
+    drawn_by = "grids.motions.draw_ramps"
     quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 

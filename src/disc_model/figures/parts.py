@@ -88,12 +88,11 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
                 study, *others = (of(one, norm) for one in (study, *others))
             figure: Figure = function(study, dict(zip([*inputs][1:], others, strict=True)), plot)
             head(figure, study, plot)
-        elif isinstance(plot, CasePlot):
-            (case,) = inputs.values()
-            figure = function(inputs, **plot.options)
-            entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
         else:
             figure = function(inputs, **plot.options)
+        if isinstance(plot, CasePlot):
+            (case,) = inputs.values()
+            entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
     return figure
 
 
@@ -229,29 +228,25 @@ def head(figure: Figure, study: xr.Dataset, plot: Plot) -> None:
         shown = picked(study, plot.variable, plot.at)
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         values = [coordinate_text(shown, name) for name in alone if name in shown.coords]
-    phrase = ", ".join(
-        filter(None, [*values, fixed(study, modes_in_panels=isinstance(plot, StabilityMap | GrowthMap))])
-    )
-    if isinstance(plot, StabilityMap):  # legends above the panels would cover a title of the figure itself
-        figure.legends[0].set_title(headline(figure, plot, study.attrs.get("title", ""), phrase))
-    else:
-        entitle(figure, plot, study.attrs.get("title", ""), phrase)
+    values.append(fixed(study, modes_in_panels=isinstance(plot, StabilityMap | GrowthMap)))
+    entitle(figure, plot, study.attrs.get("title", ""), ", ".join(filter(None, values)))
 
 
 def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
-    """Write a figure's title, or else another one, and the values of parameters above it; a caption says both."""
-    if phrase := headline(figure, plot, title, values):
-        figure.suptitle(phrase, fontsize=8)
+    """Write a figure's title, or else another one, and values of parameters above it, in lines that fit.
 
-
-def headline(figure: Figure, plot: Kind, title: str, values: str) -> str:
-    """The same in lines that fit."""
-    if plot.caption:
-        return ""
+    A caption says both.
+    """
     width = round(figure.get_figwidth() / 0.06)
     # keep a value on the line of its name
     kept = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-    return "\n".join(fill(text, width) for text in (plot.title or title, kept) if text).replace("\u00a0", " ")
+    text = "\n".join(fill(text, width) for text in (plot.title or title, kept) if text).replace("\u00a0", " ")
+    if plot.caption or not text:
+        return
+    if isinstance(plot, StabilityMap):  # a title of the figure itself would cover the legend above the panels
+        figure.legends[0].set_title(text)
+    else:
+        figure.suptitle(text, fontsize=8)
 
 
 def note(figure: Figure, plot: Kind, text: str) -> None:
@@ -268,16 +263,10 @@ def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]
     if by is None:
         return [("", found)]
     along = [str(name) for name, values in found.coords.items() if values.dims == (by,)]
+    ranks = {word: i for i, word in enumerate(WORDS)}  # words that are not among them keep their order
     each = [found.isel({by: i}) for i in range(found.sizes[by])]
-    each.sort(key=lambda one: [_rank(one[name].item()) for name in along])
+    each.sort(key=lambda one: [ranks.get(x, 0) if isinstance(x, str) else x for x in (one[n].item() for n in along)])
     return [(", ".join(coordinate_text(one, name) for name in along), one) for one in each]
-
-
-def _rank(value: float | str) -> float:
-    """Rank of a value among others of its parameter; words that are not in `WORDS` keep their order."""
-    if isinstance(value, str):
-        return [*WORDS].index(value) if value in WORDS else 0
-    return value
 
 
 def coordinate_text(one: xr.DataArray, by: str) -> str:
@@ -347,10 +336,24 @@ def broken(x: np.ndarray, y: np.ndarray, jump: float) -> list[np.ndarray]:
     return [np.insert(along.astype(float), gaps, np.nan) for along in (x, y)]
 
 
+def edges(values: np.ndarray) -> np.ndarray:
+    """Edges of cells around ascending values: halfway between neighbours, and the first and last value."""
+    return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+
+
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     """Runs of True: index of the first element, and the index after the last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
+
+
+def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:
+    """Mark the paper's cases by lines, named in the first panel: left of the first line, right of the next."""
+    for i, (case, place) in enumerate(places.items()):
+        for ax in axes:
+            ax.axvline(place, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
+        side = 2 * (-1) ** (i + 1)
+        say(axes[0], case, (place, height), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
@@ -415,11 +418,6 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 def failed(study: xr.Dataset) -> xr.DataArray:
     """Points of a grid study that failed."""
     return study["status"].copy(data=flag_names(study["status"]) != "ok")
-
-
-def without_failed(study: xr.Dataset, *names: str) -> xr.Dataset:
-    """A grid study with nan in the named variables at failed points."""
-    return study.assign({name: study[name].where(~failed(study)) for name in names})
 
 
 def mark_failed(

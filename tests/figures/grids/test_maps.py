@@ -11,9 +11,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import AsinhNorm, to_rgb
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids import basins
+from disc_model.figures.grids import motions
 from disc_model.figures.grids.cells import (
-    GREATEST,
     OUTCOME_LOOKS,
     Look,
     alone,
@@ -36,7 +35,7 @@ LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 # ---- cells
 
 
-@pytest.mark.parametrize("looks", [OUTCOME_LOOKS, basins.LOOKS])
+@pytest.mark.parametrize("looks", [OUTCOME_LOOKS, motions.LOOKS])
 def test_outcomes_differ_in_grey_print_by_darkness_or_hatch(looks: dict[str, Look]) -> None:
     """Separation and what is undecided were equally dark, and steady sliding nearly as light as a growing motion."""
     for one, other in combinations(looks.values(), 2):
@@ -291,16 +290,6 @@ def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
     assert not draw("growth_map", growth.assign(growth_rate=xr.full_like(growth["growth_rate"], 0.1))).legends
     none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
     assert labels(draw("growth_map", none)) == ["no cycle found"]
-
-
-@pytest.mark.usefixtures("toy")
-def test_growth_has_one_scale_of_colours_in_all_maps() -> None:
-    growth = growth_over(LOADS, SPEEDS)
-    growth["growth_rate"] /= 100  # to the rates of the paper
-    study = outcomes(growth["growth_rate"].dims, dict(growth.coords), np.zeros(growth["growth_rate"].shape, np.int8))
-    maps = draw("growth_map", growth), draw("stability_map", study, {"growth": growth}, x="Omega", y="N")
-    norms = [next(c for c in figure.axes[0].collections if c.get_array() is not None).norm for figure in maps]
-    assert all(isinstance(norm, AsinhNorm) and (norm.vmin, norm.vmax) == (-GREATEST, GREATEST) for norm in norms)
 
 
 @pytest.mark.usefixtures("toy")

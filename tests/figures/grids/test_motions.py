@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.figures.grids import ramps as drawn
+from disc_model.figures.grids import motions as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
 from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.grids.points import STATUSES

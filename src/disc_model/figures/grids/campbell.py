@@ -14,7 +14,7 @@ from scipy.optimize import isotonic_regression
 from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.kinds import Campbell
-from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SLIDER, new_figure
+from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SLIDER, panels
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
 """Colours of the disc's modes by nodal diameters, distinct in grey print; from six on they repeat. None is that of a
@@ -40,8 +40,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
     study = study.transpose("Omega", ...)
     met = noted(study)
     heights = [3.2, 1.9, 0.13 * (1 + len(met))]
-    figure = new_figure(PAGE, sum(heights) + 1.6)
-    top, bottom, below = figure.subplots(3, 1, height_ratios=heights)
+    figure, [top, bottom, below] = panels(PAGE, sum(heights) + 1.6, 3, height_ratios=heights)
     _frequencies(top, study)
     _growth_rates(bottom, study)
     for ax in (top, bottom):
@@ -79,47 +78,37 @@ def noted(study: xr.Dataset) -> list[Noted]:
     """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings, one entry for all
     crossings of a peak, and elsewhere beyond the linear part of the scale.
     """
-    effects = flag_names(study["crossing_effect"])
-    by_peak: dict[tuple[float, int], list[int]] = {}
-    for i in np.flatnonzero(np.isin(effects, RISES)):
-        by_peak.setdefault(_peak(study, float(study["crossing_growth_rate"][i])), []).append(int(i))
-    rate = study["growth_rate"].values
-    for first, after in parts.stretches(np.nan_to_num(rate) > LINEAR):
-        peak = _peak(study, float(rate[first:after].max()))
-        by_peak.setdefault(peak, [])
-    high = LEAST * (1 - 1e-9)
-    found = [_rise(study, peak, at) for peak, at in by_peak.items() if _rate_at(study, peak) >= high]
+    rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
+    rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), RISES))
+    peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
+    peaks += [(float(rate[first:after].max()), []) for first, after in parts.stretches(np.nan_to_num(rate) > LINEAR)]
+    places: dict[tuple[int, int], list[int]] = {}
+    for height, crossings in peaks:
+        at = int(np.nanargmin(np.abs(rate - height)))
+        places.setdefault((at, int(np.nanargmax(by_mode[at]))), []).extend(crossings)
+    least = LEAST * (1 - 1e-9)
+    found = [_rise(study, *place, crossings) for place, crossings in places.items() if by_mode[place] >= least]
     wide = [(low, high) for low, high, count in gaps(study) if count >= GAP]
     found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
     return sorted(found)
 
 
-def _peak(study: xr.Dataset, highest: float) -> tuple[float, int]:
-    """Speed at which the cycle's growth rate has this value, and the number of the growing mode."""
-    there = study.isel(Omega=int(np.nanargmin(np.abs(study["growth_rate"].values - highest))))
-    return float(there["Omega"]), int(there["cycle_growth_rate"].idxmax("mode"))
-
-
-def _rate_at(study: xr.Dataset, peak: tuple[float, int]) -> float:
-    return float(study["cycle_growth_rate"].sel(Omega=peak[0], mode=peak[1]))
-
-
-def _rise(study: xr.Dataset, peak: tuple[float, int], crossings: list[int]) -> Noted:
-    """A peak, described by the mode that leads there, which need not be that of a crossing."""
-    met = []
+def _rise(study: xr.Dataset, at: int, mode: int, crossings: list[int]) -> Noted:
+    """A peak at a speed, described by the mode that leads there, which need not be that of a crossing."""
+    peak = study.isel(Omega=at, mode=mode)
+    texts = [f"{float(peak['Omega']):.2f} rad/s"]
     for i in crossings:
         one = study.isel(crossing=i)
         line = "$f_s$" if flag_names(one["crossing_line"]) == "stick_slip" else _TURN
-        met.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
-    own, at = float(study["sliding_frequency"].sel(Omega=peak[0], mode=peak[1])), f"{peak[0]:.2f} rad/s"
-    phrase = f"{', '.join([at, *met])}: {own:.0f} Hz mode, {_rate_at(study, peak):.2g}/s"
-    return Noted(peak[0], tuple(crossings), phrase)
+        texts.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
+    own, rate = float(peak["sliding_frequency"]), float(peak["cycle_growth_rate"])
+    return Noted(float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {own:.0f} Hz mode, {rate:.2g}/s")
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
     """Ranges of speeds without a cycle, extended by half a step, and the number of speeds in each."""
     speeds = study["Omega"].values
-    edges = np.concatenate([speeds[:1], (speeds[1:] + speeds[:-1]) / 2, speeds[-1:]])
+    edges = parts.edges(speeds)
     for first, last in parts.stretches(~np.isfinite(study["growth_rate"].values)):
         yield float(edges[first]), float(edges[last]), last - first
 

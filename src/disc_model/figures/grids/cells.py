@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.figures.parts import BLACK, GREY, label_of
+from disc_model.figures.parts import BLACK, GREY, edges, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -80,15 +80,12 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
 
 def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
     """Edges of the cells around the points, halfway between neighbours, in the units of the axes."""
-    edges = []
+    found = []
     for name in (x, y):
         values = data[name].values * label_of(data[name])[1]
         log = scale_of(name, values) == "log"
-        along = np.log(values) if log else values
-        middle = 0.5 * (along[1:] + along[:-1])
-        whole = np.concatenate([along[:1], middle, along[-1:]])
-        edges.append(np.exp(whole) if log else whole)
-    return edges[0], edges[1]
+        found.append(np.exp(edges(np.log(values))) if log else edges(values))
+    return found[0], found[1]
 
 
 def scale_of(name: str, values: Array) -> str:
@@ -106,7 +103,7 @@ def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
     return np.asarray(flag_names(data[name].transpose(y, x)))
 
 
-def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
+def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
     """Fill and hatch cells in the look of their word; cells whose word has no look remain unchanged.
 
     A hatch is black over light colours and white over dark ones.
@@ -117,7 +114,7 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look], below:
     for word, look in looks.items():
         colours[words == word] = to_rgba(look.face)
     if colours.any():
-        ax.pcolormesh(*edges, colours, rasterized=True)
+        ax.pcolormesh(*sides, colours, rasterized=True)
     light = np.ones(words.shape)  # that of the page
     for layer in (colours if below is None else below, colours):
         light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
@@ -127,7 +124,7 @@ def fill(ax: Axes, edges: Edges, words: Names, looks: Mapping[str, Look], below:
             here = there & (words == word)
             if look.hatch and here.any():
                 hatched: dict[str, Any] = {"hatch": look.hatch, "edgecolor": ink, "linewidth": 0, "zorder": 1.1}
-                ax.pcolor(*edges, np.ma.masked_where(~here, here), cmap=ListedColormap(["none"]), **hatched)
+                ax.pcolor(*sides, np.ma.masked_where(~here, here), cmap=ListedColormap(["none"]), **hatched)
 
 
 def outcome_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
@@ -177,10 +174,10 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
     norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):
-        edges, words = edges_of(data, x, y), cycles_of(data, x, y)
+        sides, words = edges_of(data, x, y), cycles_of(data, x, y)
         rates = np.ma.masked_invalid(data["growth_rate"].transpose(y, x).values)
-        mesh = ax.pcolormesh(*edges, rates, cmap=cm.vik, norm=norm, rasterized=True)
-        fill(ax, edges, words, CYCLE_LOOKS, mesh.to_rgba(rates))
+        mesh = ax.pcolormesh(*sides, rates, cmap=cm.vik, norm=norm, rasterized=True)
+        fill(ax, sides, words, CYCLE_LOOKS, mesh.to_rgba(rates))
         used |= set(words.flat)
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")

@@ -20,7 +20,7 @@ from disc_model.figures import parts
 from disc_model.figures.grids.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, new_figure
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, panels
 
 Array = NDArray[np.float64]
 
@@ -42,8 +42,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
         # separation is unknown beyond the scan
         cycle = cycle.sel(Omega=slice(*scan))
         cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
-    figure = new_figure(PAGE if sweep is not None else COLUMN, 3.8)
-    axes = list(figure.subplots(1, 2 if sweep is not None else 1, sharex=True, sharey=True, squeeze=False)[0])
+    figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
     loads = study["N"].values
     axes[0].set(
         xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
@@ -88,12 +87,10 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
     one = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     there = (flag_names(one["crossing_kind"]) == kind) & np.isfinite(one["crossing"].values)
     found = [speeds[here] for speeds, here in zip(one["crossing"].values, there, strict=True)]
-    if kind == "ends":
-        return found
-    lowest = one["critical_speed"].values
-    return [
-        np.unique([*speeds, *([low] if np.isfinite(low) else [])]) for speeds, low in zip(found, lowest, strict=True)
-    ]
+    if kind == "begins":
+        lowest = one["critical_speed"].values[:, None]
+        found = [np.union1d(speeds, low[np.isfinite(low)]) for speeds, low in zip(found, lowest, strict=True)]
+    return found
 
 
 def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:

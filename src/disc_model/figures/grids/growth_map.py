@@ -13,12 +13,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patches
 from disc_model.figures.kinds import GrowthMap
-from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, new_figure
+from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, panels
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
@@ -44,11 +45,6 @@ class Curve:
     N: Array
     kind: str
     label: str = ""
-
-    @property
-    def unnumbered(self) -> Curve:
-        """The same curve without a label."""
-        return replace(self, label="")
 
 
 def curves_of(data: xr.Dataset) -> list[Curve]:
@@ -78,20 +74,22 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
     """
     rate = cycle["growth_rate"].transpose("N", "Omega")
-    padded = np.pad(rate.values, 1, mode="edge")
-    # shape (N, Omega, 3, 3): the cells around each cell
-    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    stable, unstable = ((sign * around > 0).any((2, 3)) for sign in (-1, 1))
-    beside = {"neutral": stable & unstable, "fold": stable & (~(around < 0)).any((2, 3))}
+    # beside a cell are the eight around it
+    stable, unstable, not_stable = (
+        binary_dilation(there, np.ones((3, 3))) for there in (rate < 0, rate > 0, ~(rate < 0))
+    )
+    beside = {"neutral": stable & unstable, "fold": stable & not_stable}
     shown: list[Curve] = []
     other: list[Curve] = []
     for curve in curves:
         there = np.isfinite(curve.Omega)
-        at = [_nearest(rate[name].values, getattr(curve, name)) for name in ("N", "Omega")]
-        own = _closed(there & np.asarray(beside[curve.kind])[at[0], at[1]]) & there
+        i, j = (_nearest(rate[name].values, getattr(curve, name)) for name in ("N", "Omega"))
+        own = _closed(there & beside[curve.kind][i, j]) & there
         for found, stretch in ((shown, own), (other, there & ~own)):
             if stretch.any():
-                Omega, N = (np.where(_and_next(stretch), along, np.nan) for along in (curve.Omega, curve.N))
+                # one point more at each end, so that the parts of a curve meet
+                joined = stretch | np.roll(stretch, 1) & (np.arange(stretch.size) > 0)
+                Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
                 found.append(replace(curve, Omega=Omega, N=N, label=curve.label if found is shown else ""))
     return shown, other
 
@@ -107,11 +105,6 @@ def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
     if at.size and own[at[0] : at[-1] + 1].mean() >= 0.5:
         own[at[0] : at[-1] + 1] = True
     return own
-
-
-def _and_next(there: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Extend each part by one point at its end, so that the parts of a curve meet."""
-    return there | np.concatenate([[False], there[:-1]])
 
 
 def crossings(curve: Curve, load: float) -> Array:
@@ -160,8 +153,7 @@ def span(values: Array) -> tuple[float, float]:
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
     """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
-    figure = new_figure(PAGE if len(norms) > 1 else COLUMN, 2.9)
-    axes = list(figure.subplots(1, len(norms), sharey=True, squeeze=False)[0])
+    figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
     data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
     shown: list[list[Curve]] = []
     other: list[Curve] = []

@@ -76,9 +76,8 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
     _, _, unit, factor = presentation_of(name)
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
-    first, last = ax.get_xticklabels()
-    first.set_horizontalalignment("left")  # clear of the neighbours
-    last.set_horizontalalignment("right")
+    for text, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):  # clear of the neighbours
+        text.set(horizontalalignment=side)
     ax.minorticks_off()
     ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
     ax.set(ylim=(-0.03, 1.03))

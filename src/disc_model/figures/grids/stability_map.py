@@ -5,6 +5,7 @@ Studies of the quantity `outcome` are drawn as marks over the growth rate, those
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -104,7 +105,7 @@ def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Re
 def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
     """Draw continued curves of the map's cycle; growth maps show their numbers."""
     found = parted(curves_of(parts.of(curves, parts.normalizations(data)[0])), data)[0]
-    return draw_curves([ax], [[curve.unnumbered for curve in found]], [])
+    return draw_curves([ax], [[replace(curve, label="") for curve in found]], [])
 
 
 def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Line2D]:

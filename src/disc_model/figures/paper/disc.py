@@ -48,7 +48,7 @@ class Motion:
     ----------
     parameters : of the case
     time : s, shape (n,)
-    cosines, sines : m, amplitudes at r_0 of the harmonics 0, 1, ... of the disc's angle, shape (harmonics, n)
+    amplitudes : m, at r_0, cosines + i sines of 0, 1, ... times the disc's angle, shape (harmonics, n)
     slider : rad, shape (n,), its angle on the disc
     u : m, shape (n,), its height
     phase : shape (n,), see `disc_model.data.variables.PHASES`
@@ -56,8 +56,7 @@ class Motion:
 
     parameters: Parameters
     time: Array
-    cosines: Array
-    sines: Array
+    amplitudes: NDArray[np.complex128]
     slider: Array
     u: Array
     phase: NDArray[np.int8]
@@ -65,9 +64,12 @@ class Motion:
     def deflection(self, i: int, r: Array, theta: Array) -> Array:
         """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m)."""
         shapes = mode_shapes(self.parameters, r) / mode_arrays(self.parameters).psi[:, None]
-        turns = np.arange(len(self.cosines))[:, None] * theta
-        around = self.cosines[:, i, None] * np.cos(turns) + self.sines[:, i, None] * np.sin(turns)
-        return np.asarray(shapes.T @ around)
+        turns = np.arange(len(self.amplitudes))[:, None] * theta
+        return np.asarray(shapes.T @ (self.amplitudes[:, i, None].conj() * np.exp(1j * turns)).real)
+
+    def word(self, i: int) -> str:
+        """The phase at sample i."""
+        return PHASES[int(self.phase[i])]
 
     def around(self, i: int, theta: Array) -> Array:
         """The disc's displacement at sample i along the circle of radius r_0, mm, shape of theta."""
@@ -90,11 +92,10 @@ def motion_of(case: xr.DataTree) -> Motion:
     turns = harmonics * angles[:, None]
     values = np.array([window["w_point"].values for window in windows])
     found = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
-    sines = np.vstack([np.zeros((1, values.shape[1])), found[len(harmonics) :]])
-    one = windows[0]
-    time = one["time"].values
-    slider = p.Omega * time - one["psi"].values
-    return Motion(p, time, found[: len(harmonics)], sines, slider, one["u"].values, one["phase"].values)
+    amplitudes = found[: len(harmonics)].astype(complex)
+    amplitudes[1:] += 1j * found[len(harmonics) :]
+    time, psi, u, phase = (windows[0][name].values for name in ("time", "psi", "u", "phase"))
+    return Motion(p, time, amplitudes, p.Omega * time - psi, u, phase)
 
 
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
@@ -110,7 +111,7 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
         scale = _scale(motion)
         for letter, ax, i in zip("abcd", discs, shown, strict=True):
             mesh = _disc(ax, motion, i, scale)
-            ax.set_title(f"({letter}) {1e3 * (motion.time[i] - motion.time[shown[0]]):.1f} ms, {_phase(motion, i)}")
+            ax.set_title(f"({letter}) {1e3 * (motion.time[i] - motion.time[shown[0]]):.1f} ms, {motion.word(i)}")
         bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04)
         bar.set_label("Deflection (mm)")
         bar.outline.set_visible(False)
@@ -135,12 +136,9 @@ def _scale(motion: Motion) -> Normalize:
     return Normalize(-1e3 * largest, 1e3 * largest)
 
 
-def _phase(motion: Motion, i: int) -> str:
-    return PHASES[int(motion.phase[i])]
-
-
-def _slider_colour(motion: Motion, i: int) -> str:
-    return SEPARATED if motion.phase[i] == SEPARATION else SLIDER
+def _colour(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
+    """Colour of the slider, or of words on it."""
+    return SEPARATED if motion.phase[i] == SEPARATION else otherwise
 
 
 def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
@@ -154,7 +152,7 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6, clip_on=False))
     angle = motion.slider[i]
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
-    ax.plot(*place, "o", ms=5, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
+    ax.plot(*place, "o", ms=5, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
     _directions(ax, p)
     ax.set_aspect("equal")
     ax.axis("off")
@@ -178,7 +176,7 @@ def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
     theta = np.linspace(0, 2 * np.pi, ANGLES)
     ax.plot(theta, motion.around(i, theta), color=DISC, **look)
     angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-    ax.plot(angle, height, "s", ms=size, mfc=_slider_colour(motion, i), mec=BLACK, mew=0.6)
+    ax.plot(angle, height, "s", ms=size, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
 
 
@@ -219,8 +217,8 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
             _disc(disc, motion, i, scale)
             _around(circle, motion, i, 7)
             circle.set_ylim(scale.vmin, scale.vmax)
-            colour = SEPARATED if motion.phase[i] == SEPARATION else BLACK
-            circle.set_title(f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {_phase(motion, i)}", color=colour)
+            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.word(i)}"
+            circle.set_title(text, color=_colour(motion, i, BLACK))
             return [disc, circle]
 
         animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)

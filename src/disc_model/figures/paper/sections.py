@@ -87,7 +87,17 @@ def portrait(
     with parts.blank_if_missing(ax):
         samples = dataset.samples(case, window)
         (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
-        _orbit(ax, samples["phase"].values, samples[x].values * in_x, samples[y].values * in_y)
+        for i, name in enumerate(PHASES):
+            inside = samples["phase"].values == i
+            look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+            width = 1.5 if name == "separation" else 0.5  # distinct in grey print
+            if inside.any():
+                # broken where the phase changes, so that no chord is drawn across others
+                height = np.where(inside, samples[y].values * in_y, np.nan)
+                ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
+        ax.margins(0.04)
+        for line in parts.legend_above(ax).get_lines():
+            line.set_linewidth(line.get_linewidth() + 0.5)
         ax.set(xlabel=across, ylabel=up)
     return figure
 
@@ -110,18 +120,3 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
     parts.letters(axes, cases)
     axes[0].set_ylabel("Largest difference (s)")
     return figure
-
-
-def _orbit(ax: Axes, phase: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
-    for i, name in enumerate(PHASES):
-        inside = phase == i
-        if not inside.any():
-            continue
-        # a line broken where the phase changes, so that no chord is drawn across others
-        shown = np.where(inside, y, np.nan)
-        colour = PHASE_COLOURS[name]
-        width = 1.5 if name == "separation" else 0.5  # distinct in grey print
-        ax.plot(x, shown, color=colour, linewidth=width, rasterized=True)
-        ax.plot([], [], color=colour, linewidth=width + 0.5, label=name)
-    ax.margins(0.04)
-    parts.legend_above(ax)

@@ -37,8 +37,8 @@ def spectrum_in_time(case: xr.DataTree, window: str, variable: str, **options: f
     return found
 
 
-def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float) -> QuadMesh:
-    """Draw power in dB relative to a reference, up to a frequency in Hz."""
+def spectrogram(ax: Axes, case: xr.DataTree, found: TimeFrequency, reference: float, highest: float) -> QuadMesh:
+    """Draw power in dB relative to a reference, up to a frequency in Hz; the first separation is marked."""
     shown = found.frequency <= highest
     power = 10 * np.log10(np.maximum(found.power[shown] / reference, 10 ** (FLOOR / 10 - 2)))
     mesh = ax.pcolormesh(
@@ -46,6 +46,7 @@ def spectrogram(ax: Axes, found: TimeFrequency, reference: float, highest: float
     )
     ax.set_facecolor(POWERS(0.0))
     ax.set(xlim=stretch(found), ylim=(0, highest))
+    parts.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
     return mesh
 
 
@@ -53,11 +54,6 @@ def stretch(found: TimeFrequency) -> tuple[float, float]:
     """The stretch of time that a panel represents, s; one at the start of a run begins at 0."""
     start, stop = round(float(found.time[0]), 1), round(float(found.time[-1]), 1)
     return (0.0 if start < 1 else start), stop
-
-
-def mark_separation(ax: Axes, case: xr.DataTree) -> None:
-    """Draw a dashed line at the first separation, if the panel shows it."""
-    parts.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
 
 
 def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
@@ -68,9 +64,8 @@ def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) 
 
 
 def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequency, highest: float) -> None:
-    """Draw power in dB below the strongest line, up to a frequency in Hz; the first separation is marked."""
-    mesh = spectrogram(ax, found, float(found.power.max()), highest)
-    mark_separation(ax, case)
+    """Draw power in dB below the strongest line, up to a frequency in Hz, with its scale."""
+    mesh = spectrogram(ax, case, found, float(found.power.max()), highest)
     ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
     colour_bar(figure, mesh, ax)
 
@@ -127,12 +122,10 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
         with parts.blank_if_missing(*column):
             found[name] = spectrum_in_time(case, name, "w_point")
     reference = max((float(each.power.max()) for each in found.values()), default=1.0)
-    for name, column in zip(WINDOWS, axes.T, strict=True):
-        if name not in found:
-            continue
+    for name, each in found.items():
+        column = axes[:, WINDOWS.index(name)]
         for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
-            mesh = spectrogram(ax, found[name], reference, highest)
-            mark_separation(ax, case)
+            mesh = spectrogram(ax, case, each, reference, highest)
         parts.letter(column[0], name[-1])
         column[1].set_xlabel("Time (s)")
         column[1].xaxis.set_major_locator(MaxNLocator(3))
