@@ -6,17 +6,16 @@ else.
 
 import functools
 import inspect
-import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
+from pydantic import create_model
 from rich.table import Column, Table
 
 from disc_model.disc import read_disc
-from disc_model.errors import Fault, ParameterError, as_text
-from disc_model.parameters import Parameters
-from disc_model.parameters import number as number_of
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Parameters, Strict
 from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 
@@ -154,18 +153,12 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
-def number(
-    name: str, text: str | None, holds: Callable[[float], bool], rule: str, faults: list[str], unit: str = ""
-) -> float:
-    """The number that `text` stands for; faults are appended to `faults`."""
-    if text is None:
-        faults.append(Fault((name,), "", "is required"))
-        return math.nan
+def option(name: str, text: str | None, kind: Any, faults: list[str], **optional: None) -> Any:
+    """The value of a type that `text` stands for, or None if it is faulty; faults are appended to `faults`."""
+    fields: dict[str, Any] = {name: (kind, optional.get("default", ...))}
+    given = {} if text is None else {name: text}
     try:
-        value = float(number_of(text, unit))
-    except ValueError as error:
-        faults.append(Fault((name,), as_text(text), str(error)))
-        return math.nan
-    if not holds(value):
-        faults.append(Fault((name,), as_text(value), rule))
-    return value
+        return getattr(create_model("Option", __base__=Strict, **fields)(**given), name)
+    except ParameterError as error:
+        faults += error.faults
+        return None

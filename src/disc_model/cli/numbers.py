@@ -10,7 +10,7 @@ from disc_model.cli.case import (
     case_lines,
     choice_lines,
     disc_words,
-    number,
+    option,
     parameters_of,
     print_rows,
     table,
@@ -19,7 +19,7 @@ from disc_model.cli.case import (
 from disc_model.disc import damping_ratios, disc_table
 from disc_model.errors import Fault, as_text, raise_faults, suggestion
 from disc_model.kernels import KINDS, compile_kernels
-from disc_model.parameters import CYCLE_TOLERANCES, limits_rule
+from disc_model.parameters import CYCLE_TOLERANCES, CycleTolerance
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
 
@@ -69,8 +69,7 @@ def floquet(
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
-    rule = limits_rule(CYCLE_TOLERANCES)
-    tolerance = number("tol", tol, lambda x: CYCLE_TOLERANCES[0] <= x <= CYCLE_TOLERANCES[1], rule, faults)
+    tolerance = option("tol", tol, CycleTolerance, faults)
     raise_faults(faults)
     from disc_model.stability.cycle import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of

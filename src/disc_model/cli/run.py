@@ -6,13 +6,14 @@ import logging
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
+from pydantic import Field
 
-from disc_model.cli.case import case_lines, number, parameters_of, print_rows, with_case_options
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
-from disc_model.parameters import TOLERANCES, Parameters, limits_rule
+from disc_model.cli.case import case_lines, option, parameters_of, print_rows, with_case_options
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults
+from disc_model.parameters import TOLERANCES, Count, Parameters, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.case import Record, Window
@@ -61,8 +62,12 @@ def run(
     """Simulate one case from static equilibrium and print what happened."""
     faults: list[str] = []
     p, choice = parameters_of(case, faults)
-    end = number("t_end", t_end, lambda x: 0 < x < math.inf, "must be finite and > 0", faults, "s")
-    how = _how(tol, stop_at, max_steps, faults)
+    end = option("t_end", t_end, Seconds, faults)
+    how = {
+        "tol": option("tol", tol, Tolerance, faults),
+        "stop_at": option("stop_at", stop_at, Literal[*STOPS], faults, default=None),
+        "max_steps": option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None),
+    }
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)
     faults += _file_faults(plot, save, checkpoint)
@@ -96,16 +101,10 @@ def run(
         raise typer.Exit(1)
 
 
-def _how(tol: str, stop_at: str | None, max_steps: str | None, faults: list[str]) -> dict[str, Any]:
-    """Options of a simulation: its end and accuracy; faults are appended to `faults`."""
-    tolerance = number("tol", tol, lambda x: TOLERANCES[0] <= x <= TOLERANCES[1], limits_rule(TOLERANCES), faults)
-    faults += violations((stop_at in (None, *STOPS), "stop_at", stop_at, "must be 'first_separation'"))
-    steps = None
-    if max_steps is not None:
-        rule = "must be a whole number >= 1"
-        found = number("max_steps", max_steps, lambda x: x >= 1 and x.is_integer(), rule, faults)
-        steps = int(found) if math.isfinite(found) else None
-    return {"tol": tolerance, "stop_at": stop_at, "max_steps": steps}
+def _values(text: str) -> dict[str, Any]:
+    """Values by key, from a text such as ``last=3,rate=4000``; none if it is no such text."""
+    pairs = [pair.partition("=") for pair in text.split(",")]
+    return {key.strip(): value for key, _, value in pairs} if all(sign for _, sign, _ in pairs) else {}
 
 
 def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp, ...]:
@@ -116,12 +115,12 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
     found: list[Ramp] = []
     for i, text in enumerate(texts):
         name, named, given = text.partition(":")
-        pairs = [pair.partition("=") for pair in given.split(",")]
-        if not named or not all(sign for _, sign, _ in pairs):
+        values = _values(given)
+        if not named or not values:
             faults.append(Fault(("ramp",), as_text(text), "must be PARAMETER:KEY=VALUE,..."))
             continue
         try:
-            found.append(Ramp(parameter=name, **{key.strip(): value for key, _, value in pairs}))  # type: ignore[arg-type]
+            found.append(Ramp(parameter=name, **values))
         except ParameterError as error:
             faults += (fault.inside(("ramp", str(i))) for fault in error.faults)
     if not faults:  # with faults, other parameters may be meant
@@ -129,7 +128,7 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
     return tuple(found)
 
 
-def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, Window]:
+def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict[str, Window]:
     """Windows by name, from texts such as ``late:last=3,rate=4000``; faults are appended to `faults`."""
     from disc_model.data.variables import BESIDE_WINDOWS
     from disc_model.simulation.case import Window
@@ -138,14 +137,14 @@ def _windows(texts: Sequence[str], end: float, faults: list[str]) -> dict[str, W
     for i, text in enumerate(texts):
         name, named, given = text.rpartition(":")
         name = name if named else f"sample_{i}"
-        pairs = [pair.partition("=") for pair in given.split(",")]
-        if not name.isidentifier() or name in {*found, *BESIDE_WINDOWS} or not all(sign for _, sign, _ in pairs):
+        values = _values(given)
+        if not name.isidentifier() or name in {*found, *BESIDE_WINDOWS} or not values:
             rule = "must be NAME:KEY=VALUE,... with a name of its own, not that of a variable or of events"
             faults.append(Fault(("window",), as_text(text), rule))
             continue
         try:
-            found[name] = Window(**{key.strip(): value for key, _, value in pairs})
-            if math.isfinite(end) and (stop := found[name].resolved(0.0, end).stop) > end:
+            found[name] = Window(**values)
+            if end is not None and (stop := found[name].resolved(0.0, end).stop) > end:
                 rule = f"must be within the run: stop={as_text(stop)} <= t_end={as_text(end)}"
                 faults.append(Fault(("window", name), "", rule))
         except ParameterError as error:

@@ -72,12 +72,15 @@ def list_(
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
     files = files or [_own_file(otherwise=_paper())]
     chosen, grids = _read(files)
+    computed = (directory / "results").is_dir() and find_spec("snakemake") is not None
+    states = _summary(files, directory) if computed or what == "outdated" else {}
+    outdated = {file: status for file, status in states.items() if status is not None}
     if what == "outdated":
-        _list_outdated(files, directory)
+        for file, status in outdated.items():
+            typer.echo(f"{file}: {status}")
+        typer.echo(f"{len(outdated)} of {len(states)} files are missing or out of date")
         return
     rows, heads = LISTS[what]
-    computed = (directory / "results").is_dir() and find_spec("snakemake") is not None
-    outdated = {row["output_file"] for row in _summary(files, directory)[0]} if computed else set()
 
     def state(file: str) -> str:
         """Whether a result is there, and up to date."""
@@ -240,19 +243,12 @@ LISTS = {
 }
 
 
-def _list_outdated(files: Sequence[Path], directory: Path) -> None:
-    """List what a run would compute."""
-    outdated, count = _summary(files, directory)
-    for row in outdated:
-        typer.echo(f"{row['output_file']}: {row['status']}")
-    typer.echo(f"{len(outdated)} of {count} files are missing or out of date")
-
-
-def _summary(files: Sequence[Path], directory: Path) -> tuple[list[dict[str, str]], int]:
-    """The files that a run would compute, according to Snakemake, and the number of all files."""
+def _summary(files: Sequence[Path], directory: Path) -> dict[str, str | None]:
+    """The files of a study and, of those that a run would compute, the status; according to Snakemake."""
     command = _command(files, ["--summary", "--directory", str(directory)])
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
-    return [dict(zip(head, line, strict=False)) for line in lines if line[-1] != "no update"], len(lines)
+    rows = [dict(zip(head, line, strict=False)) for line in lines]
+    return {row["output_file"]: None if row["plan"] == "no update" else row["status"] for row in rows}

@@ -153,8 +153,16 @@ WITHOUT_CYCLE = {
 """Names in tables and figures of points without a stick-slip cycle, by their status."""
 EXCLUDED = "excluded"
 """Flag of points that a grid's rule leaves out; other variables have no value there."""
+START = "start"
+"""The dimension of a grid along which the initial conditions vary."""
 SAMPLE = "sample"
 """The dimension of a grid that numbers the samples of distributed parameters."""
+_OF_GRIDS = {
+    START: Variable("", "where the motion starts"),
+    SAMPLE: Variable("1", "number of the sample"),
+    "truncation_quantity": Variable("", "quantity by which modes are chosen"),
+    "truncation_tolerance": Variable("1", "largest relative error of the quantity by which modes are chosen"),
+}
 
 
 def attributes(name: str) -> dict[str, Any]:
@@ -164,7 +172,7 @@ def attributes(name: str) -> dict[str, Any]:
         which = "least" if bound == "min" else "greatest"
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
     else:
-        variable = (SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS).get(name) or _parameter_variable(name)
+        variable = (SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS).get(name) or _parameter_variable(name)
     return variable.attributes
 
 

@@ -10,14 +10,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import Variable, attributes
+from disc_model.data.variables import attributes
 
 TRACES = ("P", "u", "psi")
-FURTHER = {
-    "truncation_quantity": Variable("", "quantity by which modes are chosen"),
-    "truncation_tolerance": Variable("1", "largest relative error of the quantity by which modes are chosen"),
-}
-"""Base values besides parameters, where the number of modes is chosen for each point."""
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
 BITS = 17
@@ -44,7 +39,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
         "fixed": [
-            _named(name, FURTHER[name].attributes if name in FURTHER else attributes(name)) | {"value": value}
+            _named(name, attributes(name)) | {"value": value}
             for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()
         ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],

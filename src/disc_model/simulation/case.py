@@ -200,8 +200,6 @@ class Record(Checked):
 # ----------------------------------------------------------------------------------------------------
 # Initial states
 
-START = "start"
-"""Name of the axis of a grid along which the initial conditions vary."""
 Coordinate = Literal["u", "u_velocity", "f"]
 
 _OPTIONAL: dict[str, Any] = {

@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import yaml
 from pydantic import create_model
 
-from disc_model.data.variables import PERTURBATIONS, SAMPLE, values_text
+from disc_model.data.variables import PERTURBATIONS, SAMPLE, START, values_text
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, suggestion
 from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
@@ -52,7 +52,7 @@ from disc_model.parameters import (
     with_ratios,
 )
 from disc_model.plausibility import RULES
-from disc_model.simulation.case import START, CaseSpec, SomeParameters, Start
+from disc_model.simulation.case import CaseSpec, SomeParameters, Start
 from disc_model.studies.document import (
     DOCUMENTS,
     NUMBERS,
@@ -849,7 +849,7 @@ class GridStudy:
             coordinate = name.removeprefix("perturbation_")
             if name not in self.wanted:
                 continue
-            if self.entry is not None and not self.entry.starts:
+            if self.entry is not None and not issubclass(self.entry.options, Start):
                 self._add(("axes", name), f"the quantity {self.quantity} follows no motion from a start")
             if coordinate in mapping(options.get("perturbation")):
                 self._add(("options", "perturbation", coordinate), f"is given, and varies as axes.{name}")

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
-from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Variable, attributes
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import by_motion
 from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
-from disc_model.simulation.case import START, Start
+from disc_model.simulation.case import Start
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
 from disc_model.truncation import FREQUENCIES, by_frequencies, read_asked
@@ -40,7 +40,7 @@ def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
     quantity = quantity or module_of(data["quantity"])
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
-    options = entry.stated.model_validate(data["options"])
+    options = entry.options.model_validate(data["options"])
     start = Start(**{name: getattr(options, name) for name in Start.model_fields if isinstance(options, Start)})
     varied = [dict(zip(names, point, strict=True)) for point in points]
     parameters = [_made(data, values) for values in varied]
@@ -129,10 +129,6 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
 
 def describe(name: str) -> dict[str, Any]:
     """Attributes of a varying parameter as a coordinate; choices are stored as words, without unit."""
-    if name == START:
-        return {"long_name": "where the motion starts"}
-    if name == SAMPLE:
-        return {"units": "1", "long_name": "number of the sample"}
     described = attributes(name)
     return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
 
