@@ -10,7 +10,7 @@ import math
 import numbers
 import operator
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import pairwise
@@ -59,7 +59,7 @@ class Unfit(str):
     unit: str
 
 
-_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/)?[A-Za-zµΩ°%].*)")
+_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
 DECIMAL_COMMA = "; a decimal point is needed, not a comma"
 _POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
@@ -86,7 +86,7 @@ def in_si(value: Any, unit: Units) -> Any:
         return {name: in_si(one, unit if isinstance(unit, str) else unit.get(name, "")) for name, one in value.items()}
     if not isinstance(value, str):
         return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
-    if not isinstance(unit, str) or not (found := _WITH_UNIT.fullmatch(value)) or _is_float(value):
+    if not isinstance(unit, str) or not (found := _WITH_UNIT.fullmatch(value)):
         return value
     try:
         if not _UNIT.fullmatch(found[2]):
@@ -99,14 +99,6 @@ def in_si(value: Any, unit: Units) -> Any:
         unfit = Unfit(value)
         unfit.unit = unit
         return unfit
-
-
-def _is_float(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def number(value: Any, unit: str = "") -> Any:
@@ -171,13 +163,19 @@ def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[st
     return [] if good else [Fault((name,), as_text(value), limits_rule(limits))]
 
 
-def _within(limits: tuple[float, float]) -> AfterValidator:
-    def checked(value: float) -> float:
-        if not limits[0] <= value <= limits[1]:
-            raise ValueError(limits_rule(limits))
+def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
+    """A validator for pydantic, which refuses values by a rule."""
+
+    def checked(value: Any) -> Any:
+        if not holds(value):
+            raise ValueError(rule)
         return value
 
-    return AfterValidator(checked)
+    return checked
+
+
+def _within(limits: tuple[float, float]) -> AfterValidator:
+    return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], limits_rule(limits)))
 
 
 def _drawable(text: str) -> str:
@@ -393,13 +391,6 @@ _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
-def _diameters(value: Any) -> Any:
-    """Refuse "auto", which only files and command lines understand, and name the function to use instead."""
-    if value == AUTO:
-        raise ValueError("must be a whole number; disc_model.choose_modes finds one")
-    return value
-
-
 def _compliance(value: Any) -> Any:
     """A compliance in m/N, or `RESIDUAL`."""
     if value == RESIDUAL:
@@ -413,11 +404,11 @@ def _compliance(value: Any) -> Any:
     return found
 
 
-def _disc(value: Any) -> Any:
-    """Refuse the name of a file, which only study files and the command line accept."""
-    if isinstance(value, str):
-        raise ValueError("must be a Disc: disc_model.read_disc reads one from a table of modes")
-    return value
+# What only study files and the command line accept is refused with the name of the function to use instead.
+_CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
+_READ = must(
+    lambda value: not isinstance(value, str), "must be a Disc: disc_model.read_disc reads one from a table of modes"
+)
 
 
 def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
@@ -638,7 +629,7 @@ class Parameters(Checked):
     h: Real = _number(0.002, "m", "thickness of the disc", gt=0)
     nu: Real = _number(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
     rho: Real = _number(7200.0, "kg/m^3", "density of the disc", gt=0)
-    n_diameters: Annotated[Count, BeforeValidator(_diameters)] = _field(
+    n_diameters: Annotated[Count, BeforeValidator(_CHOSEN)] = _field(
         4, "1", "highest number of nodal diameters, -1 for a rigid disc", ge=-1, le=60
     )
     n_circles: Count = _field(0, "1", "highest number of nodal circles", ge=0, le=20)
@@ -655,7 +646,7 @@ class Parameters(Checked):
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
     )
-    disc: Annotated[Disc, BeforeValidator(_disc, json_schema_input_type=str)] | None = _field(
+    disc: Annotated[Disc, BeforeValidator(_READ, json_schema_input_type=str)] | None = _field(
         None, "", "a disc given by its modes, instead of the plate"
     )
 

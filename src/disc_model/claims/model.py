@@ -21,7 +21,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from disc_model.analysis.classify import SETTLED
 from disc_model.claims.measures import STRETCH, Absent, CaseView, elsewhere, rows, simulate_again
 from disc_model.data.dataset import Missing
-from disc_model.data.texts import Parts, Sentences
+from disc_model.data.texts import Part, Sentences
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 
@@ -130,7 +130,7 @@ class Text(BaseModel):
     remark: str = ""
     remarks: dict[str, str] = {}
     undecided: dict[str, str] = {}
-    parts: Parts = {}
+    parts: dict[str, Part] = {}
     apart: str = ""
 
 

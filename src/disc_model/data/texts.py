@@ -3,28 +3,30 @@
 import string
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, ConfigDict, model_validator
 
 
-class Part(BaseModel):
-    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any."""
+class _Templates(BaseModel):
+    """Templates by name; a plain text is the first of them."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, raw: Any) -> Any:
+        return {next(iter(cls.model_fields)): raw} if isinstance(raw, str) else raw
+
+
+class Part(_Templates):
+    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any."""
+
     each: str
     between: str = "; "
     around: str = "{}"
     empty: str = ""
-
-
-def _part(raw: Any) -> Any:
-    return {"each": raw} if isinstance(raw, str) else raw
-
-
-Parts = dict[str, Annotated[Part, BeforeValidator(_part)]]
-"""Parts by the name of the value; a plain text is taken as ``each``."""
 
 
 class Sentences(string.Formatter):
@@ -51,12 +53,11 @@ class Sentences(string.Formatter):
         return format(value, spec)
 
 
-class Passage(BaseModel):
-    """A template with the parts for its lists."""
+class Passage(_Templates):
+    """A template with the parts for its lists, by the name of the value."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     text: str
-    parts: Parts = {}
+    parts: dict[str, Part] = {}
 
     def fill(self, **values: Any) -> str:
         return Sentences(self.parts, values).fill(self.text)
@@ -67,8 +68,4 @@ def read_passages(path: Path) -> dict[str, Passage]:
     import yaml
 
     raw = yaml.safe_load(path.read_text(encoding="utf-8"))
-    return {name: Passage.model_validate(_text(passage)) for name, passage in raw.items()}
-
-
-def _text(raw: Any) -> Any:
-    return {"text": raw} if isinstance(raw, str) else raw
+    return {name: Passage.model_validate(passage) for name, passage in raw.items()}

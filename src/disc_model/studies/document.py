@@ -51,6 +51,7 @@ from disc_model.parameters import (
     Tolerance,
     Unit,
     Units,
+    must,
 )
 from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
@@ -76,13 +77,7 @@ TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameter
 
 def _but(taken: Collection[str], rule: str) -> AfterValidator:
     """Refuse some names."""
-
-    def free(text: str) -> str:
-        if text in taken:
-            raise ValueError(rule)
-        return text
-
-    return AfterValidator(free)
+    return AfterValidator(must(lambda name: name not in taken, rule))
 
 
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
