@@ -196,12 +196,9 @@ def _run(command: list[str]) -> int:
 
 def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
     """The study of the files, checked with all files that it names, and its grids."""
-    from disc_model.studies.study import inherit, mapping, read_file, study_from_config
+    from disc_model.studies.study import load_study
 
-    raw: dict[str, object] = {}
-    for file in files:
-        raw = inherit(raw, mapping(read_file(file)[0]))
-    chosen = study_from_config(raw, files)
+    chosen = load_study(*files)
     folders = [Path(), *(file.parent for file in files), PACKAGE]
     grids, asked = chosen.grids(folders)
     return chosen, {name: grids[name] for name in asked}

@@ -1,6 +1,6 @@
 """Studies: their files are read and checked, and yield named cases and grids, cut into batches of points.
 
-`load_study` reads a file, `study_from_config` takes what Snakemake read from one or more files, and `parse_study` takes
+`load_study` reads files, `study_from_config` takes what Snakemake read from one or more files, and `parse_study` takes
 the mapping itself. All raise one `StudyError` that lists every fault with its path. The keys of a file are defined in
 `disc_model.studies.document`. Each case inherits the study's base values and default records.
 
@@ -16,7 +16,7 @@ import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, partial, reduce
 from glob import glob
 from itertools import chain, pairwise, product
 from pathlib import Path
@@ -286,10 +286,10 @@ class Study:
             grids[path.stem] = study.grid
 
 
-def load_study(path: str | Path) -> Study:
-    """Read and check a study file, but not the files that it names."""
-    raw, faults = read_file(Path(path))
-    return parse_study(raw, Path(path).parent, str(path), faults)
+def load_study(*paths: str | Path) -> Study:
+    """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
+    contents = (read_file(Path(path))[0] for path in paths)
+    return study_from_config(reduce(lambda below, own: inherit(mapping(below), mapping(own)), contents), paths)
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
