@@ -80,13 +80,12 @@ def in_si(value: Any, unit: Units) -> Any:
 
     Results have 15 digits, so that equal decimal numbers in different units are equal.
     """
-    if not unit or not isinstance(value, str | list | tuple | dict):
-        return value
     if isinstance(value, dict):
-        return {name: in_si(one, unit if isinstance(unit, str) else unit.get(name, "")) for name, one in value.items()}
-    if not isinstance(value, str):
+        units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
+        return value | {name: in_si(one, units[name]) for name, one in value.items() if name in units}
+    if isinstance(value, list | tuple):
         return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
-    if not isinstance(unit, str) or not (found := _WITH_UNIT.fullmatch(value)):
+    if not (unit and isinstance(unit, str) and isinstance(value, str) and (found := _WITH_UNIT.fullmatch(value))):
         return value
     try:
         if not _UNIT.fullmatch(found[2]):
@@ -219,15 +218,16 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
 
 
 @functools.cache
-def _units_of(model: type[BaseModel]) -> dict[str, Unit]:
-    """Marks of the fields of a model that have a unit, by name, from their schema or from their type."""
+def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]:
+    """Units of the fields of a model, from their schema or from their type; and the fields that decide others."""
     found = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
         marks = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else _marks(field)
         if mark := next((mark for mark in marks if isinstance(mark, Unit)), None):
             found[name] = mark
-    return found
+    decided = {name: mark.of for name, mark in found.items() if mark.of}
+    return {name: mark.name for name, mark in found.items() if not mark.of}, decided
 
 
 def _marks(field: FieldInfo) -> Iterator[Any]:
@@ -265,9 +265,9 @@ class Strict(BaseModel):
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
         """SI units of the values that have one, by the marks of their types."""
-        fields, marks = cls.model_fields, _units_of(cls).items()
-        of = {name: str(data.get(mark.of, fields[mark.of].default)) for name, mark in marks if mark.of}
-        return {name: Parameters.unit(of[name]) if mark.of else mark.name for name, mark in marks}
+        fixed, decided = _units_of(cls)
+        named = {name: data.get(by, cls.model_fields[by].default) for name, by in decided.items()}
+        return fixed | {name: Parameters.unit(str(one)) for name, one in named.items()}
 
     @classmethod
     def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
@@ -686,7 +686,7 @@ class Parameters(Checked):
     @classmethod
     def unit(cls, name: str) -> str:
         """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown name."""
-        return str(_units_of(cls)[name].name) if name in _units_of(cls) else ""
+        return str(_units_of(cls)[0].get(name, ""))
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
