@@ -93,7 +93,7 @@ class Text(BaseModel):
     claim : the statement in our own words
     paper : the value the paper gives, or "" if it only shows it
     tolerance, reason : what counts as agreement, and why that much
-    bounds, given : numbers for the check and for sentences: thresholds of ours, and others
+    bounds, given : numbers for the check and for sentences: thresholds of ours, and others or lists of them
     cases : those of config/paper.yaml that the check is given, each with the time in s to which it must have run
     separates : those of them that the claim says something of after separation: without one it is not testable; true
         stands for all in which contact can be lost
@@ -118,7 +118,7 @@ class Text(BaseModel):
     tolerance: str = ""
     reason: str = ""
     bounds: dict[str, float] = {}
-    given: dict[str, float] = {}
+    given: dict[str, float | list[float]] = {}
     cases: dict[str, float] = {}
     separates: Names = ()
     steady: Names = ()
@@ -153,11 +153,15 @@ class Claim:
         return self.texts.claim
 
     @property
+    def paper(self) -> str:
+        return Sentences({}, self.numbers).fill(self.texts.paper)
+
+    @property
     def tolerance(self) -> str:
         return Sentences({}, self.numbers).fill(self.texts.tolerance)
 
     @property
-    def numbers(self) -> dict[str, float]:
+    def numbers(self) -> dict[str, Any]:
         """Numbers that the check receives besides its evidence."""
         return self.texts.given | self.texts.bounds
 
