@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.grid import words
+from disc_model.benchmarks.grid import TABLES, words
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.benchmarks.texts import TEXTS, report
@@ -15,6 +15,8 @@ DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) required of the other methods."""
 FLOOR = 1e-15
 """Errors below this count as equal, zero among them, s."""
+SHOWN = TABLES["work_precision_table"]
+"""Variables by the column of the table that shows them."""
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
@@ -75,24 +77,13 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     series = points[points["solver"] == "series"]
     wanted = zip(points["scene"], points["event_error"], strict=True)
     yardsticks = [cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted]
-    columns = {
-        "scene": points["scene"],
-        "method": points["solver"],
-        "setting": [f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
-        "verdict": [words(Verdict)[verdict] for verdict in points["verdict"]],
-        "seconds_per_simulated_second": points["cost"],
-        "event_time_error": points["event_error"],
-        "state_error": points["state_error"],
-        "events": points["events"].astype(int),
-        "separations": points["separations"].astype(int),
-        "order_event": points["order_event"],
-        "order_state": points["order_state"],
-        "order_theory": points["order_theory"],
-        "times_series": points["cost"] / yardsticks,
-        "python_share": points["glue"],
-        "repeats": points["repeats"].astype(int),
-    }
-    return pd.DataFrame(columns)
+    derived = points.assign(
+        setting=[f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
+        verdict=[words(Verdict)[verdict] for verdict in points["verdict"]],
+        times_series=points["cost"] / yardsticks,
+    )
+    counts = dict.fromkeys(("events", "separations", "repeats"), int)
+    return derived.astype(counts)[[*SHOWN.values()]].set_axis([*SHOWN], axis=1)
 
 
 def to_markdown(dataset: xr.Dataset) -> str:

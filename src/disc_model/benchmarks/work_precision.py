@@ -98,62 +98,50 @@ def work_precision(
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
     settings = all_settings() if settings is None else settings
-    todo = points(settings)
+    todo, rows, calls = points(settings), [], []
     walls: dict[Point, list[float]] = defaultdict(list)
-    runs: dict[Point, list[dict[str, float]]] = defaultdict(list)
-    calls: dict[str, list[float]] = defaultdict(list)
-    rows: dict[Point, dict[str, float]] = {}
     hopeless: set[tuple[str, str]] = set()
     for turn in range(rounds):
         for point in todo:
-            lane = (point.scene, point.method)
-            if lane in hopeless if not turn else not _again(walls[point], turn):
+            if point[:2] in hopeless if not turn else not _again(walls[point], turn):
                 continue
             problem, limit = scenes.problem(point.scene), min(budget, BUDGETS.get(point.scene, budget))
             result = METHODS[point.method].solve(problem, point.value, limit)
             if not turn and result.seconds < LONG:  # the first call compiles and warms caches
                 result = METHODS[point.method].solve(problem, point.value, limit)
             if result.outcome is RunStatus.TOO_SLOW:
-                hopeless.add(lane)
+                hopeless.add(point[:2])
             walls[point].append(result.seconds)
-            longer = point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point])
-            further = _further(point, limit) - result.seconds if longer else math.nan
-            runs[point].append({"further": further, "glue": result.glue / max(result.seconds, 1e-9)})
-            if not turn:
-                found = scenes.errors(problem, scenes.answer(point.scene), result)
-                rows[point] = {
-                    "value": point.value,
-                    "event_error": found.event_time,
-                    "state_error": found.state,
-                    "verdict": found.verdict,
-                    "work": result.work,
-                    "events": len(result.kinds),
-                    "separations": result.separations,
-                }
+            followed = point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point])
+            found = scenes.errors(problem, scenes.answer(point.scene), result)
+            row = {
+                "seconds": result.seconds,
+                "cost": result.seconds / problem.span,
+                "marginal_cost": _marginal_cost(point, limit, result.seconds) if followed else math.nan,
+                "glue": result.glue / max(result.seconds, 1e-9),
+                "event_error": found.event_time,
+                "state_error": found.state,
+                "verdict": found.verdict,
+                "work": result.work,
+                "events": len(result.kinds),
+                "separations": result.separations,
+            }
+            rows.append(point._asdict() | row)
             if progress is not None:
                 progress(point, result.seconds)
-        for scene in set(JUDGED) & set(settings):
-            calls[scene].append(_whole_call(scene))
-    for point, row in rows.items():
-        seconds, span = float(np.median(walls[point])), scenes.problem(point.scene).span
-        further, glue = pd.DataFrame(runs[point]).median()
-        row |= {
-            "seconds": seconds,
-            "seconds_spread": max(walls[point]) - min(walls[point]),
-            "cost": seconds / span,
-            "marginal_cost": further / (FURTHER * span),
-            "glue": glue,
-            "repeats": len(walls[point]),
-        }
-    return _dataset(settings, rows, {name: float(np.median(calls[name] or math.nan)) for name in settings})
+        calls.append({scene: _whole_call(scene) if scene in JUDGED else math.nan for scene in settings})
+    each = pd.DataFrame(rows).groupby(["scene", "method", "place"])
+    spread = each["seconds"].max() - each["seconds"].min()
+    table = each.median().assign(seconds_spread=spread, repeats=each.size())
+    return _dataset(settings, table, pd.DataFrame(calls).median())
 
 
-def _further(point: Point, limit: float) -> float:
-    """Processor time (s) of a run that continues beyond the scene's end."""
+def _marginal_cost(point: Point, limit: float, seconds: float) -> float:
+    """Seconds per simulated second beyond the scene's end, by a run that continues; ``seconds``: up to the end."""
     problem = scenes.problem(point.scene)
     longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
     result = METHODS[point.method].solve(longer, point.value, limit)
-    return result.seconds if result.outcome is RunStatus.FINISHED else math.nan
+    return (result.seconds - seconds) / (FURTHER * problem.span) if result.outcome is RunStatus.FINISHED else math.nan
 
 
 def _whole_call(scene: str) -> float:
@@ -178,12 +166,10 @@ def _again(walls: Sequence[float], turn: int) -> bool:
     return bool(walls) and (_quick(walls) or (float(np.median(walls)) < LONG and turn < 3))
 
 
-def _dataset(
-    settings: Settings, rows: Mapping[Point, Mapping[str, float]], whole_calls: Mapping[str, float]
-) -> xr.Dataset:
+def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: pd.Series[float]) -> xr.Dataset:
     methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
     most = max(len(values) for by_method in settings.values() for values in by_method.values())
-    found = {(point.scene, point.method, point.place): row for point, row in rows.items()}
+    found: dict[Any, Any] = rows.to_dict("index")
     dataset = measured(
         {"scene": [*settings], "solver": methods, "point": range(most)},
         VARIABLES,
@@ -194,7 +180,7 @@ def _dataset(
     dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     lines: dict[str, tuple[str | tuple[str, ...], Any]] = {
         "label": ("solver", [METHODS[name].label for name in methods]),
-        "whole_call": ("scene", [*whole_calls.values()]),
+        "whole_call": ("scene", whole_calls.to_numpy()),
         "order_theory": ("solver", [METHODS[name].order for name in methods]),
     }
     for error in ("event", "state"):

@@ -29,6 +29,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.benchmarks.grid import TABLES
 from disc_model.benchmarks.scenes import read_state
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
@@ -62,18 +63,7 @@ class Question(NamedTuple):
     enough: float
 
 
-QUESTIONS: Mapping[str, Question] = {
-    "first_separation": Question("first separation", "s", 0.1),
-    "separation_rate": Question("separations per second", "s-1", 1.0),
-    "disc_range": Question("range of the disc", "m", 2e-4),
-    "period": Question("period in releases", "1", 0.5),
-    "onset": Question("speed of onset", "rad s-1", 0.1),
-    "growth_rate": Question("growth rate", "s-1", 1e-3),
-    "region": Question("share of a region judged wrong", "1", 0.01),
-}
-"""The paper gives the first separation to 0.1 s and its critical speed to 0.1 rad/s. The other tolerances are about one
-per cent (five for the growth rate).
-"""
+QUESTIONS = {name: Question(*given) for name, given in TABLES["questions"].items()}
 
 
 class AnswerStatus(enum.IntEnum):
