@@ -64,7 +64,7 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
 def test_cases_are_those_that_the_texts_speak_of() -> None:
     count = 0
     for claim in CLAIMS:
-        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.text):
+        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.texts.claim):
             found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.texts.cases)}
             assert tuple(map(float, phrase.groups())) in found, claim.id
             count += 1

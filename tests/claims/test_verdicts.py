@@ -356,7 +356,7 @@ def test_a_jump_that_modes_may_move_is_looked_for(faster: float, two: float, ver
         ("F11", lambda case: case.samples("zoom"), "did not record zoom"),
         ("F11", lambda case: case.range_of("P", 300, 310), "no history from 300 to 310"),
         ("F11", lambda case: measures.slope(case, "P", 300, 310), "no history from 300 to 310"),
-        ("F13", lambda case: measures.stretch(case, "spectrum_a", 20, 30), "no samples in spectrum_a from 20 to 30"),
+        ("F13", lambda case: measures.signal(case, "spectrum_a", 20, 30), "no samples in spectrum_a from 20 to 30"),
         ("S43Ninf", lambda case: measures.phase_share(case, "stick"), "events of case S43Ninf cover is 0"),
         ("F11", measures.separation_durations, "no whole separation"),
         ("S43Ninf", measures.release_intervals, "fewer than 20 stick-slip cycles"),

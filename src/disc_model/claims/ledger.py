@@ -45,7 +45,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     rows = []
     for claim in CLAIMS:
         (found, turned), texts = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.texts
-        told = (claim.id, texts.location, claim.text, claim.paper, found.ours, claim.tolerance, texts.reason)
+        told = (claim.id, texts.location, texts.claim, claim.paper, found.ours, claim.tolerance, texts.reason)
         rows.append((*told, found.verdict, found.remark, texts.apart, turned))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -96,7 +96,7 @@ def _once(cases: Sequence[CaseView]) -> list[str]:
     """Names of cases from the static start, without repetitions at another tolerance."""
     names: dict[Parameters, str] = {}
     for case in cases:
-        if "start" not in case.node.attrs:
+        if case.from_rest:
             names.setdefault(case.parameters, case.name)
     return [*names.values()]
 
@@ -129,7 +129,12 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
     table = {"Case": [case.name for case in cases], "Parameters": [_parameters(case) for case in cases]}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
-    table |= {f"Growth{which} (1/s)": [_growth(case) for case in those] for which, those in pairs.items()}
+    table |= {
+        f"Growth{which} (1/s)": [
+            measures.rate_text(measures.growth_or_nan(case.parameters), without="–") for case in those
+        ]
+        for which, those in pairs.items()
+    }
     table[f"P in the end{[*pairs][-1]} (N)"] = [_late(case) for case in new or cases]
     return pd.DataFrame(table)
 
@@ -151,8 +156,7 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
 
 
 def _parameters(case: CaseView) -> str:
-    p = case.parameters
-    return values_text(dict(p)) + (", separation ignored" if p.contact == "bonded" else "")
+    return values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "")
 
 
 def _first(case: CaseView) -> str:
@@ -162,10 +166,6 @@ def _first(case: CaseView) -> str:
     if case.bonded:
         return "ignored"
     return f"none in {case['time_reached']:g} s" if math.isnan(time) else f"{time:.2f} s"
-
-
-def _growth(case: CaseView) -> str:
-    return measures.rate_text(measures.growth_or_nan(case.parameters), without="–")
 
 
 def _late(case: CaseView) -> str:

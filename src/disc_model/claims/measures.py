@@ -407,20 +407,20 @@ def early_range(case: CaseView, name: str) -> Range:
     return case.range_of(name, 1.0, 1.0 + STRETCH)
 
 
-def stretch(case: CaseView, window: str, start: float, stop: float) -> xr.Dataset:
-    """The samples of a window between two times; raises `Missing` if there are none."""
+def signal(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> tuple[Array, Array]:
+    """Times of the samples of a window between two times, and a variable there; raises `Missing` without any."""
     found = case.samples(window).sel(time=slice(start, stop))
     if found.sizes["time"] < 100:
         raise Missing(f"case {case.name} has no samples in {window} from {start:g} to {stop:g} s")
-    return found
+    return found["time"].values, found[name].values
 
 
 def lines(
     case: CaseView, window: str, start: float, stop: float, name: str = "w_point", **options: float
 ) -> list[Line]:
     """Lines of a variable between two times, see `disc_model.analysis.spectra.lines`; raises `Missing` without any."""
-    part = stretch(case, window, start, stop)
-    found = spectra.lines(part["time"].values, part[name].values, **options)
+    time, values = signal(case, window, start, stop, name)
+    found = spectra.lines(time, values, **options)
     if not found:
         raise Missing(f"case {case.name} has no line in the spectrum of {window}")
     return found
@@ -431,10 +431,10 @@ def loudest(found: Iterable[Line], count: int) -> list[Line]:
     return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
-def strongest(case: CaseView, samples: xr.Dataset, near: float, within: float) -> Line:
+def strongest(case: CaseView, samples: tuple[Array, Array], near: float, within: float) -> Line:
     """The strongest line of the disc's point within `within` Hz of a frequency; raises `Absent`."""
     try:
-        return spectra.strongest(samples["time"].values, samples["w_point"].values, near, within)
+        return spectra.strongest(*samples, near, within)
     except ValueError as error:
         raise Absent(f"case {case.name}: {error} in w_point") from None
 

@@ -149,10 +149,6 @@ class Claim:
     check: Callable[..., Answer]
 
     @property
-    def text(self) -> str:
-        return self.texts.claim
-
-    @property
     def paper(self) -> str:
         return Sentences({}, self.numbers).fill(self.texts.paper)
 
@@ -181,7 +177,7 @@ class Claim:
     def judge(self, *evidence: Any) -> Finding:
         """Apply the check to this evidence; the verdict names missing evidence."""
         try:
-            return self._found(self.check(*evidence, **self.numbers))
+            return self._found(self.check(*evidence, **self.numbers), {})
         except Missing as missing:
             return _without(missing)
 
@@ -255,8 +251,10 @@ class Claim:
             others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
         return _turns(others, verdict) or "stable"
 
-    def _found(self, answer: Answer, cases: Mapping[str, CaseView] | None = None) -> Finding:
-        texts, values = self.texts, self.numbers | rows_of(cases or {}) | answer.values
+    def _found(self, answer: Answer, cases: Mapping[str, CaseView]) -> Finding:
+        texts, values = self.texts, self.numbers | {**cases, "cases": rows(cases.values())} | answer.values
+        if cases:
+            values.setdefault("case", next(iter(cases.values())))
         if answer.holds is None and not answer.why:
             remarks, verdict = [texts.remark], NOT_TESTABLE
         elif answer.holds is None:
@@ -271,11 +269,6 @@ class Claim:
             raise ClaimError(
                 f"claim {self.id}: no value {name} among those of its check: {', '.join(values)}"
             ) from None
-
-
-def rows_of(cases: Mapping[str, CaseView]) -> dict[str, Any]:
-    """Cases by the names that sentences use."""
-    return {**cases, "cases": rows(cases.values())} | ({"case": next(iter(cases.values()))} if cases else {})
 
 
 def checks_of(*modules: ModuleType) -> dict[str, Callable[..., Answer]]:

@@ -73,7 +73,7 @@ def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) ->
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """The strongest line near each frequency of Table 2."""
-    window = measures.stretch(case, "spectrum_a", 0, 10)
+    window = measures.signal(case, "spectrum_a", 0, 10)
     within = [SEARCHED if paper > 10 else SEARCHED / 4 for paper in LISTED]
     return [measures.strongest(case, window, *near) for near in zip(LISTED, within, strict=True)]
 

@@ -24,14 +24,13 @@ STILL = 3e-4
 
 def lines(case: CaseView, *, bound: float) -> Answer:
     found, table = table_2_lines(case), table_2(case)
-    window = measures.stretch(case, *EARLY)
-    time, values = window["time"].values, window["w_point"].values
+    window = measures.signal(case, *EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
-    chance = max(spectra.chance(time, values, line, SEARCHED) for line in found)
+    chance = max(spectra.chance(*window, line, SEARCHED) for line in found)
     floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
     others = [
         line.frequency
-        for line in spectra.lines(time, values, above=1.0, below=300.0, floor=floor, apart=1.0)
+        for line in spectra.lines(*window, above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
     named = int((table["ours_is"] != UNNAMED).sum())
@@ -49,7 +48,7 @@ def lines(case: CaseView, *, bound: float) -> Answer:
 def drive(case: CaseView, *, level: float) -> Answer:
     drive = case["Omega"] / (2 * np.pi)
     (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
-    window = measures.stretch(case, *EARLY)
+    window = measures.signal(case, *EARLY)
     found = [measures.strongest(case, window, n * drive, 0.4 * drive) for n in (1, 2, 3)]
     levels = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
@@ -141,8 +140,7 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
 
 def _level(case: CaseView, frequency: float) -> float:
     """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    late = measures.stretch(case, "late", 0.0, np.inf)
-    found, amplitude = spectra.amplitude_spectrum(late["time"].values, late["w_point"].values)
+    found, amplitude = spectra.amplitude_spectrum(*measures.signal(case, "late", 0.0, np.inf))
     near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
     return measures.ratio(near, every, f"the spectrum of case {case.name}")
 
@@ -158,7 +156,7 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
 
 def three_kinds(case: CaseView, *, factor: float) -> Answer:
     spans = (EARLY, LATER, LATE)
-    ranges = [float(np.ptp(measures.stretch(case, *span)["w_point"].values)) for span in spans]
+    ranges = [float(np.ptp(measures.signal(case, *span)[1])) for span in spans]
     filled = [_fuzziness(case, *span) for span in spans]
     rates = [measures.slope(case, "P", max(start, 1), stop) for _, start, stop in spans]
     grown = [max(rate, STILL) for rate in rates]
@@ -384,12 +382,10 @@ def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str
 
     Only stretches of equal length, with equal resolution, can be compared.
     """
-    part = measures.stretch(case, window, start, stop)
-    return spectra.coverage(part["time"].values, part[name].values, LOW, 300.0, floor=1e-4)
+    return spectra.coverage(*measures.signal(case, window, start, stop, name), LOW, 300.0, floor=1e-4)
 
 
 def _power_share(case: CaseView, window: str, start: float, stop: float, above: float = HIGH) -> float:
     """Ratio of the power above a frequency in Hz to that above `LOW`."""
     measures.lines(case, window, start, stop, above=LOW)  # raises Missing without any line
-    part = measures.stretch(case, window, start, stop)
-    return spectra.power_share(part["time"].values, part["w_point"].values, above, LOW)
+    return spectra.power_share(*measures.signal(case, window, start, stop), above, LOW)

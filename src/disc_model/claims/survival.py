@@ -78,12 +78,8 @@ def evidence(model: Model, cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) 
     """Evidence on a model from merged cases and grid studies."""
     views = [CaseView(name, node) for name, node in cases.children.items()]
     found = {name: one for name, grid in grids.items() if (one := _of_model(grid, model)) is not None}
-    return Evidence(tuple(view for view in views if _is_of(view, model)), found)
-
-
-def _is_of(case: CaseView, model: Model) -> bool:
-    p = case.parameters
-    return (p.normalization, p.contact_compliance != 0, p.contact_force) == model[1:]
+    own = [(p.normalization, p.contact_compliance != 0, p.contact_force) for p in (view.parameters for view in views)]
+    return Evidence(tuple(view for view, values in zip(views, own, strict=True) if values == model[1:]), found)
 
 
 def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
@@ -315,7 +311,7 @@ def page_of(table: pd.DataFrame) -> Comparison:
     """Results of `judge` as a page: all verdicts at a glance, then their evidence."""
     texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
-    first = pd.DataFrame({"Conclusion": [one.text for one in CONCLUSIONS]})
+    first = pd.DataFrame({"Conclusion": [one.texts.claim for one in CONCLUSIONS]})
     first["Place"] = [one.texts.location for one in CONCLUSIONS]
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
@@ -325,6 +321,6 @@ def page_of(table: pd.DataFrame) -> Comparison:
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        rule = texts["rule"].format(text=one.text, tolerance=one.tolerance, reason=one.texts.reason)
+        rule = texts["rule"].format(text=one.texts.claim, tolerance=one.tolerance, reason=one.texts.reason)
         sections.append((one.id, rule, shown))
     return Comparison(texts["title"], tuple(sections))
