@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.benchmarks.grid import measured, variables
+from disc_model.benchmarks.grid import TABLES, measured, variables
 from disc_model.benchmarks.hardware import machine
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
@@ -29,11 +29,7 @@ from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
 DIAMETERS = (1, 2, 3, 4, 6, 8, 12)
 CIRCLES = (0, 1, 2)
-_IN_CONTACT: dict[str, dict[str, Any]] = {"growth": {"N": 300.0, "Omega": 20.0}, "range": {"N": 385.0, "Omega": 15.0}}
-CASES = {
-    "as_published": _IN_CONTACT | {"separation": {"N": 385.0, "Omega": 15.1}},
-    "orthonormal": _IN_CONTACT | {"separation": {"N": 600.0, "Omega": 30.0}},
-}
+CASES: dict[str, dict[str, dict[str, Any]]] = TABLES["truncation_cases"]
 """Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""
 HORIZON = 120.0
 """Horizon of the first separation, s."""
@@ -82,12 +78,7 @@ def _described(study: xr.Dataset, title: str, cases: Mapping[str, Any], **more: 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
 """Diameters and circles: 1 to 75 modes; (16, 4), with 165 modes, costs five times as much as 75."""
-SEPARATING: dict[str, dict[str, Any]] = {
-    "as published, N=385, Omega=15.1": {"N": 385.0, "Omega": 15.1},
-    "orthonormal, N=600, Omega=30": {"N": 600.0, "Omega": 30.0, "normalization": "orthonormal"},
-    "orthonormal, N=800, Omega=30": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"},
-    "orthonormal, N=200, Omega=50": {"N": 200.0, "Omega": 50.0, "normalization": "orthonormal"},
-}
+SEPARATING: dict[str, dict[str, Any]] = TABLES["contact_truncation_cases"]
 CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
 LATE = (20.0, 10.0)
 """Time from the first separation to the late stretch, and its length, s."""
