@@ -133,7 +133,7 @@ def work_precision(
     each = pd.DataFrame(rows).groupby(["scene", "method", "place"])
     spread = each["seconds"].max() - each["seconds"].min()
     table = each.median().assign(seconds_spread=spread, repeats=each.size())
-    return _dataset(settings, table, pd.DataFrame(calls).median())
+    return _dataset(settings, table, pd.DataFrame(calls).median().tolist())
 
 
 def _marginal_cost(point: Point, limit: float, seconds: float) -> float:
@@ -166,7 +166,7 @@ def _again(walls: Sequence[float], turn: int) -> bool:
     return bool(walls) and (_quick(walls) or (float(np.median(walls)) < LONG and turn < 3))
 
 
-def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: pd.Series[float]) -> xr.Dataset:
+def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: Sequence[float]) -> xr.Dataset:
     methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
     most = max(len(values) for by_method in settings.values() for values in by_method.values())
     found: dict[Any, Any] = rows.to_dict("index")
@@ -180,7 +180,7 @@ def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: pd.Series[floa
     dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     lines: dict[str, tuple[str | tuple[str, ...], Any]] = {
         "label": ("solver", [METHODS[name].label for name in methods]),
-        "whole_call": ("scene", whole_calls.to_numpy()),
+        "whole_call": ("scene", [*whole_calls]),
         "order_theory": ("solver", [METHODS[name].order for name in methods]),
     }
     for error in ("event", "state"):
