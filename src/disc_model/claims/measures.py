@@ -36,6 +36,10 @@ differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails.
 """
 
 
+EARLY = (1.0, 1.0 + STRETCH)
+"""The first 20 s without the first second, s."""
+
+
 class Absent(Missing):
     """The evidence exists but lacks the feature that a claim states: the claim does not hold."""
 
@@ -119,7 +123,7 @@ class CaseView:
     @property
     def early(self) -> Range:
         """Range of the contact force over the first 20 s, without the first second, N."""
-        return early_range(self, "P")
+        return self.range_of("P", *EARLY)
 
     @property
     def late(self) -> Range:
@@ -244,21 +248,13 @@ def times_of(case: CaseView, kind: str) -> Array:
     return np.asarray(switches(case, kind)["time"])
 
 
-def release_intervals(case: CaseView) -> Array:
-    """Times between successive releases among the stored events, s."""
-    return _intervals(case, "stick_to_slip", "stick-slip cycles")
-
-
-def separation_intervals(case: CaseView) -> Array:
-    """Times between successive separations among the stored events, s."""
-    return _intervals(case, "separation", "separations")
-
-
-def _intervals(case: CaseView, kind: str, what: str) -> Array:
-    intervals = np.diff(times_of(case, kind))
-    if intervals.size < FEWEST:
+def intervals(case: CaseView, kind: str = "stick_to_slip") -> Array:
+    """Times between successive releases, or separations, among the stored events, s; raises `Missing` if too few."""
+    found = np.diff(times_of(case, kind))
+    if found.size < FEWEST:
+        what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
         raise Missing(f"case {case.name} keeps fewer than {FEWEST} {what}")
-    return intervals
+    return found
 
 
 @lru_cache(maxsize=256)
@@ -272,17 +268,17 @@ def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
 
     closes : s, see `disc_model.analysis.classify.motion_of`
     """
-    intervals = release_intervals(case)
-    motion = classify_intervals(tuple(intervals), closes)
+    times = intervals(case)
+    motion = classify_intervals(tuple(times), closes)
     if not motion.period:
         test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
-        rate = f"{1 / intervals.mean():.1f} releases/s"
+        rate = f"{1 / times.mean():.1f} releases/s"
         return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
-    length = float(intervals[: motion.period].sum())
+    length = float(times[: motion.period].sum())
     apart = round(rate_of(case, "separation") * length)
     releases = counted(motion.period, "release")
     after = f"{releases} = {apart} separations" if apart else releases
-    seen = f"to {motion.closure:.0e} s, in the last {intervals.sum():.0f} s"
+    seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
     return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
@@ -334,7 +330,7 @@ def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
 
 def _by_separations(case: CaseView) -> str:
     """Class of a motion without stick, by the intervals between its separations."""
-    motion = classify_intervals(tuple(separation_intervals(case)))
+    motion = classify_intervals(tuple(intervals(case, "separation")))
     return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
@@ -400,11 +396,6 @@ def late_range(case: CaseView, name: str) -> Range:
     """Range over the last 20 s of the run."""
     end = case["time_reached"]
     return case.range_of(name, end - STRETCH, end)
-
-
-def early_range(case: CaseView, name: str) -> Range:
-    """Range over the first 20 s, without the first second."""
-    return case.range_of(name, 1.0, 1.0 + STRETCH)
 
 
 def signal(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> tuple[Array, Array]:

@@ -66,7 +66,7 @@ def separations_end(*cases: CaseView, factor: float) -> Answer:
 
 
 def releases_regularly(case: CaseView, *, within: float) -> Answer:
-    intervals = measures.release_intervals(case)
+    intervals = measures.intervals(case)
     spread = irregularity(intervals)
     return Answer(spread <= within, interval=1e3 * intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
@@ -77,7 +77,7 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
     ``other`` has the same parameters and another start, ``near`` the same start and a spring 0.1 % stiffer.
     """
     motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
-    length = measures.release_intervals(case)[: motion.period].sum() if motion.period else 0.0
+    length = measures.intervals(case)[: motion.period].sum() if motion.period else 0.0
     return Answer(
         *is_kind(Outcome.QUASI_PERIODIC, motion, near=beside),
         longer=length > shown,
@@ -129,7 +129,7 @@ def excites_less(*cases: CaseView, part: float) -> Answer:
     for free, bonded in pairs(cases):
         held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
         kept = energy.course(bonded.parameters, bonded["time_reached"])
-        there, cycle = energy.at_width(kept, held.width), float(measures.separation_intervals(free).mean())
+        there, cycle = energy.at_width(kept, held.width), float(measures.intervals(free, "separation").mean())
         withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
         mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
         mJ |= {"damped": held.damped, "impacts": held.impacts}

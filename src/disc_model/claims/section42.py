@@ -27,7 +27,7 @@ def only_one_separates(*cases: CaseView, which: float) -> Answer:
 
 
 def disc_does_not_grow(case: CaseView, *, part: float) -> Answer:
-    early, late = (of(case, "w_point").width for of in (measures.early_range, measures.late_range))
+    early, late = case.range_of("w_point", *measures.EARLY).width, measures.late_range(case, "w_point").width
     return Answer(late <= (1 + part) * early, early=1e3 * early, late=1e3 * late)
 
 

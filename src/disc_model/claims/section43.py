@@ -118,7 +118,7 @@ def _grew(case: CaseView, factor: float = GREW) -> bool:
 
 def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
-    intervals = measures.release_intervals(case)
+    intervals = measures.intervals(case)
     spread = irregularity(intervals)
     return Answer(
         not case.separates and case.late.width < part * case["N"] and not _grew(case) and spread <= within,

@@ -119,7 +119,7 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
     """
     found, alone = [], []
     for pair in zip(cases[::2], cases[1::2], strict=True):
-        rates = [1 / float(measures.separation_intervals(case).mean()) for case in pair]
+        rates = [1 / float(measures.intervals(case, "separation").mean()) for case in pair]
         modes = [_natural(case)[0] for case in pair]
         rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
         found.append({"case": pair[0], "rate": rates[0], "mode": modes[0], "follows": rise / of_mode})
