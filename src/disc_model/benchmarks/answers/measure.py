@@ -27,8 +27,6 @@ from disc_model.data.provenance import versions
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Tolerances of the search for a cycle."""
-OWN = ("cycle", "models")
-"""Parts that belong to no method."""
 LINES: Mapping[str, tuple[str, str]] = {
     "cycle": ("series, from the cycle itself", "tol"),
     "rigid": ("series, modes, rigid contact", "diameters"),
@@ -50,7 +48,7 @@ def measure(
     models: Sequence[int] = modelled.DIAMETERS,
     progress: Callable[[Row], object] | None = None,
 ) -> xr.Dataset:
-    """Measure the points of a method, or of `OWN`.
+    """Measure the points of a method, of the cycle itself, or of models.
 
     Parameters
     ----------
@@ -64,15 +62,9 @@ def measure(
     -------
     Dataset along ``row``, the columns of `VARIABLES`.
     """
-    if part == "cycle":
-        found = _of_the_cycle()
-    elif part == "models":
-        found = _of_models(models)
-    else:
-        own = METHODS[part]
-        found = _of_method(part, settings or own.settings.get("stick_slip", own.map_values), asked)
+    others = {"cycle": _of_the_cycle, "models": lambda: _of_models(models)}
     rows = []
-    for row in found:
+    for row in others[part]() if part in others else _of_method(part, settings, asked):
         rows.append(row)
         if progress is not None:
             progress(row)
@@ -84,14 +76,14 @@ def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
     return xr.concat(parts, "row", combine_attrs="override")
 
 
-def _of_method(name: str, values: Sequence[float], asked: Sequence[str]) -> Iterator[Row]:
+def _of_method(name: str, values: Sequence[float] | None, asked: Sequence[str]) -> Iterator[Row]:
     """Measure a method; a question for which it is too slow is skipped at finer settings."""
-    hopeless: set[str] = set()
-    for value in values:
+    own, hopeless = METHODS[name], set[str]()
+    for value in values or own.settings.get("stick_slip", own.map_values):
         for question in asked:
             if question in hopeless:
                 continue
-            for answer, found in simulated.ask(simulated.by(METHODS[name], value), question).items():
+            for answer, found in simulated.ask(simulated.by(own, value), question).items():
                 yield _row(answer, name, value, questions.reference(answer).value, found)
                 if found.status is AnswerStatus.TOO_SLOW:
                     hopeless.add(question)
