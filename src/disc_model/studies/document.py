@@ -332,7 +332,7 @@ class EarlyEndOptions(Ruled):
     early_end: bool = True
 
 
-class OutcomeOptions(EarlyEndOptions, Start):
+class OutcomeOptions(EarlyEndOptions):
     """Outcome of one simulation at each point, within a horizon.
 
     horizon : s
@@ -434,7 +434,7 @@ class RampsOptions(Ruled):
     )
 
 
-class BifurcationOptions(Ruled, Start):
+class BifurcationOptions(Ruled):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
     section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
@@ -453,7 +453,7 @@ class BifurcationOptions(Ruled, Start):
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
 
-class LyapunovOptions(Ruled, Start):
+class LyapunovOptions(Ruled):
     """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
 
     transient : s, left out
@@ -469,7 +469,7 @@ class LyapunovOptions(Ruled, Start):
     interval: Seconds = 0.05
 
 
-class BasinsOptions(Ruled, Start):
+class BasinsOptions(Ruled):
     """Attractors, basin fractions and critical energy, from many starts.
 
     energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
@@ -613,8 +613,9 @@ class CampbellOptions(Ruled):
 class Entry(NamedTuple):
     """Properties of a quantity: its options, the cost of a point, and its grids and motions.
 
-    options : model of the options; motions may begin elsewhere than at the static start if a `Start` is among them
+    options : model of the options
     seconds : approximate processor time of a point with given options, s, measured at points of the paper's study
+    starts : whether motions may begin elsewhere than at the static start; the file gives the start as an option
     scans : parameters that the quantity varies by itself, or the options that name them
     motions : number of values of each axis for which a motion is stored; smaller if a motion is expensive. 0: none
     motion : description of the motions, which begin at the quantity's ``state_at``
@@ -625,12 +626,20 @@ class Entry(NamedTuple):
 
     options: type[Strict]
     seconds: Callable[[Any], float]
+    starts: bool = False
     scans: tuple[str, ...] = ()
     motions: int = 0
     motion: str = ""
     tiled: bool = False
     over: str = ""
     tasks: tuple[str, ...] = ("simulate", "floquet")
+
+    @property
+    def stated(self) -> type[Strict]:
+        """The model of the key ``options`` in a study file."""
+        if not self.starts:
+            return self.options
+        return create_model(self.options.__name__, __base__=(Start, self.options), __doc__=self.options.__doc__)
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself; the default ones if the options are not known."""
@@ -653,7 +662,7 @@ COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
 QUANTITIES = {
-    "outcome": Entry(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, motions=4, motion=COME_TO),
+    "outcome": Entry(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
     "regions": Entry(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
     "critical_speed": Entry(
         CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
@@ -666,16 +675,18 @@ QUANTITIES = {
         scans=("Omega",),
         tasks=("simulate", "ramp"),
     ),
-    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2),
+    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2, starts=True),
     "bifurcation": Entry(
         BifurcationOptions,
         lambda o: SIMULATED * (o.transient + o.max_transient / 2),
+        starts=True,
         motions=8,
         motion="After the transient.",
     ),
     "lyapunov": Entry(
         LyapunovOptions,
         lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
+        starts=True,
         motions=8,
         motion="After the transient.",
     ),
@@ -921,7 +932,7 @@ class Document(Strict):
 
 
 DOCUMENTS: dict[str, type[Document]] = {
-    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.options, ...))
+    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.stated, ...))
     for name, entry in QUANTITIES.items()
 }
 """Models of files that give a quantity."""
@@ -955,7 +966,7 @@ class _Plain(GenerateJsonSchema):
 
 def json_schema() -> dict[str, Any]:
     """The JSON Schema of study files; it describes the values of each key, but no rules between keys."""
-    stated = {name: quantity.options for name, quantity in QUANTITIES.items()}
+    stated = {name: quantity.stated for name, quantity in QUANTITIES.items()}
     models: tuple[type[BaseModel], ...] = (Document, *stated.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
     return {
