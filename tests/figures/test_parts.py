@@ -1,6 +1,8 @@
 """What titles say of parameters."""
 
 import json
+import logging
+from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -38,3 +40,11 @@ def test_a_value_stays_in_the_line_of_its_name() -> None:
     figure = parts.new_figure(1.0, 2)
     parts.entitle(figure, Campbell(), "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
     assert figure.get_suptitle().split("\n") == ["N = 385 N,", "Ω = 15.1 rad/s,", "D* = 2e-05 N m s"]
+
+
+def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    figure = parts.new_figure(parts.COLUMN, 2)
+    figure.suptitle("text")
+    with caplog.at_level(logging.INFO):
+        parts.save(figure, tmp_path / "figure.pdf")
+    assert not caplog.records

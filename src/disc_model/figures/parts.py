@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import logging
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import chain, repeat
@@ -22,6 +23,8 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, typeset, values_text
 from disc_model.figures import STYLE
 from disc_model.figures.kinds import CasePlot, General, GrowthMap, Kind, OwnFigure, Plot, StabilityMap
+
+logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
 COLUMN = 89 / 25.4
 """Width of one column, inch."""
