@@ -416,8 +416,8 @@ def scans(
         "separating_fraction": (("Omega", "normalization"), [[0.0], [others]]),
         "separating_fraction_low": (("Omega", "normalization"), [[0.0], [others / 2]]),
     }
-    speeds_tried = {"Omega": [10.0, 15.0], "normalization": ["as_published"]}
-    basins = xr.Dataset(apart, speeds_tried, {"base": '{"N": 385}'})
+    tried = {"Omega": [10.0, 15.0], "normalization": ["as_published"], "energy": [0.01, 3.0], "start": range(10)}
+    basins = xr.Dataset(apart, tried, {"base": '{"N": 385}'})
     found = {"basins": basins, "bonded": plain, "critical_speed": critical_speed, "bifurcation_Omega": diagram}
     return found | {"map_E": map_E, "map_c_p": map_c_p, "map_k": map_k}
 

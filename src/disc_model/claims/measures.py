@@ -307,18 +307,22 @@ def another_motion(*cases: CaseView) -> list[str]:
 
 
 def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
-    """Shares of random starts that keep losing contact, in words, at the places of cases that do not separate.
+    """Numbers of random perturbations that lead to repeated separation, in words, at places of cases without any.
 
     basins : the grid study of this name, if there is one
     """
     if basins is None:
         return []
     quiet = {case.parameters: case.place for case in cases if case.from_rest and not case.separates}
-    base, found = json.loads(basins.node.attrs["base"]), []
-    points = basins.node.dataset[["separating_fraction", "separating_fraction_low"]].to_dataframe().reset_index()
+    study = basins.node.to_dataset()
+    base, found, energies = json.loads(study.attrs["base"]), [], study["energy"].values
+    total = study.sizes["energy"] * study.sizes["start"]
+    points = study[["separating_fraction", "separating_fraction_low"]].to_dataframe().reset_index()
     for point in points[points["separating_fraction_low"] > 0].to_dict("records"):
         p = Parameters(**base | {name: value for name, value in point.items() if name in Parameters.model_fields})
-        found += [f"{100 * point['separating_fraction']:.0f} % at {quiet[p]}"] if p in quiet else []
+        if p in quiet:
+            count = round(total * point["separating_fraction"])
+            found.append(f"{count} of {total} with {energies.min():g} to {energies.max():g} J at {quiet[p]}")
     return found
 
 
