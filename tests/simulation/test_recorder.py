@@ -290,8 +290,17 @@ class TestCommands:
         assert load(tmp_path / "A.nc").identical(run_case(spec))
 
 
+def test_what_a_run_left_that_was_killed_while_it_wrote_is_removed(tmp_path: Path) -> None:
+    left, of_another = (tmp_path / f".{name}.0123456789abcdef.tmp" for name in ("checkpoint", "checkpoint.nc"))
+    left.touch()
+    of_another.touch()
+    simulate(P, 0.1, checkpoint=tmp_path / "checkpoint")
+    assert [*tmp_path.iterdir()] == [of_another]
+
+
 # ----------------------------------------------------------------------------------------------------
 # Long runs
+
 
 HOUR = """
 import logging, pickle, sys

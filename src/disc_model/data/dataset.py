@@ -11,6 +11,7 @@ because HDF5 detects a changed byte in compressed arrays only, and not in scalar
 from __future__ import annotations
 
 import contextlib
+import glob
 import hashlib
 import json
 import math
@@ -231,6 +232,13 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
             raise WriteError(f"{path}: cannot be written: {reason} ({size / 1e6:.1f} MB needed)") from None
         raise
     finally:
+        with contextlib.suppress(OSError):
+            temporary.unlink()
+
+
+def remove_leftovers(path: Path) -> None:
+    """Remove what processes left that were killed while they wrote this file by `write_atomically`."""
+    for temporary in path.parent.glob(f".{glob.escape(path.name)}.{'[0-9a-f]' * 16}.tmp"):
         with contextlib.suppress(OSError):
             temporary.unlink()
 

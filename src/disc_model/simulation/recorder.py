@@ -72,6 +72,9 @@ class Checkpoint:
 
     def load(self) -> Contents | None:
         """Contents of the run's file, which may have been renamed; None if it does not exist."""
+        from disc_model.data.dataset import remove_leftovers
+
+        remove_leftovers(self.path)
         found, aside = self._read(), self._aside(content_key(canonical_json(self.belongs_to)))
         if found is None and aside.exists():
             os.replace(aside, self.path)
