@@ -27,7 +27,13 @@ try:
     from disc_model.figures.paper.catalogue import SECTIONS
     from disc_model.kernels import KINDS, kinds_of_case
     from disc_model.data.provenance import source_hash
-    from disc_model.studies.study import StudyError, read_file, study_from_config
+    from disc_model.studies.study import (
+        StudyError,
+        mapping,
+        read_file,
+        read_files,
+        study_from_config,
+    )
 except ModuleNotFoundError as error:
     raise WorkflowError(
         f"There is no module {error.name}: install the package disc_model with what it needs"
@@ -128,13 +134,7 @@ def refuse_results_of_another_study():
     there = all(Path(other).is_file() for other in others)
     if not there or others[:both] == FILES[:both]:
         return
-    contents = [read_file(Path(other))[0] for other in others]
-    names = [
-        content["study"]
-        for content in contents
-        if isinstance(content, dict) and "study" in content
-    ]
-    if names[-1:] == [STUDY.name]:
+    if mapping(read_files(*others)).get("study") == STUDY.name:
         raise WorkflowError(
             f"study = {STUDY.name!r}: is also the name of the study in {', '.join(others)}, whose results are in {RESULTS}"
             " and would be overwritten; give one of them another name, or another folder with --directory"

@@ -16,9 +16,9 @@ from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_mod
 BASE = Parameters(N=200, Omega=20)
 
 
-def disc_frequencies(*, printed: Sequence[float], within: float, per: float) -> Answer:
-    """Whether the frequencies of the disc alone are the printed ones; in rad/s, or in Hz with 2 pi for ``per``."""
-    ours = plate_modes(BASE)["omega"].to_numpy() / per
+def disc_frequencies(*, printed: Sequence[float], within: float, hertz: float) -> Answer:
+    """Whether the frequencies of the disc alone are the printed ones, which are in rad/s or, if `hertz`, in Hz."""
+    ours = plate_modes(BASE)["omega"].to_numpy() / (2 * np.pi if hertz else 1)
     return Answer(np.all(np.abs(ours - printed) <= within), frequency=ours)
 
 
@@ -62,9 +62,9 @@ def _like_jumps(study: xr.Dataset, before: float, after: float, share: float) ->
     ]
 
 
-def attached_frequencies(*, printed: Sequence[float], within: float, per: float) -> Answer:
+def attached_frequencies(*, printed: Sequence[float], within: float, hertz: float) -> Answer:
     """The same with the slider attached; the order in which they are printed is a remark."""
-    ours = coupled_natural_frequencies(BASE) / per
+    ours = coupled_natural_frequencies(BASE) / (2 * np.pi if hertz else 1)
     swapped = [*np.array(printed)[np.abs(ours - printed) > within]]
     shifted = shifted_frequencies(BASE.replace(normalization="orthonormal"))
     return Answer(np.all(np.abs(ours - np.sort(printed)) <= within), frequency=ours, shifted=shifted, swapped=swapped)

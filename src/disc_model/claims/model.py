@@ -200,7 +200,8 @@ class Claim:
             wanted = (*self.texts.scans, *self.texts.beside)
             scans = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
             answer = self.check(*needed.values(), *scans, **self.numbers)
-            answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
+            if "elsewhere" in self.texts.remarks:
+                answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
             found = self._found(answer, needed)
             return _of_steady_state(found, [needed[name] for name in self.steady])
         except Missing as missing:
@@ -285,7 +286,7 @@ def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Pat
     ClaimError
         For a text without a check, a check without a text, and all other faults of texts, together.
     """
-    faults, found, unsaid = [], [], {*checks}
+    faults, found = [], []
     common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
     for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
         for key in ("remarks", "undecided"):  # keys without a text use the common one
@@ -298,8 +299,7 @@ def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Pat
         faults += [] if text.check in checks else [f"{file}: {name}: no check {text.check}"]
         faults += [f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()]
         found.append(Claim(name, text, checks.get(text.check, Answer)))
-        unsaid.discard(text.check)
-    faults += [f"{name}: a check without a text" for name in sorted(unsaid)]
+    faults += [f"{name}: a check without a text" for name in sorted(checks.keys() - {one.texts.check for one in found})]
     if faults:
         raise ClaimError("\n".join(faults))
     return tuple(found)

@@ -221,7 +221,7 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
     if not path.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
     # `write` makes the file, so that the umask determines its permissions
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
+    temporary = _temporary(path, secrets.token_hex(8))
     try:
         write(str(temporary))
         _append_checksum(temporary)
@@ -238,9 +238,14 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
 
 def remove_leftovers(path: Path) -> None:
     """Remove what processes left that were killed while they wrote this file by `write_atomically`."""
-    for temporary in path.parent.glob(f".{glob.escape(path.name)}.{'[0-9a-f]' * 16}.tmp"):
+    for temporary in path.parent.glob(_temporary(Path(glob.escape(path.name)), "[0-9a-f]" * 16).name):
         with contextlib.suppress(OSError):
             temporary.unlink()
+
+
+def _temporary(path: Path, token: str) -> Path:
+    """The file that is written first, beside the one that it will replace."""
+    return path.with_name(f".{path.name}.{token}.tmp")
 
 
 def verify_checksum(path: Path) -> None:

@@ -288,8 +288,13 @@ class Study:
 
 def load_study(*paths: str | Path) -> Study:
     """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
+    return study_from_config(read_files(*paths), paths)
+
+
+def read_files(*paths: str | Path) -> Any:
+    """Contents of study files, later ones laid over earlier ones."""
     contents = (read_file(Path(path))[0] for path in paths)
-    return study_from_config(reduce(lambda below, own: inherit(mapping(below), mapping(own)), contents), paths)
+    return reduce(lambda below, own: inherit(mapping(below), mapping(own)), contents)
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
