@@ -428,3 +428,13 @@ def test_the_same_motions_are_judged_alike_under_both(told: xr.DataTree) -> None
     assert [text.partition(":")[0] for text in found.sections[2][2]["Statement"]] == ["F27b"]
     judged = [claim.evaluate(views(told, made_up.scans())) for claim in CLAIMS]
     assert all(finding.ours for finding in judged)
+
+
+def test_a_sweep_that_separates_below_the_critical_speed_is_a_remark(told: xr.DataTree) -> None:
+    claim = BY_NAME["S42w"]
+    ends = {"offset_speed": (("N", "normalization"), [[20.0], [8.5], [np.nan]])}
+    along = {"N": [50.0, 200.0, 385.0], "normalization": ["as_published"]}
+    sweeps = xr.Dataset(ends, along, {"options": '{"dwell": 60}'})
+    seen = claim.evaluate(views(told, made_up.scans() | {"hysteresis": sweeps})).remark
+    assert "60 s at each speed, separation lasts below it: 200 N: to 8.5 instead of 10.0 rad/s" in seen
+    assert "lasts below" not in claim.evaluate(views(told, made_up.scans())).remark

@@ -20,5 +20,5 @@ def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
     shown = dict(zip(names, load_inputs([*map(Path, files)]), strict=True))
     figure = draw(KINDS[given["kind"]].model_validate(given), shown)
-    for path in (pdf, png):
+    for path in (png, pdf):
         save(figure, path, title=title)

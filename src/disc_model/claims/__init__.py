@@ -5,7 +5,7 @@ check computes all reported numbers from the merged cases, grid studies or the d
 the table.
 """
 
-SCANS = ("basins", "bifurcation_Omega", "bonded", "critical_speed", "map_E", "map_c_p", "map_k")
+SCANS = ("basins", "bifurcation_Omega", "bonded", "critical_speed", "hysteresis", "map_E", "map_c_p", "map_k")
 """Grid studies that claims use; listed here so that the workflow reads them without importing the computations."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
 """Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""

@@ -473,7 +473,7 @@ def slope(case: CaseView, name: str, start: float, stop: float) -> float:
     return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
 
 
-@lru_cache(maxsize=256)
+@cache
 def cycle_of(p: Parameters) -> FloquetResult:
     """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
     from disc_model.stability.cycle import CycleStatus, floquet

@@ -1,5 +1,6 @@
 """Claims of Section 4.2: N = 385 N around the critical speed, and the critical speed in general."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -57,8 +58,11 @@ def very_different(*cases: CaseView, factor: float) -> Answer:
     return Answer(above > factor * below, motions=rows)
 
 
-def can_separate_above(study: xr.Dataset, *, within: float) -> Answer:
-    """Whether there is a speed above which contact is lost somewhere; windows wider than ``within`` are a remark."""
+def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: float) -> Answer:
+    """Whether there is a speed above which contact is lost somewhere.
+
+    Remarks: windows wider than ``within`` in which contact is kept, and sweeps that still separate so far below.
+    """
     study = _scanned(study).isel(horizon=-1)
     rows: list[dict[str, Any]] = []
     for N in study["N"].values:
@@ -71,7 +75,18 @@ def can_separate_above(study: xr.Dataset, *, within: float) -> Answer:
     if not found.any():
         raise Absent("no separation at any preload and speed")
     begins, horizon = measures.extent(lowest[found]), float(study["horizon"])
-    return Answer(True, loads=rows, begins=begins, some=found.sum(), count=found.size, horizon=horizon)
+    below = [] if sweeps is None else _lasts_below(study["critical_speed"], sweeps, within)
+    dwell = 0.0 if sweeps is None else json.loads(sweeps.attrs["options"])["dwell"]
+    some, count = found.sum(), found.size
+    return Answer(True, loads=rows, below=below, dwell=dwell, begins=begins, some=some, count=count, horizon=horizon)
+
+
+def _lasts_below(critical: xr.DataArray, sweeps: xr.Dataset, within: float) -> list[dict[str, float]]:
+    """Preloads at which separation in a sweep down ends further than ``within`` below the critical speed."""
+    ends = sweeps["offset_speed"].sel(normalization="as_published")
+    begins, lasts = xr.align(critical, ends, join="inner")
+    pairs = zip(begins["N"].values, begins.values, lasts.values, strict=True)
+    return [{"N": N, "lasts": end, "begins": begin} for N, begin, end in pairs if begin - end > within]
 
 
 def _scanned(study: xr.Dataset) -> xr.Dataset:
