@@ -288,8 +288,7 @@ def _faster(near: NearCycle, distance: Array) -> float:
 
 def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
-    sliding = steady_sliding(p)
-    if not sliding.stable or state.phase != "slip":
+    if state.phase != "slip" or not (sliding := steady_sliding(p)).stable:
         return False
     modes, give = mode_arrays(p), contact_compliance(p)
     ones = np.ones_like(modes.omega)

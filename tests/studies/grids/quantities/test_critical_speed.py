@@ -1,6 +1,7 @@
 """The speed of onset, and every crossing."""
 
 import math
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -91,6 +92,22 @@ def test_scan_and_map_agree_at_every_common_point() -> None:
     separates = flag_names(mapped["outcome"].transpose("N", "Omega")) == "separation"
     assert 5 < separates.sum() < separates.size - 5
     assert np.array_equal(np.isfinite(scanned["scan_first_separation"].transpose("N", "scan_Omega")), separates)
+
+
+RESULTS = Path(__file__).parents[4] / "results"
+
+
+@pytest.mark.skipif(not (RESULTS / "map_N" / "map_N.nc").exists(), reason="needs results/map_N, by `make reproduce`")
+@pytest.mark.parametrize(("study", "least"), [("critical_speed", 30), ("critical_speed_orthonormal", 60)])
+def test_scan_and_map_of_the_results_agree(study: str, least: int) -> None:
+    """At 450 N and 15 rad/s the map had inferred another outcome for orthonormal modes than the scan."""
+    scan, mapped = (xr.load_dataset(RESULTS / name / f"{name}.nc") for name in (study, "map_N"))
+    scan = scan.squeeze("normalization").rename(scan_Omega="Omega")
+    scan, mapped = xr.align(scan, mapped.sel(normalization=scan["normalization"]), join="inner")
+    assert mapped["outcome"].size >= least
+    in_map = xr.DataArray(flag_names(mapped["outcome"]) == "separation", dims=mapped["outcome"].dims)
+    in_scan = scan["scan_first_separation"] <= 1000  # the map's horizon, s
+    assert (in_scan == in_map).all()
 
 
 def test_all_crossings_are_found_where_separation_ends_again(fake_motions: None) -> None:
