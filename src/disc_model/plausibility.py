@@ -61,8 +61,8 @@ def _value(p: Parameters, name: str) -> str:
     return f"{name} = {getattr(p, name):g} {Parameters.unit(name)}".removesuffix(" 1")
 
 
-def _far(name: str, p: Parameters) -> str:
-    value, usual = abs(getattr(p, name)), Parameters.model_fields[name].default
+def _far(name: str, usual: float, p: Parameters) -> str:
+    value = abs(getattr(p, name))
     if usual / FURTHEST <= value <= usual * FURTHEST or value == 0:
         return ""
     how = "more than a hundred times" if value > usual else "less than a hundredth of"
@@ -126,7 +126,7 @@ def _elsewhere(p: Parameters) -> str:
 _PLATE = ("a", "b", "r_0", "h", "E", "nu", "n_diameters", "n_circles")
 RULES = {
     **{
-        name: Rule((name,), partial(_far, name))
+        name: Rule((name,), partial(_far, name, Parameters.model_fields[name].default))
         for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
     },
     "thickness": Rule(("h", "a", "b"), _thick),

@@ -312,7 +312,7 @@ def build_state(model: Model) -> EngineState:
     """The static start: equilibrium under the preload, in stick, spring relaxed."""
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     disc = aligned(disc_size(width, n0, len(model.compliance) == 1))
-    z, e, y, g = np.split(disc[: 2 * (width + n0)], [width, 2 * width, 2 * width + n0])
+    z, e, y, g = disc[:width], disc[width : 2 * width], disc[2 * width :][:n0], disc[2 * width + n0 :][:n0]
     np.divide(-model.N * model.mode_amplitude, model.stiffness, out=z, where=model.stiffness > 0)
     np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=y, where=model.stiffness0 > 0)
     x = np.zeros(SCALARS)

@@ -8,6 +8,7 @@ The lengths of tuples of numbers are part of the type.  A helper that reads none
 lengths: it receives a `PackedType.narrowed` one.
 """
 
+import ctypes
 import functools
 import hashlib
 import struct
@@ -50,10 +51,12 @@ else:
         """Numba type of a packed named tuple.
 
         fields : type of each entry, and the words of memory before it; an array is followed by its lengths
+        format : of the memory, as `struct` has it
         """
 
         def __init__(self, name, fields):
             self.of, self.fields = name, fields
+            self.format = "".join(_format(kind) for kind, _ in fields.values())
             super().__init__(name=f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}")
 
         def narrowed(self, used):
@@ -71,6 +74,11 @@ else:
         if isinstance(kind, types.Array):
             return 1 + kind.ndim
         return max(_ROOM, kind.count) if _is_tuple(kind) else 1
+
+    def _format(kind):
+        if _is_tuple(kind):
+            return _format(kind.dtype) * kind.count + "q" * (_ROOM - kind.count)
+        return "d" if kind == types.float64 else "q" * _words(kind)
 
     @functools.cache
     def _narrowed(whole, used):
@@ -91,19 +99,24 @@ else:
     def _cast(context, builder, of, to, value):
         return value
 
+    _KNOWN: dict[Any, PackedType] = {}
+
     class _Packed:
         """Additions of a packed class to its named tuple."""
 
         @functools.cached_property
         def numba_type(self):
             """See `PackedType`."""
-            return _packed_type(type(self).__name__, tuple(zip(self._fields, map(_kind, self), strict=True)))
+            decisive = type(self), *map(_decisive, self)  # numba's own answers take 1 ms for the tuples of a case
+            if decisive not in _KNOWN:
+                kinds = tuple(zip(self._fields, map(_kind, self), strict=True))
+                _KNOWN[decisive] = _packed_type(type(self).__name__, kinds)
+            return _KNOWN[decisive]
 
         @functools.cached_property
         def _memory(self):
             words = [word for value in self for word in _words_of(value)]
-            codes = ("d" if isinstance(word, float) else "q" for word in words)
-            return np.frombuffer(struct.pack("".join(codes), *words), np.int64)
+            return np.frombuffer(struct.pack(self.numba_type.format, *words), np.int64)
 
         @functools.cached_property
         def address(self):
@@ -113,12 +126,26 @@ else:
     def _kind(value):
         return types.UniTuple(types.float64, 0) if isinstance(value, tuple) and not value else numba.typeof(value)
 
+    def _decisive(value):
+        """What decides the type of an entry."""
+        if isinstance(value, np.ndarray):
+            return value.dtype, value.ndim, value.flags.num
+        if isinstance(value, _Packed):
+            return value.numba_type
+        return tuple(map(type, value)) if isinstance(value, tuple) else type(value)
+
+    def _address_of(array):
+        try:
+            return ctypes.addressof(ctypes.c_char.from_buffer(array))
+        except (TypeError, ValueError):  # read-only or empty; for others this takes three times as long
+            return array.ctypes.data
+
     def _words_of(value):
         """The words of an entry."""
         if isinstance(value, np.ndarray):
             if not value.flags.c_contiguous:
                 raise ValueError("an array of a packed tuple has to be contiguous")
-            return value.ctypes.data, *value.shape
+            return _address_of(value), *value.shape
         if isinstance(value, _Packed):
             return (value.address,)
         return (*value, *(0,) * (_ROOM - len(value))) if isinstance(value, tuple) else (value,)

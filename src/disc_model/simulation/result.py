@@ -364,11 +364,12 @@ class Workspace(NamedTuple):
     sums: np.ndarray
 
 
-class EngineCase(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class EngineCase:
     """Constants of a case for the engine.  All runs of the case share them, and none writes to them.
 
-    model, start : the engine's constants, and the static start
-    key, amplitudes : `case_key` and `mode_amplitudes` of the states of the case
+    parameters, model, start : the case, the engine's constants, and the static start
+    amplitudes : `mode_amplitudes` of the states of the case
     present : indices of the existing coordinates in the sequence a, b, alpha, beta of all modes; modes without nodal
         diameter have no b and beta
     places : their indices in `layout.EngineState.disc`
@@ -376,14 +377,19 @@ class EngineCase(NamedTuple):
     idle : workspaces that no run uses at present, by the order of their series; the only field that changes
     """
 
+    parameters: Parameters
     model: layout.Model
     start: layout.EngineState
-    key: str
     amplitudes: np.ndarray
     present: np.ndarray
     places: np.ndarray
     point: np.ndarray
     idle: dict[int, list[Workspace]]
+
+    @cached_property
+    def key(self) -> str:
+        """`case_key` of the states of the case."""
+        return self.parameters.key
 
 
 @lru_cache(maxsize=CASES)
@@ -409,7 +415,7 @@ def engine_case(p: Parameters) -> EngineCase:
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
     present = np.flatnonzero(places >= 0)
     point, start = _point(model), layout.build_state(model)
-    return EngineCase(model, start, p.key, modes.psi, present, places.ravel()[present], point, {})
+    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, {})
 
 
 def _point(model: layout.Model) -> np.ndarray:
