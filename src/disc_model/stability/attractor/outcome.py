@@ -41,6 +41,9 @@ FIRST_LEG = 5.0
 GROWTH = 1.5
 """Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
 modes cause less."""
+CERTAIN = 0.02
+"""Distance from a cycle, over the static deflection, from which a departure is simulated where it came to a stable
+cycle: farther away, its phase may decide between that cycle and separation."""
 RATE = 4000.0
 """Sampling rate of segments, Hz: above twice the highest modal frequency."""
 
@@ -174,7 +177,11 @@ def find_outcome(
         near = cycle_of_static_start(p) if near is None else near
         if isinstance(near, NearCycle):
             if near.follows_cycle:
-                return course.run(near)
+                found = course.run(near)
+                if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
+                    return found
+                again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, late=late)
+                return replace(again, simulated=found.simulated + again.simulated)
             course.near_start = near
     return course.run(None)
 
