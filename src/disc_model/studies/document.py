@@ -357,15 +357,11 @@ class RegionsOptions(Ruled):
 
     horizon : s
     initial_cell_size : initial side of a cell, in intervals of the grid
-    computed : values of the two parameters at whose common points the outcome is never inferred, such as those of a
-        scan with which the map is compared
     """
 
     tol: Tolerance = 1e-8
     horizon: Seconds
     initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
-    # a batch states those of its own tile
-    computed: Annotated[dict[str, Annotated[tuple[Finite, ...], Field(min_length=1)]], Field(exclude=True)] = Field({})
 
 
 class CriticalSpeedOptions(EarlyEndOptions):

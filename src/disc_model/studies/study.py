@@ -63,7 +63,6 @@ from disc_model.studies.document import (
     Blocks,
     Document,
     NamedCase,
-    RegionsOptions,
     SensitivityOptions,
     Value,
     blocks_of,
@@ -621,8 +620,6 @@ class GridStudy:
         if entry.tiled:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
-            asked = self.options.computed
-            marked += [dict(zip(asked, point, strict=True)) for point in product(*asked.values())] if asked else []
             return self._texts(self.dims, _tiles(self.dims, batch, marked))
         size = batch.size or entry.batch_size(self.options)
         return self._texts(self.dims, ({"points": cut} for cut in _chunks(self.dims, batch.over, size)))
@@ -849,10 +846,6 @@ class GridStudy:
         if self.entry.tiled and not self.faults and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             self._add(("batch", "over"), rule, over and list(over))
-        if isinstance(self.options, RegionsOptions) and self.options.computed and not self.faults:
-            plane = [dim.name for dim in _plane(self.dims, over)]
-            if {*self.options.computed} != {*plane}:
-                self._add(("options", "computed"), f"must give values of {' and '.join(plane)}")
 
     def _check_starts(self) -> None:
         """Only some quantities accept another start, and the file must give it in one place only."""

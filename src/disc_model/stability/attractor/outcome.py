@@ -42,8 +42,8 @@ GROWTH = 1.5
 """Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
 modes cause less."""
 CERTAIN = 0.02
-"""Distance from a cycle, over the static deflection, from which a departure is simulated where it came to a stable
-cycle: farther away, its phase may decide between that cycle and separation."""
+"""Distance from a cycle, over the static deflection, from which a departure is simulated for critical speeds, and where
+it came to a stable cycle: farther away, its phase may decide between that cycle and separation."""
 RATE = 4000.0
 """Sampling rate of segments, Hz: above twice the highest modal frequency."""
 
@@ -167,7 +167,8 @@ def find_outcome(
     tol : tolerance of simulations, as in `simulate`
     near : result of `cycle_of_static_start`, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
-        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated
+        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated.
+        A departure that comes to a stable cycle is simulated from `CERTAIN` in any case
     start : initial state, at time 0; None is the static start
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described

@@ -19,7 +19,6 @@ from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.stability.cycle import CycleStatus
 from disc_model.studies.document import RegionsOptions
 from disc_model.studies.grids.quantities import regions
-from disc_model.studies.study import StudyError
 from tests.studies.grids.conftest import computed
 from tests.studies.refused import parse_grid
 
@@ -120,14 +119,6 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert sampled == [[187.5, 12.03125]]
     # only the tile in which the mark lies is another batch
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
-    options = raw()["options"] | {"computed": {"Omega": [12.03125, 13], "N": [187.5]}}
-    assert parse_grid(raw(options=options)).batches == study.batches  # the grid has no point at 13 rad/s
-
-
-def test_computed_points_are_those_of_both_parameters_of_the_plane() -> None:
-    options = raw()["options"] | {"computed": {"Omega": [10]}}
-    with pytest.raises(StudyError, match=r"options\.computed: must give values of N and Omega"):
-        parse_grid(raw(options=options))
 
 
 def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:

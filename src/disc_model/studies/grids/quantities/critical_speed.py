@@ -13,12 +13,10 @@ from typing import Any
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
+from disc_model.stability.attractor.outcome import CERTAIN, OutcomeResult, find_outcome
 from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
-FURTHEST = 0.02
-"""Distance from a cycle, over the static deflection, up to which multipliers predict the departure."""
 DOUBT = 0.05
 """Error of a predicted first separation, over the time in which the departure grows by e. At 60 points over speed and
 preload it is 0.014 at most.
@@ -93,7 +91,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
 def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
     """The motion from the static start, up to the longest horizon; `simulated` is all that was simulated for it."""
     horizon = options.horizons[-1]
-    found = find_outcome(case, horizon, tol=options.tol, furthest=FURTHEST, early=options.early_end)
+    found = find_outcome(case, horizon, tol=options.tol, furthest=CERTAIN, early=options.early_end)
     # a predicted first separation is known to a fraction of the growth time
     doubt = 0.0 if found.departed is None else DOUBT / found.departed.growth_rate
     if any(abs(found.first_separation - one) < doubt for one in options.horizons):
