@@ -56,6 +56,8 @@ SAME = 0.05
 SMALLEST = 1e-3
 """Range, over the static deflection, below which ranges count as equal: the slider's height is constant. It also bounds
 the change over a period of a motion that counts as periodic."""
+INTERVAL = 0.25
+"""s, between orthonormalisations for the largest exponent. Below -90/s it is not resolved; such a motion repeats."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward perturbations of the static start from which attractors are sought, over the static deflection."""
 
@@ -263,7 +265,9 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     if n := shortest_period(intervals, CLOSES):
         return Regularity(periodic, n, closure(intervals, n))
     duration = SETTLING * FIRST_LEG / 2
-    found = lyapunov_exponents(p, duration, count=1, initial_state=state, tol=tol, leave_out_trivial=True)
+    found = lyapunov_exponents(
+        p, duration, count=1, interval=INTERVAL, initial_state=state, tol=tol, leave_out_trivial=True
+    )
     rate, error = float(found.exponents[0]), float(found.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Regularity(Outcome.UNDECIDED)

@@ -43,7 +43,9 @@ def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
     options = entry.stated.model_validate(data["options"])
     start = Start(**{name: getattr(options, name) for name in Start.model_fields if isinstance(options, Start)})
     varied = [dict(zip(names, point, strict=True)) for point in points]
-    parameters = [_made(data, values) for values in varied]
+    chosen = data["base"].get("n_diameters") == AUTO
+    # a tile makes its own
+    parameters = [_made(data, values) for values in varied] if chosen or "tile" not in data else []
     began = time.process_time()
     if "tile" in data:
         found = list(_over_tile(quantity, data, options))
@@ -57,7 +59,7 @@ def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
         if message:
             log.warning("%s: %s", values, message)
     variables = variables_of(quantity, rows, options, {POINT: len(rows)})
-    if data["base"].get("n_diameters") == AUTO:
+    if chosen:
         for name in ("diameters", "circles"):  # -1 without a choice
             highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
             variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
