@@ -261,7 +261,7 @@ def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tu
 def _faster(near: NearCycle, distance: Array) -> float:
     """Relative excess of a departing motion's growth rate over the leading multiplier's; infinite for another motion.
 
-    The phase is ignored: it drifts with the amplitude long before the growth rate does, and does not matter.
+    The phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders.
     """
     left, right = _left_vector(near.jacobian), _left_vector(near.jacobian.T)
     right = right / (left @ right)

@@ -157,15 +157,27 @@ OPTIONS = RegionsOptions(horizon=10, initial_cell_size=8)
 
 
 def tile_of(
-    size: int, start: Callable[[int, int], object], outcome: Callable[[int, int], str], monkeypatch: pytest.MonkeyPatch
+    size: int,
+    start: Callable[[int, int], object],
+    outcome: Callable[[int, int], str],
+    monkeypatch: pytest.MonkeyPatch,
+    whole: Callable[[int, int], str] | None = None,
 ) -> regions._Tile:
-    """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j."""
+    """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j.
+
+    whole : outcome if the departure is simulated as a whole; without it there are no departures
+    """
 
     def place(p: Parameters) -> tuple[int, int]:
         return round(p.N - 100), round(p.Omega - 10)
 
     monkeypatch.setattr(regions, "cycle_of_static_start", lambda p: start(*place(p)))
-    monkeypatch.setattr(regions, "find_outcome", lambda p, *_, **__: OutcomeResult(outcome(*place(p)), 1.0, None))
+
+    def find_outcome(p: Parameters, *_, furthest: float, **__) -> OutcomeResult:
+        word = whole(*place(p)) if whole and not furthest else outcome(*place(p))
+        return OutcomeResult(word, 1.0, departed=None if whole is None else follows_one(False).cycle)
+
+    monkeypatch.setattr(regions, "find_outcome", find_outcome)
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
     return regions._Tile(points, OPTIONS, [])
@@ -224,6 +236,22 @@ def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(mon
     tile = tile_of(9, lambda *_: NONE, outcome, monkeypatch)
     assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.results)
     assert sum(word == "growing" for word in (tile.filled | tile.presumed).values()) == 0
+
+
+@pytest.mark.parametrize(("one", "around"), [("growing", "separation"), ("separation", "other_cycle")])
+def test_an_outcome_unlike_both_beside_it_is_that_of_the_whole_departure(
+    one: str, around: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As at 567 N and 0.5 N s/m on the map over c_p: the phase of the departure is lost, which all simulations keep."""
+
+    def outcome(i: int, j: int) -> str:
+        return one if (i, j) == (8, 8) else around
+
+    tile = tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=lambda *_: around)
+    assert tile.outcome((8, 8)) == around
+    assert tile.results[8, 8].simulated == 2.0
+    assert one not in {*tile.filled.values(), *tile.presumed.values()}
+    assert tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=outcome).outcome((8, 8)) == one
 
 
 MOST_WRONG = 0.08

@@ -7,12 +7,14 @@ one inner point is simulated instead. A cell is divided if these outcomes differ
 separation. Narrow stripes of separation may cross a cell whose corners all grow in contact. Such a cell is divided
 once, and then the point in its middle must agree. Neutral curves and folds are thus resolved point by point, borders of
 separation to the grid's own intervals. In an undivided cell, all points not decided by multipliers take the outcome of
-the simulated ones. Two kinds of points are computed one by one. At the first, the start follows a growing cycle amid
-quiet points. At the second, it follows no cycle, on a strip thinner than the grid.
+the simulated ones. A departure is simulated from its start where separation lies only at the point itself, or on both
+sides of it. Two kinds of points are computed one by one. At the first, the start follows a growing cycle amid quiet
+points. At the second, it follows no cycle, on a strip thinner than the grid.
 """
 
 import math
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
 from itertools import pairwise, product
 from typing import Any, NamedTuple, TypeVar
 
@@ -24,6 +26,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.neighbourhood import (
+    AMPLITUDES,
     CYCLE_TOL,
     SAME_POINT,
     NearCycle,
@@ -116,6 +119,7 @@ class _Tile:
         places = product(range(self.shape[0]), range(self.shape[1]))
         self.starts = {place: self._start(place) for place in places}
         self.results: dict[Place, OutcomeResult | Exception] = {}
+        self.confirmed: set[Place] = set()
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
         self.trends = {place: self._trend(place) for place in self.starts}
@@ -124,7 +128,7 @@ class _Tile:
         rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
         # a result on its edge may require a cell to be divided
-        while known < len(self.results):
+        while known < len(self.results) or self._confirm():
             known = len(self.results)
             self.filled.clear()
             self.presumed.clear()
@@ -155,6 +159,32 @@ class _Tile:
             if doubtful:
                 self.outcome((i, j))
 
+    def _confirm(self) -> bool:
+        """Whether an outcome changes if its departure is simulated as a whole, where both points beside have another.
+
+        Multipliers do not keep the phase of a departure. Near a border it may decide about separation.
+        """
+        changed = False
+        for (i, j), found in list(self.results.items()):
+            if (i, j) in self.confirmed or not isinstance(found, OutcomeResult) or found.departed is None:
+                continue
+            sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
+            beside = {self._shown(one) for one, other in sides if self._shown(one) == self._shown(other)}
+            if any(both != found.word and {both, found.word} - GROWN == {Outcome.SEPARATION} for both in beside):
+                self.confirmed.add((i, j))
+                whole = self._result((i, j), furthest=0.0)
+                if isinstance(whole, OutcomeResult):
+                    whole = replace(whole, simulated=found.simulated + whole.simulated)
+                    changed |= whole.word != found.word
+                self.results[i, j] = whole
+        return changed
+
+    def _shown(self, place: Place) -> str | None:
+        """The outcome at a point as far as it is known."""
+        if place in self.results:
+            return self.outcome(place)
+        return self.trends.get(place) or self.filled.get(place, self.presumed.get(place))
+
     def outcome(self, place: Place) -> str:
         """Outcome of the static start at a point, computed once."""
         if place not in self.results:
@@ -162,12 +192,13 @@ class _Tile:
         found = self.results[place]
         return found.word if isinstance(found, OutcomeResult) else "failed"
 
-    def _result(self, place: Place) -> OutcomeResult | Exception:
+    def _result(self, place: Place, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
         point, start = self.points[place[0]][place[1]], self.starts[place]
         if isinstance(start, Exception):
             return start
         assert isinstance(point, Parameters)
-        return _tried(lambda: find_outcome(point, self.options.horizon, tol=self.options.tol, near=start))
+        horizon, tol = self.options.horizon, self.options.tol
+        return _tried(lambda: find_outcome(point, horizon, tol=tol, near=start, furthest=furthest))
 
     def _trend(self, place: Place) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
