@@ -430,6 +430,12 @@ def test_the_same_motions_are_judged_alike_under_both(told: xr.DataTree) -> None
     assert all(finding.ours for finding in judged)
 
 
+def test_speeds_at_which_contact_is_kept_again_are_those_between_ranges_of_separation(told: xr.DataTree) -> None:
+    windows = [[20.0, np.nan], [10.0, 12.0], [15.0, 15.1], [19.0, np.nan], [12.0, 23.9]]
+    seen = BY_NAME["S42w"].evaluate(views(told, made_up.scans(windows=windows))).remark
+    assert seen.endswith("contact is kept: 200 N: 12.0..24.0 rad/s; 385 N: 15.1..24.0 rad/s")
+
+
 def test_a_sweep_that_separates_below_the_critical_speed_is_a_remark(told: xr.DataTree) -> None:
     claim = BY_NAME["S42w"]
     ends = {"offset_speed": (("N", "normalization"), [[20.0], [8.5], [np.nan]])}

@@ -224,7 +224,7 @@ class Claim:
         found = judge(self)
         turned = self.turned_by(judge, found.verdict)
         if turned not in ("", "stable") and found.verdict != UNDECIDED:
-            remark = "; ".join(filter(None, (f"small changes turn it: {turned}", found.remark)))
+            remark = "; ".join(filter(None, (f"not robust: {turned}", found.remark)))
             found = replace(found, verdict=UNDECIDED, remark=remark)
         if not self.texts.simulated or found.verdict.startswith(NOT_COMPUTED):
             return found, turned

@@ -266,24 +266,30 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
-    """Whether, from some preload on, all separate with any damper that do not without it: the largest decide."""
+    """Whether, from some preload on, all separate with any damper that do not without it: the largest decide.
+
+    If one of them separates with none, there is no such preload. Undecided if each does with some.
+    """
     loads, damping, apart = _map(study, "N", "c_p")
     quiet, dampers = ~apart[:, damping == 0][:, 0], damping[damping > 0]
     newly, compared = apart[quiet][:, damping > 0], loads[quiet][-int(few) :]
     largest = newly[-int(few) :]
+    rows = [
+        {"N": N, "count": row.sum(), "of": row.size, "c_p": dampers[row].min()}
+        for N, row in zip(compared, largest, strict=True)
+        if row.any()
+    ]
+    all_, each = largest.all(), largest.any(axis=1).all()
     return Answer(
-        bool(largest.all()) if len({*largest.ravel()}) == 1 else None,
+        None if each and not all_ else bool(all_),
         "some",
         N=measures.extent(loads),
         compared=measures.extent(compared),
         Omega=json.loads(study.attrs["base"])["Omega"],
         horizon=_horizon(study),
         newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
-        some=[
-            {"N": N, "count": row.sum(), "of": row.size, "c_p": dampers[row].min()}
-            for N, row in zip(compared, largest, strict=True)
-            if row.any()
-        ],
+        some=rows,
+        partly=[] if each else rows,
     )
 
 

@@ -212,10 +212,16 @@ def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
 
 def slider_settles(*pair: CaseView, part: float) -> Answer:
     first = pair[0]["first_separation"]
-    spans = (("spectrum_c", 50, first), ("spectrum_d", 100, 100 + first - 50))
-    filled = [[100 * _fuzziness(case, *span, name="psi") for span in spans] for case in pair]
-    rows = [{"case": case, "before": a, "after": b} for case, (a, b) in zip(pair, filled, strict=True)]
-    return Answer(*_beside(*(after < part * before for before, after in filled)), stretches=rows)
+    length = first - 50
+    begins = {"before": ("spectrum_c", 50.0), "after": ("spectrum_c", first), "late": ("spectrum_d", 100.0)}
+    filled = [
+        [100 * _fuzziness(case, window, start, start + length, "psi") for window, start in begins.values()]
+        for case in pair
+    ]
+    rows = [{"case": case} | dict(zip(begins, each, strict=True)) for case, each in zip(pair, filled, strict=True)]
+    (before, after, _), (ignored, control, late) = filled
+    found = _beside(after < part * before, control < part * ignored)
+    return Answer(*found, stretches=rows, later=late < part * ignored and late)
 
 
 def multiples(case: CaseView, *, bound: float) -> Answer:

@@ -18,9 +18,8 @@ from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
 DOUBT = 0.05
-"""Error of a predicted first separation, over the time in which the departure grows by e. At 60 points over speed and
-preload it is 0.014 at most.
-"""
+"""Usual error of a predicted first separation, over the time in which the departure grows by e. At 60 points over speed
+and preload it is 0.014 at most; the phase of a departure, which is lost, may cause more."""
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 COLUMNS = {
