@@ -88,7 +88,7 @@ def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str
     assert figure.get_suptitle() == ""
     assert min(text.get_fontsize() for text in figure.findobj(mpl.text.Text) if text.get_text()) >= 7
     names = {text for ax in figure.axes for text in (ax.get_xlabel(), ax.get_ylabel()) if text.startswith("Disc at")}
-    assert names <= {r"Disc at $r_0$, $\theta$ = 0.5 (mm)"}, "at the angle that was recorded"
+    assert names <= {r"Disc at $r_0$, $\theta$ = 0.5 rad (mm)"}, "at the angle that was recorded"
     assert names or "{theta}" not in CATALOGUE[name].caption or name == "fig25" or not separates
 
 
@@ -142,7 +142,7 @@ def test_a_closer_look_began_inside_a_separation() -> None:
 def test_two_angles_are_both_named() -> None:
     cases = {name: whole_case() for name in ("F02", "F04")}
     cases["F04"]["history"].attrs["theta"] = 2.0
-    assert drawn("fig10", cases).axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 (mm)"
+    assert drawn("fig10", cases).axes[0].get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 and 2 rad (mm)"
 
 
 # ---- kinds that a file may ask for
@@ -244,8 +244,8 @@ def test_captions_say_times_and_angles_of_the_windows() -> None:
         return caption(name, {"F02": p, "F04": p}, {"F02": windows, "F04": windows | {"history": windows["zoom"]}})
 
     assert "(b) 50 ms of it" in phrase("fig02")
-    assert "r_0 and θ = -0.25." in phrase("fig05")
-    assert "r_0 and θ = 0.5 and 1, with" in phrase("fig10")
+    assert "r_0 and θ = -0.25 rad." in phrase("fig05")
+    assert "r_0 and θ = 0.5 and 1 rad, with" in phrase("fig10")
     assert "drive point, 7.5 to 9 s, coloured by phase" in phrase("figA2")
     # without a section, as if nothing had been said of it
     assert "r_0 and a fixed θ." in caption("fig05", {"F02": p, "F04": p}, {"F02": {"poincare": None}})

@@ -307,7 +307,7 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """
     angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
     at = " and ".join(f"{angle:g}" for angle in angles)
-    label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
+    label, factor = axis_of(name, rf", $\theta$ = {at} rad" if name.startswith("w_point") else "")
     return label, factor, COLOURS.get(name, SLIDER)
 
 

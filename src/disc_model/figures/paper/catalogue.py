@@ -133,7 +133,11 @@ def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
     angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
-    words = {"theta": f"θ = {angles}" if angles else "a fixed θ", "zoom": "a stretch", "orbit": "a stretch of the run"}
+    words = {
+        "theta": f"θ = {angles} rad" if angles else "a fixed θ",
+        "zoom": "a stretch",
+        "orbit": "a stretch of the run",
+    }
     for name, window in shown:
         if name == "zoom":
             words[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
