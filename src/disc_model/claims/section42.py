@@ -1,7 +1,6 @@
 """Claims of Section 4.2: N = 385 N around the critical speed, and the critical speed in general."""
 
 import json
-import math
 from typing import Any
 
 import numpy as np
@@ -66,13 +65,13 @@ def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: 
     """
     study = _scanned(study).isel(horizon=-1)
     rows: list[dict[str, Any]] = []
+    top = float(study["scan_Omega"][-1])
     for N in study["N"].values:
         kinds, speeds = (study.sel(N=N)[name] for name in ("crossing_kind", "crossing"))
         ends = np.flatnonzero(flag_names(kinds) == "ends")
         # without a next crossing contact is kept up to the end of the scan
-        until = np.append(speeds.values, math.nan)[ends + 1]
-        until = np.where(np.isnan(until), study["scan_Omega"].values[-1], until)
-        windows = [Range(a, b) for a, b in zip(speeds.values[ends], until, strict=True) if b - a > within]
+        edges = [*speeds.values[np.isfinite(speeds)], top]
+        windows = [Range(*edges[i : i + 2]) for i in ends if edges[i + 1] - edges[i] > within]
         rows += [{"N": N, "windows": windows}] if windows else []
     lowest = study["critical_speed"].values
     found = np.isfinite(lowest)
@@ -82,8 +81,8 @@ def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: 
     below = [] if sweeps is None else _lasts_below(study["critical_speed"], sweeps, within)
     dwell = 0.0 if sweeps is None else json.loads(sweeps.attrs["options"])["dwell"]
     some, count = found.sum(), found.size
-    values = {"some": some, "count": count, "horizon": horizon, "top": float(study["scan_Omega"][-1])}
-    return Answer(True, loads=rows, below=below, dwell=dwell, begins=begins, **values)
+    values = {"begins": begins, "some": some, "count": count, "horizon": horizon, "top": top}
+    return Answer(True, loads=rows, below=below, dwell=dwell, **values)
 
 
 def _lasts_below(critical: xr.DataArray, sweeps: xr.Dataset, within: float) -> list[dict[str, float]]:

@@ -279,9 +279,9 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> A
         for N, row in zip(compared, largest, strict=True)
         if row.any()
     ]
-    all_, each = largest.all(), largest.any(axis=1).all()
+    each = largest.any(axis=1).all()
     return Answer(
-        None if each and not all_ else bool(all_),
+        bool(largest.all()) if largest.all() or not each else None,
         "some",
         N=measures.extent(loads),
         compared=measures.extent(compared),

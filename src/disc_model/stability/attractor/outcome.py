@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -138,6 +138,10 @@ class OutcomeResult:
         """Whether the motion loses contact again and again."""
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
 
+    def after(self, before: Self) -> Self:
+        """The same result of a search that repeats another one: what both simulated counts."""
+        return replace(self, simulated=before.simulated + self.simulated)
+
     @property
     def status(self) -> Status:
         """Status of the simulation."""
@@ -181,8 +185,7 @@ def find_outcome(
                 found = course.run(near)
                 if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
                     return found
-                again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, late=late)
-                return replace(again, simulated=found.simulated + again.simulated)
+                return find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, late=late).after(found)
             course.near_start = near
     return course.run(None)
 
@@ -193,6 +196,7 @@ class _OutcomeSearch:
 
     shown : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
     left : the unstable cycle from which the motion has departed
+    departed : that cycle, if the departure was computed by multipliers
     near_start : the cycle near the static start, while the motion does not follow it
     """
 
@@ -207,6 +211,7 @@ class _OutcomeSearch:
     simulated: float = 0.0
     shown: FloquetResult | None = None
     left: NearCycle | None = None
+    departed: FloquetResult | None = None
     near_start: NearCycle | None = None
     segment: Segment | None = None
     changes: list[float] = field(default_factory=list)
@@ -268,7 +273,7 @@ class _OutcomeSearch:
             outcome,
             self.simulated,
             self.shown,
-            departed=None if self.left is None else self.left.cycle,
+            departed=self.departed,
             time=self.time,
             state=self.state,
             changes=self.changes,
@@ -285,6 +290,8 @@ class _OutcomeSearch:
         self.time = begun + time
         self.state = near.map.state(near.x + distance).replace(time=self.time)
         self.left = near
+        if time:
+            self.departed = near.cycle
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:

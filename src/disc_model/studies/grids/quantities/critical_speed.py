@@ -7,7 +7,6 @@ horizon lies within this uncertainty, the motion is simulated from its start.
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -94,8 +93,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
     # a predicted first separation is known to a fraction of the growth time
     doubt = 0.0 if found.departed is None else DOUBT / found.departed.growth_rate
     if any(abs(found.first_separation - one) < doubt for one in options.horizons):
-        again = find_outcome(case, horizon, tol=options.tol, furthest=0.0)
-        return replace(again, simulated=found.simulated + again.simulated)
+        return find_outcome(case, horizon, tol=options.tol, furthest=0.0).after(found)
     return found
 
 

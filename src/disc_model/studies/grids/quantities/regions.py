@@ -14,7 +14,6 @@ points. At the second, it follows no cycle, on a strip thinner than the grid.
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import replace
 from itertools import pairwise, product
 from typing import Any, NamedTuple, TypeVar
 
@@ -119,7 +118,6 @@ class _Tile:
         places = product(range(self.shape[0]), range(self.shape[1]))
         self.starts = {place: self._start(place) for place in places}
         self.results: dict[Place, OutcomeResult | Exception] = {}
-        self.confirmed: set[Place] = set()
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
         self.trends = {place: self._trend(place) for place in self.starts}
@@ -166,17 +164,14 @@ class _Tile:
         """
         changed = False
         for (i, j), found in list(self.results.items()):
-            if (i, j) in self.confirmed or not isinstance(found, OutcomeResult) or found.departed is None:
+            if not isinstance(found, OutcomeResult) or found.departed is None:
                 continue
             sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
             beside = {self._shown(one) for one, other in sides if self._shown(one) == self._shown(other)}
             if any(both != found.word and {both, found.word} - GROWN == {Outcome.SEPARATION} for both in beside):
-                self.confirmed.add((i, j))
                 whole = self._result((i, j), furthest=0.0)
-                if isinstance(whole, OutcomeResult):
-                    whole = replace(whole, simulated=found.simulated + whole.simulated)
-                    changed |= whole.word != found.word
-                self.results[i, j] = whole
+                self.results[i, j] = whole.after(found) if isinstance(whole, OutcomeResult) else whole
+                changed |= self.outcome((i, j)) != found.word
         return changed
 
     def _shown(self, place: Place) -> str | None:
@@ -304,10 +299,8 @@ class _Tile:
                 "simulated_time": found.simulated,
             }
             message = found.message
-        elif not self.trends[place]:
-            row |= {"outcome": self.filled.get(place, self.presumed.get(place)), "method": "inferred"}
         else:
-            row |= {"outcome": self.trends[place], "method": "multipliers"}
+            row |= {"outcome": self._shown(place), "method": "multipliers" if self.trends[place] else "inferred"}
         row["branch_continues_first"] = self._joined(place, (place[0] + 1, place[1]))
         row["branch_continues_second"] = self._joined(place, (place[0], place[1] + 1))
         followed = self.followed.get(place)
