@@ -17,7 +17,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import correlate
 
 from disc_model.data.variables import Outcome
 
@@ -146,6 +145,9 @@ def zero_one(values: Array) -> float:
 
 def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
     """Correlation of the mean square displacement with time, after its oscillating part is subtracted."""
+    # imported here: it takes longer than most jobs, which do without this test
+    from scipy.signal import correlate
+
     path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
     sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
     # mean of |path[i + j] - path[i]|^2 over i < count

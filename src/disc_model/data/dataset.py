@@ -24,6 +24,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
+from netCDF4 import Dataset
+from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
@@ -123,13 +125,32 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     """
     if not isinstance(tree, xr.DataTree):
         raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
-    file, groups = _file(path), {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
-    encoding = {
-        place: {str(name): _encode(variable) for name, variable in group.variables.items()}
-        for place, group in groups.items()
-    }
-    size = sum(group.nbytes for group in groups.values())
-    write_atomically(file, lambda name: tree.to_netcdf(name, engine="netcdf4", encoding=encoding), size + OVERHEAD)
+    file = _file(path)
+    write_atomically(file, lambda name: _write(tree, name), sum(node.nbytes for node in tree.subtree) + OVERHEAD)
+
+
+def _write(tree: xr.DataTree, name: str) -> None:
+    """Write a new file of a tree.
+
+    All groups are defined before an array is written. `DataTree.to_netcdf` writes each array as soon as it is defined,
+    and for each one the library goes through all of the file's metadata: eight times the time for 70 cases.
+    """
+    arrays = _Arrays()
+    with Dataset(name, "w") as root:
+        for node in tree.subtree:
+            group = node.to_dataset(inherit=False)
+            store = NetCDF4DataStore(root.createGroup(node.path) if node.parent else root)
+            encoding = {str(name): _encode(variable) for name, variable in group.variables.items()}
+            group.dump_to_store(store, encoding=encoding, writer=arrays)
+        for source, target in arrays:
+            target[...] = source
+
+
+class _Arrays(list[tuple[Any, Any]]):
+    """Collects arrays with their places in a file."""
+
+    def add(self, source: Any, target: Any) -> None:
+        self.append((source, target))
 
 
 def load(path: str | Path) -> xr.DataTree:
