@@ -20,3 +20,14 @@ def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
     _, end, _, _ = map_.evaluate(seed.point)
     # rounding, and what a corrector leaves; with the coordinates of 150 GPa it is 1e-4
     assert np.linalg.norm(end - seed.point) < 1e-9 * np.linalg.norm(map_.static)
+
+
+@pytest.mark.compiled
+def test_a_fold_is_followed_across_its_line():
+    """The gradient at the former place leads the corrector astray here, unless each step corrects it."""
+    bounds = {"Omega": (9.5, 11.0), "N": (350.0, 400.0)}
+    found, notes = curves.stability_curves(Parameters(N=375, Omega=10), ("Omega", "N"), bounds, [375.0], points=2)
+    assert notes == []
+    fold = next(curve for curve in found if curve.kind == "fold")
+    assert fold.values[:, 1].min() < 375 < fold.values[:, 1].max()
+    assert len(fold.values) < 30  # short steps are a sign of a corrector that fails

@@ -296,17 +296,20 @@ def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float
     rows = here.tangent[None, :]
     point = problem.evaluate(guess)
     value, found = test(point.jacobian, expected)
-    gradient = _ways(problem, point, test, found).gradient
-    last = math.inf
+    gradient = here.ways.gradient
+    errors = [math.inf, math.inf]
     for _ in range(12):
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
-        error = float(np.linalg.norm(right))
-        if error < 1e-10:
+        errors.append(float(np.linalg.norm(right)))
+        if errors[-1] < 1e-10:
             ways = _ways(problem, point, test, found)
             return _OnCurve(point, ways.along, found, ways)
-        if error > 0.9 * last:
+        if errors[-1] > 0.9 * errors[-3]:
             break
-        last = error
-        point = problem.evaluate(point.z - newton_step(np.vstack([point.by, gradient, rows]), right))
+        before, last = point, value
+        point = problem.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
         value, found = test(point.jacobian, found)
+        # Broyden's update: a gradient by differences would take four flights at each correction
+        move = point.z - before.z
+        gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
     raise CorrectorFailed("Newton's method does not converge")

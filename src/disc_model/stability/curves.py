@@ -115,16 +115,24 @@ def stability_curves(
             place = np.array([getattr(seed.case, name) for name in names])
             if _known(found, seed.kind, place, seed.period, span):
                 continue
+            where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
             try:
                 curve = _trace(seed, names, bounds, how)
             except ParameterError as error:
-                where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
                 notes.append(f"{seed.kind} near {where}: {error}")
                 continue
-            i = len(curve.period) // 2
-            if len(curve.period) > 1 and not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
+            i = _halfway(curve.values / span)
+            if len(curve.period) == 1:
+                notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
+            elif not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
                 found.append(curve)
     return found, notes
+
+
+def _halfway(places: Array) -> int:
+    """Index of the place halfway along a curve: at the tip of a tongue, where its borders meet, places are dense."""
+    length = np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))
+    return 0 if len(places) == 1 else int(np.searchsorted(length, length[-1] / 2)) + 1
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
