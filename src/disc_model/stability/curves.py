@@ -130,7 +130,7 @@ def stability_curves(
 
 
 def _halfway(places: Array) -> int:
-    """Index of the place halfway along a curve: at the tip of a tongue, where its borders meet, places are dense."""
+    """Index of the place halfway along a curve: places are dense where two borders meet."""
     length = np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))
     return 0 if len(places) == 1 else int(np.searchsorted(length, length[-1] / 2)) + 1
 
