@@ -179,7 +179,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
         # so large a step leads to another cycle
-        ax.plot(*parts.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1)
+        ax.plot(*parts.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1.6)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))

@@ -128,10 +128,10 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
         look: dict[str, Any] = {
             "color": color,
             "marker": marker,
-            "markersize": 3.5,
+            "markersize": 2.4,
             "markeredgecolor": BLACK,
-            "markeredgewidth": 0.6,
-            "path_effects": [withStroke(linewidth=1.8, foreground=BLACK)],
+            "markeredgewidth": 0.5,
+            "path_effects": [withStroke(linewidth=1.3, foreground=BLACK)],
             "zorder": 1.9 - 0.1 * i,
         }  # below the curves
         if i == 0:
@@ -146,7 +146,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     ends = speeds_of(study, horizons[0], "ends")
     if sum(map(len, ends)):
         loads = np.repeat(study["N"].values, [found.size for found in ends])
-        ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=4, label="end of separation")
+        ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=3, label="end of separation")
 
 
 def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
@@ -187,8 +187,9 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
         ("offset_speed", END, "v", "sweep down: separation ends"),
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
-        ax.plot(speeds, N, color=color, marker=marker, markersize=4, markerfacecolor="none", label=text, clip_on=False)
-    dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 3, "linestyle": (0, (2, 1.5))}
+        look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
+        ax.plot(speeds, N, color=color, marker=marker, label=text, **look)
+    dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 2, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     parts.mark_failed(ax, N[lost], on="y")
     options = json.loads(sweep.attrs.get("options", "{}"))

@@ -26,7 +26,12 @@ Array = NDArray[np.float64]
 
 NEAR = 3.0
 """Greatest distance of a named resonance, Hz."""
-OTHER: dict[str, Any] = {"color": GREY, "linewidth": 0.5, "label": "end of another cycle's stability"}
+OTHER: dict[str, Any] = {
+    "color": GREY,
+    "linewidth": 1.0,
+    "path_effects": parts.halo(2.0),
+    "label": "end of another cycle's stability",
+}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 

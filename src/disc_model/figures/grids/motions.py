@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
 from disc_model.data.variables import flag_names, values_text
@@ -177,9 +178,14 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
     for color, text in ((BLACK, "in contact"), (SEPARATED, "separating")):
         ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
     ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
-    for mark, color, text in (("^", BLACK, "rising"), ("v", BLACK, "falling"), ("^", SEPARATED, "separating")):
-        ax.plot([], [], mark, color=color, label=f"simulated, {text}", **MARK)
-    figure.legend(loc="outside lower center", ncols=3)
+    handles, labels = ax.get_legend_handles_labels()
+    (rising, falling), both = (
+        [Line2D([], [], linestyle="", marker=way, color=color, **MARK) for way in "^v"] for color in (BLACK, SEPARATED)
+    )
+    simulated: dict[str, Any] = {"rising": rising, "falling": falling, "separating": tuple(both)}
+    handles += simulated.values()
+    labels += [f"simulated, {text}" for text in simulated]
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map={tuple: HandlerTuple(None)})
     return figure
 
 
