@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg, special
+from scipy import special
 
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import Disc, Parameters, foreign_case
@@ -186,6 +186,8 @@ def coupled_shapes(omega: Array, psi: Array, m: float, k: float, compliance: flo
 
 def _inverse_squares(omega: Array, psi: Array, m: float, k: float, compliance: float, **how: bool) -> Any:
     """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
+    from scipy import linalg  # takes 0.3 s, and most jobs do without
+
     try:
         with np.errstate(all="ignore"):
             matrices = (

@@ -19,7 +19,7 @@ from disc_model.benchmarks.grid import TABLES
 from disc_model.benchmarks.texts import TEXTS, as_markdown
 
 
-class Asked(NamedTuple):
+class Column(NamedTuple):
     """A quantity of the tables; ``variables.toml`` explains its properties."""
 
     title: str
@@ -33,7 +33,7 @@ class Asked(NamedTuple):
         return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
 
 
-ALL = {name: Asked(*given) for name, given in TABLES["contact_truncation_tables"].items()}
+ALL = {name: Column(*given) for name, given in TABLES["contact_truncation_tables"].items()}
 TABLED = {name: asked for name, asked in ALL.items() if asked.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""

@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import expm
 
 from disc_model.data.variables import Outcome
 from disc_model.flexibility import contact_compliance
@@ -301,6 +300,8 @@ def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if not np.linalg.norm(expected) <= NEAR * static:
         return False
+    from scipy.linalg import expm  # as in plate
+
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
     for time in TESTS[-1]:
         result = simulate(p, state.time + time, tol=tol, initial_state=state, record=Record(events=False))
