@@ -116,7 +116,7 @@ def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 def cycle_as_told(p: Parameters) -> Any:
     """What a search for the cycle finds: a stiffer disc and a damped one are more stable, and stick grows with load."""
     rate = 0.2 * (150e9 / p.E - 0.9) - 1e3 * p.D_star - 0.1 * p.c - 1e-7 * p.k - (p.N > 1000)
-    rate += 1e-3 * math.sin(math.pi * p.k_p / 5e4)
+    rate += 1e-3 * math.sin(math.pi * p.k_p / 5e4) - (p.k_p > 1e5)
     return SimpleNamespace(growth_rate=rate, stick_fraction=p.N / 1000, multipliers=(0.5 + 0.9j,))
 
 

@@ -237,11 +237,12 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
     return Answer(apart <= within, apart=apart)
 
 
-def is_intricate(case: CaseView, other: CaseView, *, fewest: float) -> Answer:
-    """Whether the in-plane motion has no short period; ``other`` as in `is_quasi_periodic`."""
+def is_intricate(case: CaseView, other: CaseView, *near: CaseView, most: float) -> Answer:
+    """Whether the in-plane motion has no short period; ``other`` and ``near`` as in `is_quasi_periodic`."""
     motion, _ = measures.late_motion(case)
+    nearby = [row for each in near for row in measures.nearby(motion, measures.late_motion(each)[0])]
     another = measures.another_motion(case, other)
-    return Answer(not 0 < motion.period < fewest, periodic=motion.period > 0, another=another)
+    return Answer(not 0 < motion.period <= most, periodic=motion.period > 0, nearby=nearby, another=another)
 
 
 def slip_condition(*cases: CaseView) -> Answer:

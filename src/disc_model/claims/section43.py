@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Callable
 from functools import cache
 from itertools import product
 from typing import Any
@@ -70,10 +71,9 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
 
 
 def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
-    """Whether the case only sticks, which is damped; undecided if the largest preload with releases is not stable."""
-    holds = stuck["time_slip"] == 0 and not stuck.separates
+    """Whether the case only sticks, which is damped; and whether the largest preload with releases is not stable."""
     released = large.separates or _grew(large) or not growth_or_nan(large.parameters) < 0
-    return Answer(None if holds and released else holds, "released")
+    return Answer(stuck["time_slip"] == 0 and not stuck.separates, released=released)
 
 
 def stick_longer(*cases: CaseView) -> Answer:
@@ -354,9 +354,16 @@ def stiffer_disc(*cases: CaseView) -> Answer:
 
 
 def stiffer_spring(case: CaseView) -> Answer:
-    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), "k") for speed in (20, 50)}
-    falls = [not np.any(np.diff(rates[np.isfinite(rates)]) >= 0) for rates, _ in by_speed.values()]
-    return Answer(all(falls), rates=[{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()])
+    holds, rates = _stiffened_at_speeds(case, "k", lambda rates: bool(np.all(np.diff(rates) < 0)))
+    return Answer(holds, rates=rates)
+
+
+def stiffer_inplane(case: CaseView) -> Answer:
+    def rises_then_stabilises(rates: Array) -> bool:
+        return bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0) and rates[-1] < 0)
+
+    holds, rates = _stiffened_at_speeds(case, "k_p", rises_then_stabilises)
+    return Answer(holds, rates=rates)
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -455,6 +462,15 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     for name in remarks:  # a row if there are any
         found[name] = [{"count": found[name], "where": "; ".join(places)}] if found[name] else []
     return found | {"points": len(points), "value": much, "places": places}
+
+
+def _stiffened_at_speeds(
+    case: CaseView, name: str, follows: Callable[[Array], bool]
+) -> tuple[bool, list[dict[str, Any]]]:
+    """Whether growth rates for stiffer and stiffer springs follow a rule at 20 and at 50 rad/s, and the rates."""
+    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), name) for speed in (20, 50)}
+    holds = all(follows(rates[np.isfinite(rates)]) for rates, _ in by_speed.values())
+    return holds, [{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()]
 
 
 def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:

@@ -258,13 +258,13 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
     return Answer(*_beside(stages and here, stages and there), free=free, kept=kept, **numbers)
 
 
-def natural_lines(case: CaseView, *, share: float) -> Answer:
+def natural_lines(case: CaseView, *, share: float, near: float) -> Answer:
     span = ("spectrum_d", 143.0, 153.0)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
     found, every = (
         measures.loudest(measures.lines(case, *span, above=above, floor=1e-3), 4) for above in (LOW, 0.5 * drive)
     )
-    ours, counted = (_natural_share(case, lines, rate) for lines in (found, every))
+    ours, counted = (_natural_share(case, lines, rate, near) for lines in (found, every))
     return Answer(
         None if counted <= share < ours else ours > share,
         "drive",
@@ -359,13 +359,11 @@ def _from_natural(case: CaseView, line: spectra.Line) -> float:
     return float(np.min(np.abs(_natural(case) - line.frequency)))
 
 
-def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float) -> float:
-    """Fraction of the lines' power in lines near a natural frequency that are no n f_s + m f_Omega."""
+def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float, near: float) -> float:
+    """Fraction of the lines' power in lines beside a natural frequency that are not near any n f_s + m f_Omega."""
     within = 4 * case["Omega"] / (2 * np.pi)
-    near = [
-        line for line in lines if _from_natural(case, line) <= within and _from_combination(case, line, rate) > COMBINED
-    ]
-    return sum(line.amplitude**2 for line in near) / sum(line.amplitude**2 for line in lines)
+    own = [line for line in lines if _from_natural(case, line) <= within and _from_combination(case, line, rate) > near]
+    return sum(line.amplitude**2 for line in own) / sum(line.amplitude**2 for line in lines)
 
 
 def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float) -> list[spectra.Line]:
