@@ -23,10 +23,12 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     above, below = draw("bifurcation", with_failed(samples, N=2), {"lyapunov": with_failed(exponents, N=3)}, x="N").axes
     assert [crosses(ax) for ax in (above, below)] == [[[2]], [[3]]]
     assert above.lines[0].get_xdata().tolist() == [1, 1, 3, 3]
-    samples["phase"][{"N": 1}] = 0  # not reached, as where a motion slides steadily
+    samples["phase"][{"N": slice(1, None)}] = 0  # not reached
+    samples["kind"] = "N", np.array([0, 1, 0]), {"flag_meanings": "undecided steady_sliding"}
     (ax,) = draw("bifurcation", samples, x="N").axes
     assert not crosses(ax)
     assert lines(ax)["steady sliding"].get_xdata() == [2]
+    assert lines(ax)["no event while sampled"].get_xdata() == [3]
 
 
 def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() -> None:

@@ -64,10 +64,11 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
             ax.plot(position[there], values[there], linestyle="", label=label, **look)
     parts.mark_failed(ax, along[lost])
     moving = (phase >= 0).any(axis=1)
-    idle = along[~moving & ~lost]
-    if idle.size:
-        low = np.full(idle.size, 0.02)
-        ax.plot(idle, low, "|", color=GREY, markersize=4, transform=ax.get_xaxis_transform(), label="steady sliding")
+    slides = flag_names(study["kind"]) == "steady_sliding" if "kind" in study else np.zeros_like(lost)
+    at_edge: dict[str, Any] = {"color": GREY, "markersize": 4, "transform": ax.get_xaxis_transform()}
+    for label, marker, here in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
+        if (idle := along[here & ~moving & ~lost]).size:
+            ax.plot(idle, np.full(idle.size, 0.02), marker, label=label, **at_edge)
     unit = study[plot.variable].attrs.get("units", "")
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
