@@ -20,8 +20,8 @@ from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap
 
 SAME_PLACE, SAME_PERIOD = 0.01, 0.004
-"""A place lies on a known curve within this share of the parameters' ranges, if periods agree to this share: those of the
-two borders of one resonance differ by 1 % and more."""
+"""A place lies on a known curve within this share of the parameters' ranges, if periods agree to this share. The
+periods of the two borders of one resonance differ by 1 % and more."""
 OTHERS_GROW = 1e-3
 """1/s; a neutral curve is a border of stability if no other multiplier grows faster than this."""
 
