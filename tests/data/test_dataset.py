@@ -72,6 +72,15 @@ def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) 
     assert mine.attrs["parameters"] == P.canonical_json
 
 
+def test_a_part_of_a_tree_is_a_file_of_its_own(tree: xr.DataTree, tmp_path: Path) -> None:
+    whole = xr.DataTree()
+    whole["F13"] = tree
+    for name, part in (("whole.nc", whole), ("part.nc", whole["F13"])):
+        save(part, tmp_path / name)
+    xr.testing.assert_identical(load(tmp_path / "whole.nc"), whole)
+    xr.testing.assert_identical(load(tmp_path / "part.nc"), tree)
+
+
 @pytest.mark.parametrize("names", [["a", "a"], ["a", "N"]])
 def test_a_window_takes_no_others_name(names: list[str]) -> None:
     record = Record(windows=(Window(stop=0.001, rate=1e4), Window(stop=0.001, rate=1e3)))

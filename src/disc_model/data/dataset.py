@@ -138,8 +138,8 @@ def _write(tree: xr.DataTree, name: str) -> None:
     arrays = _Arrays()
     with Dataset(name, "w") as root:
         for node in tree.subtree:
-            group = node.to_dataset(inherit=False)
-            store = NetCDF4DataStore(root.createGroup(node.path) if node.parent else root)
+            group = node.to_dataset(inherit=node is tree)
+            store = NetCDF4DataStore(root if node is tree else root.createGroup(node.relative_to(tree)))
             encoding = {str(name): _encode(variable) for name, variable in group.variables.items()}
             group.dump_to_store(store, encoding=encoding, writer=arrays)
         for source, target in arrays:
