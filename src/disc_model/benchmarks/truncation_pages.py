@@ -34,7 +34,7 @@ class Column(NamedTuple):
 
 
 ALL = {name: Column(*given) for name, given in TABLES["contact_truncation_tables"].items()}
-TABLED = {name: asked for name, asked in ALL.items() if asked.title}
+TABLED = {name: column for name, column in ALL.items() if column.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
 OPEN = ("case", "contact", "quantity", "values", "with so many modes")
@@ -85,13 +85,13 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
     rows, open_rows = [], []
     for (case, contact), models in study.groupby(["case", "contact"], sort=False):
         row = {"case": case, "contact": contact}
-        for name, asked in TABLED.items():
+        for name, column in TABLED.items():
             line = _known(models, name, run["most_growth"])
-            place, last = settled(line.tolist(), asked.tolerance), line[-FEWEST:]
-            row[f"{asked.head.split(',')[0]}, to {100 * asked.tolerance:g} %"] = _from_where(line, place)
+            place, last = settled(line.tolist(), column.tolerance), line[-FEWEST:]
+            row[f"{column.head.split(',')[0]}, to {100 * column.tolerance:g} %"] = _from_where(line, place)
             if place is None:
                 modes = ", ".join(f"{modes:g}" for modes in last.index)
-                open_rows.append((_upper(str(case)), contact, asked.title, ", ".join(map(asked.shown, last)), modes))
+                open_rows.append((_upper(str(case)), contact, column.title, ", ".join(map(column.shown, last)), modes))
         rows.append(row)
     table = pd.DataFrame(rows)
     found = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
@@ -108,7 +108,7 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
 
 def _of_all_models(study: pd.DataFrame) -> str:
     """The table of a case: a row for each model, with rigid and residual values in each cell."""
-    cells = {asked.head: study[name].map(asked.shown) for name, asked in ALL.items()}
+    cells = {column.head: study[name].map(column.shown) for name, column in ALL.items()}
     table = pd.DataFrame(cells).groupby("model", sort=False).agg(" / ".join)
     table.insert(0, "modes", study["modes"].groupby("model", sort=False).first().astype(int))
     table.insert(0, "diameters, circles", table.index.str.replace(",", ", "))

@@ -3,7 +3,7 @@
 import enum
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -263,6 +263,11 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
     shown = SHOWN[name]
     unit = f" ({shown.unit})" if shown.unit else ""
     return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
+
+
+def angles_text(angles: Iterable[float]) -> str:
+    """Different angles, with their unit: "0.5 and 1 rad"."""
+    return " and ".join(f"{angle:g}" for angle in sorted({*angles})) + " rad"
 
 
 def values_text(values: Mapping[str, Any]) -> str:

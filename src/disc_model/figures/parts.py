@@ -20,7 +20,16 @@ from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, typeset, values_text
+from disc_model.data.variables import (
+    EXCLUDED,
+    SHOWN,
+    WITHOUT_CYCLE,
+    angles_text,
+    axis_of,
+    flag_names,
+    typeset,
+    values_text,
+)
 from disc_model.figures import STYLE
 from disc_model.figures.kinds import CasePlot, General, GrowthMap, Kind, OwnFigure, Plot, StabilityMap
 
@@ -305,9 +314,8 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
 
     The label of the disc's fixed point states its angle.
     """
-    angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
-    at = " and ".join(f"{angle:g}" for angle in angles)
-    label, factor = axis_of(name, rf", $\theta$ = {at} rad" if name.startswith("w_point") else "")
+    at = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
+    label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
     return label, factor, COLOURS.get(name, SLIDER)
 
 

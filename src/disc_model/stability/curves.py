@@ -122,10 +122,11 @@ def stability_curves(
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
                 continue
-            i = _halfway(curve.values / span)
             if len(curve.period) == 1:
                 notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
-            elif not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
+                continue
+            i = _halfway(curve.values / span)
+            if not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
                 found.append(curve)
     return found, notes
 
@@ -133,7 +134,7 @@ def stability_curves(
 def _halfway(places: Array) -> int:
     """Index of the place halfway along a curve: places are dense where two borders meet."""
     length = np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))
-    return 0 if len(places) == 1 else int(np.searchsorted(length, length[-1] / 2)) + 1
+    return int(np.searchsorted(length, length[-1] / 2)) + 1
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:

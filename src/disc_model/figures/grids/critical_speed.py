@@ -182,12 +182,12 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
     """Draw onset and end of separation as the speed rises and falls in steps; description of the sweep."""
     N, lost = sweep["N"].values, parts.failed(sweep).values
+    look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
     for name, color, marker, text in (
         ("onset_speed", ONSET, "^", "sweep up: separation begins"),
         ("offset_speed", END, "v", "sweep down: separation ends"),
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
-        look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
         ax.plot(speeds, N, color=color, marker=marker, label=text, **look)
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 2, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)

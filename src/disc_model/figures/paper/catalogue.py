@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from disc_model.data.variables import values_text
+from disc_model.data.variables import angles_text, values_text
 from disc_model.figures.kinds import HIGHEST, OwnFigure, spectrum_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Window
@@ -132,12 +132,8 @@ def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
     """Times and angles for captions, from the windows that the figure shows."""
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]
-    angles = " and ".join(f"{theta:g}" for theta in sorted({window.theta for _, window in shown}))
-    words = {
-        "theta": f"θ = {angles} rad" if angles else "a fixed θ",
-        "zoom": "a stretch",
-        "orbit": "a stretch of the run",
-    }
+    theta = f"θ = {angles_text(window.theta for _, window in shown)}" if shown else "a fixed θ"
+    words = {"theta": theta, "zoom": "a stretch", "orbit": "a stretch of the run"}
     for name, window in shown:
         if name == "zoom":
             words[name] = f"{1e3 * (window.stop - window.start):.3g} ms"
