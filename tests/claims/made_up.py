@@ -376,7 +376,7 @@ def scans(
     map_k = xr.Dataset(
         {"outcome": (("Omega", "k", "normalization"), springs, flags)},
         {"Omega": [10.0, 11.25, 20.0], "k": [1e4, 2e4, 1e5], "normalization": ["as_published"]},
-        {"study": "map_k", "base": '{"N": 200}'},
+        {"study": "map_k", "base": '{"N": 200}', "options": '{"horizon": 1000}'},
     )
     kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
     crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}
@@ -409,7 +409,7 @@ def scans(
         {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": dampers},
         {"study": "map_c_p", "base": '{"Omega": 15}', "options": '{"horizon": 1000}'},
     )
-    plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]})
+    plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}, {"options": '{"horizon": 800}'})
     sticks = {"stick_fraction": ("Omega", [0.31, 0.3, faster, faster])}
     diagram = xr.Dataset(sticks, {"Omega": [15.0, 15.25, 15.5, 16.0]})
     apart = {

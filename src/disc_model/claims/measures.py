@@ -228,7 +228,8 @@ def first_separation(case: CaseView, *repeats: CaseView) -> str:
         return f"no separation in {case['time_reached']:g} s"
     spread = float(np.ptp(times))
     if math.isnan(spread):
-        return f"first separation at {times[0]:.2f} s, or none: that depends on the tolerance"
+        found = ", ".join(f"{time:.1f}" for time in sorted(times) if not math.isnan(time))
+        return f"first separation at {found} s, or none: that depends on the tolerance"
     if spread < 0.005:
         return f"first separation at {times[0]:.2f} s"
     order = math.floor(math.log10(spread))
@@ -346,6 +347,11 @@ def counted(count: int, name: str) -> str:
 def place(N: float, Omega: float) -> str:
     """Preload and speed in words."""
     return f"{N:g} N, {Omega:g} rad/s"
+
+
+def horizon(study: xr.Dataset) -> float:
+    """Time in s to which the points of a study were simulated."""
+    return float(json.loads(study.attrs["options"])["horizon"])
 
 
 def extent(values: Iterable[float]) -> Range:

@@ -90,7 +90,7 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
 
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
     stick, (motion, _) = measures.phase_share(case, "stick"), measures.late_motion(case)
-    return Answer(stick > share, percent=100 * stick, motion=motion, modulated=not motion.period)
+    return Answer(stick > share, percent=100 * stick, modulated=not motion.period)
 
 
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
@@ -195,7 +195,7 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     published = [case for case in cases if case.from_rest]
     found, changes, own = [], [], []
     for case, bonded in pairs(published):
-        first, end = case["first_separation"], case["time_reached"]
+        first, end = case["first_separation"], min(case["time_reached"], bonded["time_reached"])
         before, after = measures.sections(case, first, end)
         _, control = measures.sections(bonded, first, end)
         changed, ignored = before.changed(after, share), before.changed(control, share)
@@ -271,6 +271,7 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
         count=points.sizes["point"],
         N=measures.extent(study["N"]),
         Omega=measures.extent(study["Omega"]),
+        horizon=measures.horizon(study),
         settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
         moving=moving.size,
         least=_least_stick(moving) if moving.size else "",

@@ -204,7 +204,7 @@ def normal_stiffness(*evidence: Any) -> Answer:
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
     N = json.loads(study.attrs["base"])["N"]
-    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns)
+    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns, horizon=measures.horizon(study))
 
 
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
@@ -283,18 +283,13 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> A
         bool(largest.all()) if largest.all() or not each else None,
         "some",
         N=measures.extent(loads),
-        compared=measures.extent(compared),
+        compared=[f"{N:g}" for N in compared],
         Omega=json.loads(study.attrs["base"])["Omega"],
-        horizon=_horizon(study),
+        horizon=measures.horizon(study),
         newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
         some=rows,
         partly=[] if each else rows,
     )
-
-
-def _horizon(study: xr.Dataset) -> float:
-    """Time in s to which the cells of a map were simulated."""
-    return float(json.loads(study.attrs["options"])["horizon"])
 
 
 def _map(study: xr.Dataset, *names: str) -> tuple[Array, Array, NDArray[np.bool_]]:
@@ -330,7 +325,7 @@ def not_monotonous(*evidence: Any) -> Answer:
         most=damping[-1],
         lowered=lowered.sum(),
         growing=growing.sum(),
-        horizon=_horizon(study),
+        horizon=measures.horizon(study),
     )
 
 
@@ -373,7 +368,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         mixed if some.any() and not softer else None,
         "enough" if softer else "nowhere",
-        horizon=_horizon(study),
+        horizon=measures.horizon(study),
         N=json.loads(study.attrs["base"])["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),

@@ -47,8 +47,8 @@ from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
-WATCHED = 1.0
-"""s, at the end of a leg, over which the range is taken: a hundred oscillations or more."""
+WATCHED = 0.5
+"""s, at the end of a leg, over which the range is taken: thirty oscillations or more."""
 STEADY = 1e-3
 """Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
 SAME = 0.05
