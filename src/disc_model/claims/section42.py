@@ -48,8 +48,9 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     found = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
     holds, values = all(falls for falls, _ in found), found[-1][1]
     again = holds and values["again"]
-    scan, horizon = measures.extent(study["scan_Omega"]), float(study["horizon"][-1])
-    return Answer(None if again else holds, "again", scan=scan, horizon=horizon, **values)
+    scan, horizon = study["scan_Omega"].values, float(study["horizon"][-1])
+    step = float(scan[1] - scan[0])
+    return Answer(None if again else holds, "again", scan=measures.extent(scan), step=step, horizon=horizon, **values)
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:
