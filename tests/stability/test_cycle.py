@@ -206,7 +206,8 @@ def test_attractors_are_those_that_are_stable():
 @pytest.mark.slow
 @COMPILED
 def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed: int) -> None:
-    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not.
+    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not, and where
+    they differ by more than a thousandth they judge nothing.
 
     Where friction does not fall, stick may last for no time, and the map has a corner.
     """
@@ -219,8 +220,9 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
         size = np.linalg.norm(x)
         rough, fine = (central_differences(map_, x, h * size, **how) for h in (1e-4, 3e-5))
         got, error = map_.evaluate(x, **how)[2], np.abs(rough - fine).max()
+        scale = max(1.0, np.abs(fine).max())
         # rounding of flights, 1e-13, over the step
-        assert np.abs(got - fine).max() <= 1e-7 * max(1.0, np.abs(fine).max()) + 10 * error, found.parameters
+        assert error > 1e-3 * scale or np.abs(got - fine).max() <= 1e-7 * scale + 10 * error, found.parameters
         assert np.sum(found.multipliers) == pytest.approx(np.trace(got), rel=1e-9, abs=1e-9 * np.abs(got).max())
         sure += error < 1e-5
     tried("random cycles against differences of the return map", "cycles", sure)
