@@ -206,24 +206,29 @@ def test_attractors_are_those_that_are_stable():
 @pytest.mark.slow
 @COMPILED
 def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed: int) -> None:
-    """Under all laws of contact. Two steps of differences say how good these are: near a graze they are not, and where
-    they differ by more than a thousandth they judge nothing.
+    """Under all laws of contact. Two steps of differences say how good these are: near a graze only short ones are, and
+    on a stiff contact perhaps none.
 
     Where friction does not fall, stick may last for no time, and the map has a corner.
     """
-    rng, sure = np.random.default_rng(seed), 0
+    rng, sure, passed_over = np.random.default_rng(seed), 0, 0
     cases = (drawn_case(rng) for _ in range(200))
     cycles = (floquet(p) for p in cases if p.n_diameters >= 0 and p.mu_s > p.mu_k)
     for found in (cycle for cycle in cycles if cycle.status is CycleStatus.OK):
         map_, how = ReturnMap(found.parameters), {"releases": found.releases}
         x = map_.point(found.state)
-        size = np.linalg.norm(x)
-        rough, fine = (central_differences(map_, x, h * size, **how) for h in (1e-4, 3e-5))
-        got, error = map_.evaluate(x, **how)[2], np.abs(rough - fine).max()
-        scale = max(1.0, np.abs(fine).max())
-        # rounding of flights, 1e-13, over the step
-        assert error > 1e-3 * scale or np.abs(got - fine).max() <= 1e-7 * scale + 10 * error, found.parameters
+        size, got = np.linalg.norm(x), map_.evaluate(x, **how)[2]
+        for step in (1e-4, 1e-6, 1e-8):
+            rough, fine = (central_differences(map_, x, h * size, **how) for h in (step, 0.3 * step))
+            error, scale = np.abs(rough - fine).max(), max(1.0, np.abs(fine).max())
+            if error <= 1e-3 * scale:
+                # rounding of flights, 3e-13, over the step
+                assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, found.parameters
+                break
+        else:
+            passed_over += 1
         assert np.sum(found.multipliers) == pytest.approx(np.trace(got), rel=1e-9, abs=1e-9 * np.abs(got).max())
         sure += error < 1e-5
     tried("random cycles against differences of the return map", "cycles", sure)
     assert sure > 10
+    assert passed_over < 5
