@@ -5,12 +5,11 @@ index of an input is the share of the output's variance that it explains alone. 
 interactions. Rows with a missing output are left out, and their share must be reported with the indices.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtri
+from scipy.stats import binomtest
 
 Array = NDArray[np.float64]
 
@@ -95,14 +94,6 @@ def share(hits: int, trials: int, unknown: int = 0, confidence: float = CONFIDEN
     """
     if trials == 0:
         return Share(np.nan, 0.0, 1.0)
-    low, _ = _wilson(hits, trials + unknown, confidence)
-    _, high = _wilson(hits + unknown, trials + unknown, confidence)
-    return Share(hits / trials, low, high)
-
-
-def _wilson(hits: int, trials: int, confidence: float) -> tuple[float, float]:
-    """Ends of the Wilson interval, as `scipy.stats.binomtest`, whose import takes as long as a small batch."""
-    z = float(ndtri((1 + confidence) / 2))
-    middle, half = hits + z**2 / 2, z * math.sqrt(hits * (trials - hits) / trials + z**2 / 4)
-    low, high = ((middle + side * half) / (trials + z**2) for side in (-1, 1))
-    return (low if hits else 0.0), (high if hits < trials else 1.0)
+    low = binomtest(hits, trials + unknown).proportion_ci(confidence, "wilson").low
+    high = binomtest(hits + unknown, trials + unknown).proportion_ci(confidence, "wilson").high
+    return Share(hits / trials, float(low), float(high))
