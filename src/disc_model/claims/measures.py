@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ from disc_model.analysis.classify import CLOSES, FEWEST, Motion, motion_of, stic
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome
+from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome, stated_in
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -316,7 +315,7 @@ def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
         return []
     quiet = {case.parameters: case.place for case in cases if case.from_rest and not case.separates}
     study = basins.node.to_dataset()
-    base, found, energies = json.loads(study.attrs["base"]), [], study["energy"].values
+    base, found, energies = stated_in(study, "base"), [], study["energy"].values
     total = study.sizes["energy"] * study.sizes["start"]
     points = study[["separating_fraction", "separating_fraction_low"]].to_dataframe().reset_index()
     for point in points[points["separating_fraction_low"] > 0].to_dict("records"):
@@ -347,11 +346,6 @@ def counted(count: int, name: str) -> str:
 def place(N: float, Omega: float) -> str:
     """Preload and speed in words."""
     return f"{N:g} N, {Omega:g} rad/s"
-
-
-def horizon(study: xr.Dataset) -> float:
-    """Time in s to which the points of a study were simulated."""
-    return float(json.loads(study.attrs["options"])["horizon"])
 
 
 def extent(values: Iterable[float]) -> Range:

@@ -13,7 +13,7 @@ from disc_model.claims import energy, measures
 from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import Outcome, stated_in
 
 FULL = 1.1
 """A section is full if its last points hold at most this factor more distinct points than their last half."""
@@ -271,7 +271,7 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
         count=points.sizes["point"],
         N=measures.extent(study["N"]),
         Omega=measures.extent(study["Omega"]),
-        horizon=measures.horizon(study),
+        horizon=stated_in(study, "options")["horizon"],
         settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
         moving=moving.size,
         least=_least_stick(moving) if moving.size else "",

@@ -1,6 +1,5 @@
 """Claims of Section 4.2: N = 385 N around the critical speed, and the critical speed in general."""
 
-import json
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from disc_model.claims.disc import moving_load_speed
 from disc_model.claims.measures import Absent, CaseView, Range
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, stated_in
 
 
 def quiet(case: CaseView, *, part: float, newtons: float) -> Answer:
@@ -80,7 +79,7 @@ def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: 
         raise Absent("no separation at any preload and speed")
     begins, horizon = measures.extent(lowest[found]), float(study["horizon"])
     below = [] if sweeps is None else _lasts_below(study["critical_speed"], sweeps, within)
-    dwell = 0.0 if sweeps is None else json.loads(sweeps.attrs["options"])["dwell"]
+    dwell = 0.0 if sweeps is None else stated_in(sweeps, "options")["dwell"]
     some, count = found.sum(), found.size
     values = {"begins": begins, "some": some, "count": count, "horizon": horizon, "top": top}
     return Answer(True, loads=rows, below=below, dwell=dwell, **values)

@@ -1,6 +1,5 @@
 """Claims of Section 4.3: effects of single parameters."""
 
-import json
 import math
 from functools import cache
 from itertools import product
@@ -17,7 +16,7 @@ from disc_model.claims.disc import BASE, moving_load_speed
 from disc_model.claims.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome, flag_names
+from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.parameters import Parameters
 
 STIFFENED = {
@@ -203,8 +202,8 @@ def normal_stiffness(*evidence: Any) -> Answer:
     holds = sooner and not cases[3].separates and not _grew(cases[3])
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
-    N = json.loads(study.attrs["base"])["N"]
-    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns, horizon=measures.horizon(study))
+    N, horizon = stated_in(study, "base")["N"], stated_in(study, "options")["horizon"]
+    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns, horizon=horizon)
 
 
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
@@ -284,8 +283,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> A
         "some",
         N=measures.extent(loads),
         compared=[f"{N:g}" for N in compared],
-        Omega=json.loads(study.attrs["base"])["Omega"],
-        horizon=measures.horizon(study),
+        Omega=stated_in(study, "base")["Omega"],
+        horizon=stated_in(study, "options")["horizon"],
         newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
         some=rows,
         partly=[] if each else rows,
@@ -325,7 +324,7 @@ def not_monotonous(*evidence: Any) -> Answer:
         most=damping[-1],
         lowered=lowered.sum(),
         growing=growing.sum(),
-        horizon=measures.horizon(study),
+        horizon=stated_in(study, "options")["horizon"],
     )
 
 
@@ -368,8 +367,8 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         mixed if some.any() and not softer else None,
         "enough" if softer else "nowhere",
-        horizon=measures.horizon(study),
-        N=json.loads(study.attrs["base"])["N"],
+        horizon=stated_in(study, "options")["horizon"],
+        N=stated_in(study, "base")["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],

@@ -5,7 +5,6 @@ and grid studies of config/survival.yaml. Evidence that does not decide gives un
 computed.
 """
 
-import json
 import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,7 +22,7 @@ from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, rate_text
 from disc_model.claims.model import Answer, checks_of, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome, flag_names
+from disc_model.data.variables import Outcome, flag_names, stated_in
 
 Array = NDArray[np.float64]
 
@@ -180,7 +179,7 @@ def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
     one = speed.sel(N=load).isel(horizon=0)
     _require_ok(one, "survival_speed")
     begins = flag_names(one["crossing_kind"]) == "begins"
-    return one["crossing"].values[begins], float(json.loads(speed.attrs["options"])["precision"])
+    return one["crossing"].values[begins], float(stated_in(speed, "options")["precision"])
 
 
 def _require_ok(grid: xr.Dataset, name: str) -> None:

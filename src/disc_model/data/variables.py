@@ -1,6 +1,7 @@
 """The table of variables: meaning and unit of each, and the meanings of flags."""
 
 import enum
+import json
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -263,6 +264,12 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
     shown = SHOWN[name]
     unit = f" ({shown.unit})" if shown.unit else ""
     return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
+
+
+def stated_in(study: Any, what: str) -> dict[str, Any]:
+    """The "base" or the "options" that the dataset of a grid study states."""
+    found: dict[str, Any] = json.loads(study.attrs[what])
+    return found
 
 
 def angles_text(angles: Iterable[float]) -> str:

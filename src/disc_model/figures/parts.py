@@ -27,6 +27,7 @@ from disc_model.data.variables import (
     angles_text,
     axis_of,
     flag_names,
+    stated_in,
     typeset,
     values_text,
 )
@@ -421,7 +422,7 @@ def normalizations(study: xr.Dataset) -> list[str]:
     """Normalizations for which a grid study has values."""
     if "normalization" in study.coords:
         return [str(name) for name in np.atleast_1d(study["normalization"].values)]
-    base = json.loads(study.attrs["base"])
+    base = stated_in(study, "base")
     return [GIVEN if base.get("disc") else base["normalization"]]
 
 

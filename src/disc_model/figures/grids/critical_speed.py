@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
@@ -152,14 +152,9 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
 def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
     """The horizon of a chart that shows only one: that of the map behind it, if any, else the longest, s."""
     horizons = study["horizon"].values
-    if cycle is not None and "outcome" in cycle and (own := _map_horizon(cycle)) in horizons:
+    if cycle is not None and "outcome" in cycle and (own := stated_in(cycle, "options")["horizon"]) in horizons:
         return own
     return float(horizons.max())
-
-
-def _map_horizon(regions: xr.Dataset) -> float:
-    """Horizon of a study of the quantity `regions`, s."""
-    return float(json.loads(regions.attrs["options"])["horizon"])
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -172,8 +167,8 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
     if "outcome" in cycle:
-        words = outcome_cells(ax, cycle, "Omega", "N")
-        return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {_map_horizon(cycle):g} s")]
+        words, horizon = outcome_cells(ax, cycle, "Omega", "N"), stated_in(cycle, "options")["horizon"]
+        return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
     stable = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")
     fill(ax, edges_of(cycle, "Omega", "N"), stable, {"quiet": STABLE})
     return [*patches({"quiet": STABLE}, stable)]
@@ -221,7 +216,7 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
 
     Both fractions exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line.
     """
-    load, speeds = json.loads(basins.attrs["base"])["N"], basins["Omega"].values
+    load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
     both = (
         (basins["basin_fraction_low"].sel(attractor_class="quiet") > 0) & (basins["separating_fraction_low"] > 0)
     ).values

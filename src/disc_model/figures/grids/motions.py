@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
-from disc_model.data.variables import flag_names, values_text
+from disc_model.data.variables import flag_names, stated_in, values_text
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patches
 from disc_model.figures.grids.growth_map import Curve, crossings, curves_of
@@ -157,7 +157,7 @@ MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markered
 def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
     """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
     study = study.squeeze()
-    name = str(json.loads(study.attrs["options"])["parameter"])
+    name = str(stated_in(study, "options")["parameter"])
     label, factor = parts.axis_of(name)
     figure, [ax] = panels(PAGE, 3.6)
     ax.set_yscale("log")
@@ -220,7 +220,7 @@ BEYOND = "none up to the highest speed"
 def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
     """Draw one point; with the further study ``curves``, also the speed at which the cycle ends."""
     study = study.squeeze()
-    options, load = json.loads(study.attrs["options"]), float(json.loads(study.attrs["base"])["N"])
+    options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
     figure, [ax] = panels(parts.COLUMN, 3.4)
@@ -299,7 +299,7 @@ def draw_basins(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bas
         ax.margins(x=0.04)
         ax.set_xlabel(label)
         parts.mark_failed(ax, along[parts.failed(study).values])
-    options = json.loads(study.attrs["options"])
+    options = stated_in(study, "options")
     undecided = LOOKS["undecided"]._replace(label=f"undecided after {options['horizon']:g} s")
     handles = patches(LOOKS | {"undecided": undecided}, classes)
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))

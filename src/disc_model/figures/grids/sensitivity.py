@@ -1,6 +1,5 @@
 """Probability of instability against each uncertain parameter."""
 
-import json
 from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any
@@ -10,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, presentation_of, typeset
+from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, presentation_of, stated_in, typeset
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
@@ -29,7 +28,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
     figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
-    options = json.loads(study.attrs["options"])
+    options = stated_in(study, "options")
     separates = f"separates within {options['horizon']:g} s"
     for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
         axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]

@@ -3,7 +3,6 @@
 Studies of the quantity `outcome` are drawn as marks over the growth rate, those of `regions` as cells beside it.
 """
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -18,7 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, NullFormatter
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import parts
 from disc_model.figures.grids import cells
 from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
@@ -140,7 +139,7 @@ def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Line2D]:
 
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     """Captions: the horizon, and disagreements between paper, start and cycle."""
-    yield f"Within {json.loads(study.attrs['options'])['horizon']:g} s of the static start."
+    yield f"Within {stated_in(study, 'options')['horizon']:g} s of the static start."
     if "as_published" not in parts.normalizations(study):
         return
     data = parts.of(study, "as_published")

@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.run import POINT, describe
@@ -69,7 +69,7 @@ def merge_batches(
     coords |= {name: flat[name] for name in flat.coords if name not in names}
     merged = xr.Dataset(data, coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
-    return summarised(merged, str(merged.attrs["quantity"]), json.loads(str(merged.attrs["options"])))
+    return summarised(merged, str(merged.attrs["quantity"]), stated_in(merged, "options"))
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
