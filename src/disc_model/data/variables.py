@@ -39,7 +39,7 @@ class Outcome(enum.StrEnum):
     UNDECIDED = "undecided"
     """none of these could be shown"""
     GROWING = "growing"
-    """undecided at the horizon, in contact so far and departing from an unstable cycle"""
+    """in contact at the horizon, after a departure from an unstable cycle"""
     SEPARATION = "separation"
     """contact is lost before the horizon, and the later motion is not examined"""
 

@@ -118,7 +118,7 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 
 
 def cycle_near(
-    map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, stable: bool = True
+    map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, patient: bool = False
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
@@ -126,7 +126,7 @@ def cycle_near(
     ----------
     again : result of `recurrence`
     may_separate : whether the cycle may lose contact
-    stable : whether only a stable cycle is accepted as followed by the motion
+    patient : whether the test is repeated after `WAITS` on an unstable cycle too
     """
     change, releases = again
     if not change <= NEARLY_PERIODIC:
@@ -135,7 +135,7 @@ def cycle_near(
     if found is None or np.linalg.norm(found.x - x) > NEAR * np.linalg.norm(map_.static):
         return None
     cycle = cycle_of(map_, CYCLE_TOL, run_through_once(map_, CYCLE_TOL, found))
-    return _near(map_, cycle, x, WAITS if cycle.stable or not stable else ())
+    return _near(map_, cycle, x, WAITS if cycle.stable or patient else WAITS[:1])
 
 
 def recurrence(
@@ -254,6 +254,8 @@ def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tu
             # the rate changes with the square of the amplitude: a' = rate a (1 + faster a^2 / amplitude^2)
             sooner = math.log1p(faster) / (2 * near.cycle.growth_rate)
             return max(n * period - sooner, period), distance
+        if _linear(near, distance, TESTS[0]):
+            return n * period, distance
     return 0.0, near.distance
 
 

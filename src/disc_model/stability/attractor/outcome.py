@@ -33,11 +33,19 @@ from disc_model.stability.attractor.neighbourhood import (
     nears_sliding,
     recurrence,
 )
+from disc_model.stability.attractor.torus import TorusTest
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
 
 FIRST_LEG = 5.0
 """s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
+LONGEST_LEG = 160.0
+"""s, of later legs. A test for a torus after each costs as much as 50 to 400 s of simulation."""
+UNSETTLED = 70.0
+"""s, simulated time before the first such test."""
+WATCHED, LEAST_FORCE = (40.0, 10.0), 0.05
+"""s, for which a motion on a torus is watched, the contact force for the second part, and the force's least value over
+the preload."""
 GROWTH = 1.5
 """Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
 modes cause less."""
@@ -198,6 +206,7 @@ class _OutcomeSearch:
     left : the unstable cycle from which the motion has departed
     departed : that cycle, if the departure was computed by multipliers
     near_start : the cycle near the static start, while the motion does not follow it
+    at : point of the section at the end of the last leg
     """
 
     p: Parameters
@@ -214,6 +223,7 @@ class _OutcomeSearch:
     departed: FloquetResult | None = None
     near_start: NearCycle | None = None
     segment: Segment | None = None
+    at: Array | None = None
     changes: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
 
@@ -221,6 +231,11 @@ class _OutcomeSearch:
     def map(self) -> ReturnMap | None:
         has_section = not case_faults(self.p, "the return map") and may_stick_and_slip(self.p)
         return ReturnMap(self.p, CYCLE_TOL) if has_section else None
+
+    @cached_property
+    def torus(self) -> TorusTest:
+        assert self.map is not None
+        return TorusTest(self.map)
 
     def run(self, near: NearCycle | None) -> OutcomeResult:
         if near is not None:
@@ -239,7 +254,7 @@ class _OutcomeSearch:
             elif over:
                 return self._ended(Outcome.GROWING if self.left or growing(self.changes) else Outcome.UNDECIDED)
             result = self._simulated(leg)
-            leg *= 2
+            leg = min(2 * leg, LONGEST_LEG)
             if result.status is Status.STOPPED:
                 return self._ended(Outcome.SEPARATION, first_separation=result.first_separation)
             if not result.status.complete:
@@ -251,6 +266,8 @@ class _OutcomeSearch:
                     self.shown = None
                     return self._ended(calm)
             near = self._look(result.final_state)
+            if near is None and self._stays_in_contact():
+                return self._ended(Outcome.GROWING)
 
     def _simulated(self, leg: float) -> Result:
         """Simulate for a time (s), or to the first separation; the segment to be described is a leg of its own."""
@@ -267,6 +284,20 @@ class _OutcomeSearch:
         self.simulated += result.final_state.time - self.time
         self.state, self.time = result.final_state, result.final_state.time
         return result
+
+    def _stays_in_contact(self) -> bool:
+        """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
+        tested = self.early and self.simulated >= UNSETTLED and self.horizon - self.time >= LONGEST_LEG
+        if not tested or self.at is None or not (self.left or growing(self.changes)):
+            return False
+        if not self.torus.shows_torus(self.at):
+            return False
+        # it may pass an unstable one, or a border of its phases that no derivative shows
+        result, segment = final_segment(self.p, self.state, WATCHED[0], WATCHED[1], self.tol)
+        if segment is None or segment.P_min < LEAST_FORCE * self.p.N:
+            return False
+        code, x = self.torus.map.next_release(result.final_state)
+        return code == RETURNED and self.torus.shows_no_change(x)
 
     def _ended(self, outcome: Outcome | None, **more: Any) -> OutcomeResult:
         return OutcomeResult(
@@ -297,15 +328,20 @@ class _OutcomeSearch:
     def _look(self, state: State) -> NearCycle | None:
         """The cycle that the motion follows linearly; after a departure only a stable one or the start's own counts."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        if self.map is None or x is None or code != RETURNED:
+        self.at = x if code == RETURNED else None
+        if self.map is None or self.at is None:
             return None
+        x = self.at
         again = recurrence(self.map, x)
         self.times.append(self.time)
         self.changes.append(again[0])
         if not self.early and self.time < self.horizon:
             return None
-        near = cycle_near(self.map, x, again, stable=self.left is not None)
-        return near if near is not None and near.follows_cycle else self._back(x)
+        back = self._back(x)
+        if back is not None:
+            return back
+        near = cycle_near(self.map, x, again, patient=self.left is None)
+        return near if near is not None and near.follows_cycle else None
 
     def _back(self, x: Array) -> NearCycle | None:
         """The unstable cycle near the start, if the motion follows it after it has passed another unstable one."""
