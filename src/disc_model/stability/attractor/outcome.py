@@ -318,11 +318,12 @@ class _OutcomeSearch:
         begun = self.time + near.waited
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = departure(near, room, self.furthest)
-        self.time = begun + time
-        self.state = near.map.state(near.x + distance).replace(time=self.time)
         self.left = near
         if time:
             self.departed = near.cycle
+        if time or self.state is None:
+            self.time = begun + time
+            self.state = near.map.state(near.x + distance).replace(time=self.time)
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:

@@ -67,10 +67,12 @@ class TorusTest:
             return False
         values, vectors = np.linalg.eig(jacobian)
         growth = np.log(np.maximum(abs(values), 1e-300))
-        # a shift along the torus neither turns nor grows on average
+        slowest = -SLOWEST * flight.period
+        # a shift along the torus neither turns nor decays
         along = int(np.argmax(np.where(values.imag == 0, growth, -math.inf)))
-        others = np.flatnonzero((np.arange(len(values)) != along) | (values.imag != 0))
-        if growth[along] > TURNED or growth[others].max() > -SLOWEST * flight.period:
+        is_other = (np.arange(len(values)) != along) | (values.imag != 0) | (growth <= slowest)
+        others = np.flatnonzero(is_other)
+        if growth[along] > TURNED or growth[others].max() > slowest:
             return False
         parts = np.linalg.solve(vectors, (end - x).astype(complex))
         distance = vectors[:, others] @ (parts[others] / (1 - values[others]))
