@@ -83,8 +83,8 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[OutcomeResult, Result 
         return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
-    # the attractor is known exactly, or the motion is steady
-    on = reached.state if reached.cycle is None else reached.cycle.state
+    # a stable cycle is known exactly; on a torus, and in steady sliding, the motion is steady
+    on = reached.cycle.state if reached.cycle is not None and reached.cycle.stable else reached.state
     return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 
 
