@@ -288,12 +288,12 @@ class _OutcomeSearch:
     def _stays_in_contact(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
         tested = self.early and self.simulated >= UNSETTLED and self.horizon - self.time >= LONGEST_LEG
-        if not tested or self.at is None or not (self.left or growing(self.changes)):
-            return False
-        if not self.torus.shows_torus(self.at):
+        grows = self.left is not None or growing(self.changes)
+        if not tested or not grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
         # it may pass an unstable one, or a border of its phases that no derivative shows
-        result, segment = final_segment(self.p, self.state, WATCHED[0], WATCHED[1], self.tol)
+        result, segment = final_segment(self.p, self.state, *WATCHED, self.tol)
+        self.simulated += WATCHED[0]
         if segment is None or segment.P_min < LEAST_FORCE * self.p.N:
             return False
         code, x = self.torus.map.next_release(result.final_state)
@@ -327,7 +327,7 @@ class _OutcomeSearch:
         return self.time
 
     def _look(self, state: State) -> NearCycle | None:
-        """The cycle that the motion follows linearly; after a departure only a stable one or the start's own counts."""
+        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         self.at = x if code == RETURNED else None
         if self.map is None or self.at is None:
@@ -338,10 +338,10 @@ class _OutcomeSearch:
         self.changes.append(again[0])
         if not self.early and self.time < self.horizon:
             return None
-        back = self._back(x)
-        if back is not None:
-            return back
-        near = cycle_near(self.map, x, again, patient=self.left is None)
+        near = self._back(x)
+        # after a departure, a motion that comes near a cycle changes less and less
+        if near is None and (self.left is None or not again[0] > min(self.changes[-2:])):
+            near = cycle_near(self.map, x, again, patient=self.left is None)
         return near if near is not None and near.follows_cycle else None
 
     def _back(self, x: Array) -> NearCycle | None:

@@ -36,8 +36,11 @@ class TorusTest:
 
     def shows_torus(self, x: Array) -> bool:
         """Whether the motion at a point of the section, shape (n,), has come to an attracting torus."""
-        points = self._points(x, self.releases)
-        if not self._is_steady(points) or len(points) <= self.releases:
+        points = self._points(x)
+        if not self._is_steady(points):
+            return False
+        points = np.concatenate([points, self._points(points[-1], self.releases - RELEASES[0])[1:]])
+        if len(points) <= self.releases:
             return False
         away = np.linalg.norm(points[1:] - x, axis=1)
         if away[:FEWEST].min() <= PERIODIC * self.extent:
@@ -50,14 +53,14 @@ class TorusTest:
 
     def shows_no_change(self, x: Array) -> bool:
         """Whether the motion's points have the extent that they had at the last test."""
-        return self._is_steady(self._points(x, RELEASES[0]))
+        return self._is_steady(self._points(x))
 
-    def _points(self, x: Array, releases: int) -> Array:
+    def _points(self, x: Array, releases: int = RELEASES[0]) -> Array:
         return np.array([x, *self.map.returns(x, releases, coarse=True)])
 
     def _is_steady(self, points: Array) -> bool:
         before = self.extent
-        self.extent = float(np.linalg.norm(np.ptp(points[: RELEASES[0] + 1], axis=0)))
+        self.extent = float(np.linalg.norm(np.ptp(points, axis=0)))
         return abs(self.extent - before) <= STEADY * self.extent
 
     def _attracts(self, x: Array, releases: int) -> bool:
@@ -70,10 +73,9 @@ class TorusTest:
         slowest = -SLOWEST * flight.period
         # a shift along the torus neither turns nor decays
         along = int(np.argmax(np.where(values.imag == 0, growth, -math.inf)))
-        is_other = (np.arange(len(values)) != along) | (values.imag != 0) | (growth <= slowest)
-        others = np.flatnonzero(is_other)
+        others = np.flatnonzero((np.arange(len(values)) != along) | (values.imag != 0) | (growth <= slowest))
         if growth[along] > TURNED or growth[others].max() > slowest:
             return False
-        parts = np.linalg.solve(vectors, (end - x).astype(complex))
+        parts = np.linalg.lstsq(vectors, (end - x).astype(complex))[0]
         distance = vectors[:, others] @ (parts[others] / (1 - values[others]))
         return bool(np.linalg.norm(distance) <= DISTANCE * np.linalg.norm(self.map.static))
