@@ -675,7 +675,7 @@ QUANTITIES = {
         scans=("Omega",),
         tasks=("simulate", "ramp"),
     ),
-    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 2, starts=True),
+    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6, starts=True),
     "bifurcation": Entry(
         BifurcationOptions,
         lambda o: SIMULATED * (o.transient + o.max_transient / 2),
