@@ -1,14 +1,12 @@
 """What motions come to: multipliers and early judgement against long simulations."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import yaml
-from scipy.spatial.transform import Rotation
 from scipy.stats import qmc
 
 from disc_model.data.variables import Outcome
@@ -21,8 +19,6 @@ from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.neighbourhood import NearCycle, cycle_of_static_start, departure, follows
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
-from disc_model.stability.attractor.torus import TorusTest
-from disc_model.stability.return_map import RETURNED, Counts, Flight
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -322,72 +318,6 @@ def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
     shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}
     return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
-
-
-# ----------------------------------------------------------------------------------------------------
-# Tori
-
-PERIOD = 0.02
-
-
-class TurningMap:
-    """As `ReturnMap`: the motion turns by an irrational share about the unit circle, and its distance from it changes
-    at a known rate; a third coordinate decays."""
-
-    static = np.array([1.0, 0.0, 0.0])
-
-    def __init__(self, rate: float, turn: float = (math.sqrt(5) - 1) / 2) -> None:
-        self.factor, self.turn = math.exp(rate * PERIOD), 2 * math.pi * turn
-
-    def evaluate(self, x: np.ndarray, *, releases: int, **_: Any) -> tuple[Flight, np.ndarray, np.ndarray, np.ndarray]:
-        jacobian = np.eye(3)
-        for _ in range(releases):
-            radius, angle = math.hypot(x[0], x[1]), math.atan2(x[1], x[0])
-            new = 1 + (radius - 1) * self.factor
-            inward, outward = (Rotation.from_euler("z", a).as_matrix() for a in (-angle, angle + self.turn))
-            jacobian = outward @ np.diag([self.factor, new / radius, 0.9]) @ inward @ jacobian
-            x = np.array([new * math.cos(angle + self.turn), new * math.sin(angle + self.turn), 0.9 * x[2]])
-        counts = Counts(releases, 0, 0, 0, releases)
-        return Flight(RETURNED, releases * PERIOD, 0.0, releases * PERIOD, 0.0, counts), x, jacobian, np.zeros((3, 0))
-
-    def returns(self, x: np.ndarray, most: int, **_: Any) -> Iterator[np.ndarray]:
-        for _ in range(most):
-            x = self.evaluate(x, releases=1)[1]
-            yield x
-
-
-@pytest.mark.parametrize(
-    ("rate", "radius", "shown"),
-    [
-        (-0.02, 1.0, True),
-        (-0.02, 1.01, True),
-        (-0.02, 1.05, False),  # too far away yet
-        (-0.001, 1.0, False),  # too slow to be told from none
-        (0.02, 1.0, False),
-        (0.02, 1.01, False),
-    ],
-)
-def test_an_attracting_torus_is_told_from_an_unstable_one(rate: float, radius: float, shown: bool) -> None:
-    test = TorusTest(TurningMap(rate))  # type: ignore[arg-type]
-    x = np.array([radius, 0.0, 0.0])
-    assert not test.shows_torus(x)  # nothing is steady at the first time
-    # an inexact return mixes the directions: only a nearer one, of more releases, tells -0.02/s from 0
-    assert any(test.shows_torus(x) for _ in range(2)) is shown
-
-
-def test_chaos_is_no_torus() -> None:
-    # the positive exponent of Hénon's map is 0.42 an iteration
-    class Henon(TurningMap):
-        def evaluate(self, x: np.ndarray, *, releases: int, **_: Any) -> Any:
-            flight, jacobian = super().evaluate(self.static, releases=releases)[0], np.eye(3)
-            for _ in range(releases):
-                jacobian = np.array([[-2.8 * x[0], 1.0, 0.0], [0.3, 0.0, 0.0], [0.0, 0.0, 0.5]]) @ jacobian
-                x = np.array([1 - 1.4 * x[0] ** 2 + x[1], 0.3 * x[0], 0.5 * x[2]])
-            return flight, x, jacobian, np.zeros((3, 0))
-
-    test = TorusTest(Henon(0.0))  # type: ignore[arg-type]
-    x = list(test.map.returns(np.array([0.1, 0.1, 0.0]), 100))[-1]
-    assert not any(test.shows_torus(x) for _ in range(3))
 
 
 @pytest.mark.compiled

@@ -12,8 +12,8 @@ import numpy as np
 
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
-RELEASES = (200, 600)
-"""Numbers of releases among which a near return is sought, some seconds: the second one after the first has failed."""
+RELEASES, FURTHER = 200, 400
+"""Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
 FEWEST = 40
 """Fewest releases of a near return: over a shorter time, rates would be less accurate."""
 NEAREST, PERIODIC = 0.01, 0.001
@@ -32,35 +32,33 @@ class TorusTest:
     """Repeated test of one motion in contact, on the section of a return map."""
 
     def __init__(self, map_: ReturnMap) -> None:
-        self.map, self.releases, self.extent = map_, RELEASES[0], math.nan
+        self.map, self.further, self.extent = map_, 0, math.nan
 
     def shows_torus(self, x: Array) -> bool:
         """Whether the motion at a point of the section, shape (n,), has come to an attracting torus."""
         points = self._points(x)
         if not self._is_steady(points):
             return False
-        points = np.concatenate([points, self._points(points[-1], self.releases - RELEASES[0])[1:]])
-        if len(points) <= self.releases:
-            return False
+        points = np.concatenate([points, self._points(points[-1], self.further)[1:]])
         away = np.linalg.norm(points[1:] - x, axis=1)
         if away[:FEWEST].min() <= PERIODIC * self.extent:
             return False
         nearest = int(np.argmin(away[FEWEST:]))
         if away[FEWEST + nearest] <= NEAREST * self.extent and self._attracts(x, FEWEST + nearest + 1):
             return True
-        self.releases = RELEASES[1]
+        self.further = FURTHER
         return False
 
     def shows_no_change(self, x: Array) -> bool:
         """Whether the motion's points have the extent that they had at the last test."""
         return self._is_steady(self._points(x))
 
-    def _points(self, x: Array, releases: int = RELEASES[0]) -> Array:
+    def _points(self, x: Array, releases: int = RELEASES) -> Array:
         return np.array([x, *self.map.returns(x, releases, coarse=True)])
 
     def _is_steady(self, points: Array) -> bool:
         before = self.extent
-        self.extent = float(np.linalg.norm(np.ptp(points, axis=0)))
+        self.extent = float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) > RELEASES else math.nan
         return abs(self.extent - before) <= STEADY * self.extent
 
     def _attracts(self, x: Array, releases: int) -> bool:
