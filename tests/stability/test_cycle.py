@@ -120,6 +120,13 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
     assert not floquet(P).stable
     assert not cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)).follows_cycle
+    # nor one that leaves it as the multipliers predict, unless that is asked for
+    map_ = ReturnMap(P)
+    x = map_.point(floquet(P).state)
+    values, vectors = np.linalg.eig(map_.evaluate(x)[2])
+    leaving = np.real(vectors[:, np.argmax(abs(values))])
+    away = x + 0.001 * np.linalg.norm(map_.static) * leaving / np.linalg.norm(leaving)
+    assert [cycle_near(map_, away, (0.0, 1), unstable=waits).follows_cycle for waits in ((), (0.0,))] == [False, True]
 
 
 def test_no_cycle_near_a_state_is_said():

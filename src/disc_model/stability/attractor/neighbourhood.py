@@ -118,7 +118,7 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 
 
 def cycle_near(
-    map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, patient: bool = False
+    map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
@@ -126,7 +126,7 @@ def cycle_near(
     ----------
     again : result of `recurrence`
     may_separate : whether the cycle may lose contact
-    patient : whether the test is repeated after `WAITS` on an unstable cycle too
+    unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
     """
     change, releases = again
     if not change <= NEARLY_PERIODIC:
@@ -135,7 +135,7 @@ def cycle_near(
     if found is None or np.linalg.norm(found.x - x) > NEAR * np.linalg.norm(map_.static):
         return None
     cycle = cycle_of(map_, CYCLE_TOL, run_through_once(map_, CYCLE_TOL, found))
-    return _near(map_, cycle, x, WAITS if cycle.stable or patient else WAITS[:1])
+    return _near(map_, cycle, x, WAITS if cycle.stable else unstable)
 
 
 def recurrence(

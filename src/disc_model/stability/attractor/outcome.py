@@ -24,6 +24,7 @@ from disc_model.stability.attractor.neighbourhood import (
     CYCLE_TOL,
     NEAR,
     SAME_POINT,
+    WAITS,
     NearCycle,
     cycle_near,
     cycle_of_static_start,
@@ -40,12 +41,11 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_fau
 FIRST_LEG = 5.0
 """s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
 LONGEST_LEG = 160.0
-"""s, of later legs. A test for a torus after each costs as much as 50 to 400 s of simulation."""
+"""s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
 UNSETTLED = 70.0
 """s, simulated time before the first such test."""
-WATCHED, LEAST_FORCE = (40.0, 10.0), 0.05
-"""s, for which a motion on a torus is watched, the contact force for the second part, and the force's least value over
-the preload."""
+WATCHED, LEAST_FORCE = 40.0, 0.05
+"""s, for which a motion on a torus is watched, and the least contact force in that time, over the preload."""
 GROWTH = 1.5
 """Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
 modes cause less."""
@@ -111,7 +111,8 @@ class OutcomeResult:
     simulated : s, simulated time; 0 if multipliers decide
     attractor : one of the attractors of `disc_model.stability.attractor.classification.Basins`, or None
     cycle : the stable cycle that the motion approaches, or else the unstable cycle from which it departs, or None
-    departed : the unstable cycle from which a departure was computed by multipliers; None if all was simulated
+    departed : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all was
+        simulated
     first_separation : s, nan if there was none
     time : s, at which the outcome was known
     state : last state of the simulation; None if there was none
@@ -186,16 +187,16 @@ def find_outcome(
     late : s, length of the segment before the horizon that is described
     """
     course = _OutcomeSearch(p, horizon, tol, furthest, start, early, late)
+    first = None
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
         if isinstance(near, NearCycle):
-            if near.follows_cycle:
-                found = course.run(near)
-                if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
-                    return found
-                return find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, late=late).after(found)
-            course.near_start = near
-    return course.run(None)
+            first, course.near_start = (near, None) if near.follows_cycle else (None, near)
+    found = course.run(first)
+    if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
+        return found
+    again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, start=start, early=early, late=late)
+    return again.after(found)
 
 
 @dataclass
@@ -203,8 +204,8 @@ class _OutcomeSearch:
     """State of a search: the present state of the motion, and the results so far.
 
     shown : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
-    left : the unstable cycle from which the motion has departed
-    departed : that cycle, if the departure was computed by multipliers
+    left : the last unstable cycle from which the motion has departed
+    departed : the one of slowest growth from which a departure was computed by multipliers
     near_start : the cycle near the static start, while the motion does not follow it
     at : point of the section at the end of the last leg
     """
@@ -292,8 +293,8 @@ class _OutcomeSearch:
         if not tested or not grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
         # it may pass an unstable one, or a border of its phases that no derivative shows
-        result, segment = final_segment(self.p, self.state, *WATCHED, self.tol)
-        self.simulated += WATCHED[0]
+        result, segment = final_segment(self.p, self.state, WATCHED, WATCHED, self.tol)
+        self.simulated += result.final_state.time - self.time
         if segment is None or segment.P_min < LEAST_FORCE * self.p.N:
             return False
         code, x = self.torus.map.next_release(result.final_state)
@@ -319,7 +320,7 @@ class _OutcomeSearch:
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = departure(near, room, self.furthest)
         self.left = near
-        if time:
+        if time and (self.departed is None or near.cycle.growth_rate < self.departed.growth_rate):
             self.departed = near.cycle
         if time or self.state is None:
             self.time = begun + time
@@ -340,8 +341,8 @@ class _OutcomeSearch:
             return None
         near = self._back(x)
         # after a departure, a motion that comes near a cycle changes less and less
-        if near is None and (self.left is None or not again[0] > min(self.changes[-2:])):
-            near = cycle_near(self.map, x, again, patient=self.left is None)
+        if near is None and (self.left is None or not again[0] > max(self.changes[-2:][0], ARRIVED)):
+            near = cycle_near(self.map, x, again, unstable=WAITS if self.left is None else WAITS[:1])
         return near if near is not None and near.follows_cycle else None
 
     def _back(self, x: Array) -> NearCycle | None:

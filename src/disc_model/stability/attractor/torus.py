@@ -15,13 +15,14 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 RELEASES, FURTHER = 200, 400
 """Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
 FEWEST = 40
-"""Fewest releases of a near return: over a shorter time, rates would be less accurate."""
+"""A near return takes more releases than this: over a shorter time, rates would be less accurate."""
 NEAREST, PERIODIC = 0.01, 0.001
-"""Largest distance of a near return, over the extent of the motion's points, and that of one on a shorter cycle."""
+"""Largest distance of a near return, and of a return to a cycle of at most `FEWEST` releases, over the extent of the
+motion's points."""
 STEADY = 0.02
 """Largest relative change of this extent since the last test."""
 TURNED = 1.0
-"""Largest logarithm of the eigenvalue along the torus: its mean is 0 on a torus, and positive in chaos."""
+"""Largest size of the logarithm of the eigenvalue along the torus: its mean is 0 on a torus, and positive in chaos."""
 SLOWEST = 0.005
 """1/s, least rate at which distances from the torus must decay: above the error of rates from inexact returns."""
 DISTANCE = 0.02
@@ -40,6 +41,8 @@ class TorusTest:
         if not self._is_steady(points):
             return False
         points = np.concatenate([points, self._points(points[-1], self.further)[1:]])
+        if len(points) <= RELEASES + self.further:
+            return False
         away = np.linalg.norm(points[1:] - x, axis=1)
         if away[:FEWEST].min() <= PERIODIC * self.extent:
             return False
@@ -69,11 +72,12 @@ class TorusTest:
         values, vectors = np.linalg.eig(jacobian)
         growth = np.log(np.maximum(abs(values), 1e-300))
         slowest = -SLOWEST * flight.period
-        # a shift along the torus neither turns nor decays
-        along = int(np.argmax(np.where(values.imag == 0, growth, -math.inf)))
-        others = np.flatnonzero((np.arange(len(values)) != along) | (values.imag != 0) | (growth <= slowest))
-        if growth[along] > TURNED or growth[others].max() > slowest:
-            return False
         parts = np.linalg.lstsq(vectors, (end - x).astype(complex))[0]
+        # a near return lies beside its point along the torus: this shift neither turns nor decays
+        shifts = (values.imag == 0) & (values.real > 0) & (abs(growth) <= TURNED)
+        along = int(np.argmax(np.where(shifts, abs(parts), -1.0)))
+        others = np.flatnonzero((np.arange(len(values)) != along) | ~shifts | (growth <= slowest))
+        if growth[others].max() > slowest:
+            return False
         distance = vectors[:, others] @ (parts[others] / (1 - values[others]))
         return bool(np.linalg.norm(distance) <= DISTANCE * np.linalg.norm(self.map.static))
