@@ -174,11 +174,12 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
     norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):
-        sides, words = edges_of(data, x, y), cycles_of(data, x, y)
+        sides, flat, words = edges_of(data, x, y), flat_cycles(data, x, y), cycles_of(data, x, y)
         rates = np.ma.masked_invalid(data["growth_rate"].transpose(y, x).values)
         mesh = ax.pcolormesh(*sides, rates, cmap=cm.vik, norm=norm, rasterized=True)
-        fill(ax, sides, words, CYCLE_LOOKS, mesh.to_rgba(rates))
-        used |= set(words.flat)
+        fill(ax, sides, flat, CYCLE_LOOKS)
+        fill(ax, sides, np.where(words == "alone", words, ""), CYCLE_LOOKS, mesh.to_rgba(rates))
+        used |= {*flat.flat, *words.flat}
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
@@ -194,12 +195,18 @@ def stability_of(data: xr.Dataset, x: str, y: str) -> Names:
 
 
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, "alone" or "": shape (len(y), len(x))."""
+    """As `flat_cycles`, or "alone" for isolated cells."""
+    isolated = alone(data["growth_rate"].transpose(y, x).values)
+    if "cycle" in data:
+        isolated |= unresolved(stability_of(data, x, y))
+    return np.where(isolated, "alone", flat_cycles(data, x, y))
+
+
+def flat_cycles(data: xr.Dataset, x: str, y: str) -> Names:
+    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
-        words = np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y)).astype("<U16")
-        words[unresolved(stability_of(data, x, y)) | alone(rate)] = "alone"
-        return words
+        return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y)).astype("<U16")
     words = np.full(rate.shape, "no_cycle", dtype="<U16")
     if "status" in data:
         status = words_of(data, "status", x, y)
@@ -210,7 +217,6 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
         words[(words == "steady_sliding") & grows] = "no_cycle"
     words[np.isfinite(rate)] = ""
-    words[alone(rate)] = "alone"
     return words
 
 
