@@ -192,6 +192,7 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
     return near
 
 
+@np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
 def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
     """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
