@@ -54,11 +54,12 @@ def test_rows_with_a_gap_are_left_out_and_what_does_not_vary_has_no_indices() ->
 
 
 def test_a_share_has_wilsons_interval() -> None:
-    n, k, z = 40, 9, stats.norm.ppf(0.975)
-    centre, half = (k + z**2 / 2) / (n + z**2), z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
-    assert share(k, n) == pytest.approx((k / n, centre - half, centre + half), rel=1e-12)
-    assert share(0, n).low == 0
-    assert share(n, n).high == 1
+    z = stats.norm.ppf(0.95)  # two-sided, 0.9
+    for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
+        centre, half = (k + z**2 / 2) / (n + z**2), z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+        # the ends at 0 and 1 cancel to roundings here
+        expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
+        assert share(k, n, confidence=0.9) == expected
 
 
 def test_what_is_unknown_counts_against_both_ends() -> None:

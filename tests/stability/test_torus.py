@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
-from disc_model.stability.attractor.torus import TorusTest
+from disc_model.stability.attractor.torus import FURTHER, TorusTest
 from disc_model.stability.return_map import RETURNED, Counts, Flight
 
 PERIOD = 0.02
@@ -62,6 +62,17 @@ def test_an_attracting_torus_is_told_from_an_unstable_one(rate: float, radius: f
     assert not test.shows_torus(x)  # nothing is steady at the first time
     # an inexact return mixes the directions: only a nearer one, of more releases, tells -0.02/s from 0
     assert any(test.shows_torus(x) for _ in range(2)) is shown
+
+
+def test_a_motion_whose_returns_end_is_on_no_torus() -> None:
+    class Ends(TurningMap):
+        def returns(self, x: np.ndarray, most: int, **_: Any) -> Iterator[np.ndarray]:
+            return super().returns(x, min(most, FURTHER - 1))
+
+    x = np.array([1.0, 0.0, 0.0, 0.0])
+    for map_, shown in ((TurningMap(-0.02), True), (Ends(-0.02), False)):
+        test = TorusTest(map_)  # type: ignore[arg-type]
+        assert [test.shows_torus(x) for _ in range(3)] == [False, False, shown]
 
 
 def test_chaos_is_no_torus() -> None:

@@ -191,7 +191,10 @@ def find_outcome(
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
         if isinstance(near, NearCycle):
-            first, course.near_start = (near, None) if near.follows_cycle else (None, near)
+            if near.follows_cycle:
+                first = near
+            else:
+                course.near_start = near
     found = course.run(first)
     if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
         return found
@@ -253,7 +256,7 @@ class _OutcomeSearch:
                 if over or self._depart(near) >= self.horizon:
                     return self._ended(Outcome.GROWING)
             elif over:
-                return self._ended(Outcome.GROWING if self.left or growing(self.changes) else Outcome.UNDECIDED)
+                return self._ended(Outcome.GROWING if self._grows else Outcome.UNDECIDED)
             result = self._simulated(leg)
             leg = min(2 * leg, LONGEST_LEG)
             if result.status is Status.STOPPED:
@@ -286,11 +289,14 @@ class _OutcomeSearch:
         self.state, self.time = result.final_state, result.final_state.time
         return result
 
+    @property
+    def _grows(self) -> bool:
+        return self.left is not None or growing(self.changes)
+
     def _stays_in_contact(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
         tested = self.early and self.simulated >= UNSETTLED and self.horizon - self.time >= LONGEST_LEG
-        grows = self.left is not None or growing(self.changes)
-        if not tested or not grows or self.at is None or not self.torus.shows_torus(self.at):
+        if not tested or not self._grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
         # it may pass an unstable one, or a border of its phases that no derivative shows
         result, segment = final_segment(self.p, self.state, WATCHED, WATCHED, self.tol)
