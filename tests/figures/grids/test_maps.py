@@ -19,6 +19,7 @@ from disc_model.figures.grids.cells import (
     cycles_of,
     fill,
     growth_panels,
+    isolated,
     scale_of,
     unresolved,
 )
@@ -115,7 +116,8 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
     assert growth_panels(figure, [axes], [data], "Omega", "N") >= {"alone"}
     assert axes.collections[0].get_array()[1, 1] == -0.1, "its value was hidden"
-    assert _hatched(axes) == [there.tolist()]
+    decay = (rate < 0) & ~there
+    assert _hatched(axes) == [decay.tolist(), there.tolist()]
 
 
 def test_a_tongue_of_one_cell_is_unresolved_and_a_layer_between_two_areas_is_not() -> None:
@@ -155,9 +157,9 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
 def test_a_single_large_growth_rate_is_hatched_in_maps_of_regions() -> None:
     """A resonance narrower than a cell was one dark cell among even ones, which looked like a stain."""
     data = made_up("Omega", [5.0, 6, 7, 8, 9, 10], NORMS[:1]).squeeze()
-    assert not (cycles_of(data, "Omega", "N")[:2] == "alone").any()
+    assert not isolated(data, "Omega", "N")[:2].any()
     data["growth_rate"][0, 4] = 0.4
-    assert np.argwhere(cycles_of(data, "Omega", "N") == "alone").tolist() == [[0, 4]]
+    assert np.argwhere(isolated(data, "Omega", "N")).tolist() == [[0, 4]]
 
 
 def mark(x: float, y: float, paper: str) -> dict[str, Any]:

@@ -37,7 +37,7 @@ UNRESOLVED = Look("unresolved", "none", HATCH)
 """Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells."""
 OUTCOME_LOOKS = {
     "quiet": Look("quiet", "#f3f6f8"),
-    "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "."),
+    "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
     "at_rest": Look("permanent stick", "#c4e3cd", 3 * "-"),
     "growing": Look("growing, in contact", "#c2ccd6"),
     "other_cycle": Look("another cycle in contact", "#86a0b8"),
@@ -52,11 +52,13 @@ CYCLE_LOOKS = {
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae"),
     "nearby_only": Look("start not on a cycle", "#f2e6a2"),
     "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5"),
+    "stable": Look("stable cycle", "none", 3 * "."),
     "alone": UNRESOLVED,
     "failed": OUTCOME_LOOKS["failed"],
     EXCLUDED: Look("left out by the study's rule", "white"),
 }
-"""Looks of points where no cycle is followed, and of growth rates that may be another cycle's."""
+"""Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that may
+be another cycle's."""
 WITHOUT = {
     "ok": "no_cycle",
     "no_cycle": "no_cycle",
@@ -167,19 +169,20 @@ def growth_norm(rates: Array) -> AsinhNorm:
 def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Dataset], x: str, y: str) -> set[str]:
     """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
 
-    Isolated cells are hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
+    Cells of decay are dotted, isolated ones hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
 
     panels : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
     norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):
-        sides, flat, words = edges_of(data, x, y), flat_cycles(data, x, y), cycles_of(data, x, y)
+        sides, without = edges_of(data, x, y), cycles_of(data, x, y)
         rates = np.ma.masked_invalid(data["growth_rate"].transpose(y, x).values)
         mesh = ax.pcolormesh(*sides, rates, cmap=cm.vik, norm=norm, rasterized=True)
-        fill(ax, sides, flat, CYCLE_LOOKS)
-        fill(ax, sides, np.where(words == "alone", words, ""), CYCLE_LOOKS, mesh.to_rgba(rates))
-        used |= {*flat.flat, *words.flat}
+        fill(ax, sides, without, CYCLE_LOOKS)
+        hatched = np.where(isolated(data, x, y), "alone", np.where((rates < 0).filled(False), "stable", ""))
+        fill(ax, sides, hatched, CYCLE_LOOKS, mesh.to_rgba(rates))
+        used |= {*without.flat, *hatched.flat}
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
@@ -194,15 +197,13 @@ def stability_of(data: xr.Dataset, x: str, y: str) -> Names:
     return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", words_of(data, "cycle", x, y)))
 
 
+def isolated(data: xr.Dataset, x: str, y: str) -> NDArray[np.bool_]:
+    """Cells whose growth rate, or whose stability, differs from that around them: shape (len(y), len(x))."""
+    cells = alone(data["growth_rate"].transpose(y, x).values)
+    return cells | unresolved(stability_of(data, x, y)) if "cycle" in data else cells
+
+
 def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """As `flat_cycles`, or "alone" for isolated cells."""
-    isolated = alone(data["growth_rate"].transpose(y, x).values)
-    if "cycle" in data:
-        isolated |= unresolved(stability_of(data, x, y))
-    return np.where(isolated, "alone", flat_cycles(data, x, y))
-
-
-def flat_cycles(data: xr.Dataset, x: str, y: str) -> Names:
     """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise "": shape (len(y), len(x))."""
     rate = data["growth_rate"].transpose(y, x).values
     if "cycle" in data:
