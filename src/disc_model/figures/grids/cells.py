@@ -57,8 +57,8 @@ CYCLE_LOOKS = {
     "failed": OUTCOME_LOOKS["failed"],
     EXCLUDED: Look("left out by the study's rule", "white"),
 }
-"""Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that may
-be another cycle's."""
+"""Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
+may be another cycle's."""
 WITHOUT = {
     "ok": "no_cycle",
     "no_cycle": "no_cycle",

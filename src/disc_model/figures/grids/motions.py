@@ -315,6 +315,9 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
         ax.scatter(along[point], ranges[point, number], area, color=look.face, edgecolor=BLACK, linewidth=0.4, zorder=3)
+    for part, text in ((0.1, "10 %"), (0.5, "50 %"), (1.0, "all starts")):
+        ax.scatter([], [], LARGEST * part, facecolor="none", edgecolor=BLACK, linewidth=0.4, label=text)
+    parts.legend_above(ax)
     ax.set(ylabel="Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")

@@ -15,13 +15,13 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FixedLocator, NullFormatter
+from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import parts
 from disc_model.figures.grids import cells
 from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
-from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted
+from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import RegionMap, StabilityMap
 from disc_model.figures.parts import BLACK, BORDERS, MODES, PAGE, PAPER, panels
 
@@ -97,14 +97,18 @@ def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Re
     _legend_above(figure, [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, plot)])
     said = Line2D([], [], linestyle="", label="\n".join(_captions(study, plot)))
     handles = [*patches(CYCLE_LOOKS, gaps), said]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), handlelength=1.2)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
 def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
-    """Draw continued curves of the map's cycle; growth maps show their numbers."""
-    found = parted(curves_of(parts.of(curves, parts.normalizations(data)[0])), data)[0]
-    return draw_curves([ax], [[replace(curve, label="") for curve in found]], [])
+    """Draw continued curves of the map's cycle, within its points; growth maps show their numbers."""
+    found = []
+    for curve in parted(curves_of(parts.of(curves, parts.normalizations(data)[0])), data)[0]:
+        along = {"Omega": curve.Omega, "N": curve.N}
+        inside = [values == np.clip(values, *span(data[name].values)) for name, values in along.items()]
+        found.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
+    return draw_curves([ax], [found], [])
 
 
 def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Line2D]:
@@ -207,6 +211,8 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> N
             axis.set_major_locator(FixedLocator(_round_values(values)))
             axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(NullFormatter())
+            if scale == "symlog":
+                axis.set_minor_locator(NullLocator())
         to_axis = axis.get_transform()
         low, high = to_axis.transform(values[[0, -1]])
         margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
