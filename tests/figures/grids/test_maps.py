@@ -117,7 +117,7 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     assert growth_panels(figure, [axes], [data], "Omega", "N") >= {"alone"}
     assert axes.collections[0].get_array()[1, 1] == -0.1, "its value was hidden"
     decay = (rate < 0) & ~there
-    assert _hatched(axes) == [decay.tolist(), there.tolist()]
+    assert _hatched(axes) == [np.isnan(rate).tolist(), decay.tolist(), there.tolist()]
 
 
 def test_a_tongue_of_one_cell_is_unresolved_and_a_layer_between_two_areas_is_not() -> None:

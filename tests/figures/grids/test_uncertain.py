@@ -129,6 +129,19 @@ def test_a_campbell_diagram_numbered_small_peaks_and_joined_two_cycles() -> None
     assert not any("0.005" in one.phrase for one in noted(study))
 
 
+def test_a_campbell_diagram_left_crossings_out_beside_a_gap() -> None:
+    """No rise is resolved at a crossing beside a gap; that of the largest peak had no number, at 15.98 rad/s."""
+    study = made_up_crossings()
+    study["crossing_Omega"][0] = 14.15  # one speed after the peak
+    for name in ("growth_rate", "cycle_growth_rate"):
+        study[name][61] = 0.6
+    (found,) = (one for one in noted(study) if one.phrase.endswith("0.6/s"))
+    assert (found.crossings, found.phrase) == ((0,), "14.10 rad/s, 2 $f_s$ = 180 Hz: 100 Hz mode, 0.6/s")
+    study["crossing_Omega"][0] = 14.25
+    (later,) = (one for one in noted(study) if one.phrase.endswith("0.6/s"))
+    assert later.crossings == ()
+
+
 @pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [5.0], [], list(np.zeros(30))])
 def test_names_are_spread(places: list[float]) -> None:
     found = np.array(spread(places, 0.5, 0.0, 10.0))

@@ -24,6 +24,8 @@ RISES = ("rises", "destabilises")
 """Effects of a crossing that are numbered."""
 LEAST = 0.01
 """Least growth rate of a numbered peak, 1/s."""
+HIGH = 0.5
+"""Growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s."""
 GAP = 3
 """Least number of successive speeds without a cycle that form a numbered gap: at fewer, Newton's method may have
 failed.
@@ -75,19 +77,24 @@ _NOTHING = "the cycle's growth rate has no peak at a crossing"
 
 
 def noted(study: xr.Dataset) -> list[Noted]:
-    """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings, one entry for all
-    crossings of a peak, and elsewhere beyond the linear part of the scale.
+    """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates rise, and
+    elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one.
     """
     rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
+    speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
     rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), RISES))
     peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
-    peaks += [(float(rate[first:after].max()), []) for first, after in parts.stretches(np.nan_to_num(rate) > LINEAR)]
+    for first, after in parts.stretches(np.nan_to_num(rate) > HIGH):
+        at = first + int(np.argmax(rate[first:after]))
+        beside = speeds[max(at - 1, 0)], speeds[min(at + 1, len(speeds) - 1)]
+        there = np.flatnonzero((beside[0] <= crossed) & (crossed <= beside[1]))
+        peaks.append((float(rate[at]), there.tolist()))
     places: dict[tuple[int, int], list[int]] = {}
     for height, crossings in peaks:
         at = int(np.nanargmin(np.abs(rate - height)))
         places.setdefault((at, int(np.nanargmax(by_mode[at]))), []).extend(crossings)
     least = LEAST * (1 - 1e-9)
-    found = [_rise(study, *place, crossings) for place, crossings in places.items() if by_mode[place] >= least]
+    found = [_rise(study, *place, sorted({*own})) for place, own in places.items() if by_mode[place] >= least]
     wide = [(low, high) for low, high, count in gaps(study) if count >= GAP]
     found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
     return sorted(found)
