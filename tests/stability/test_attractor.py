@@ -101,6 +101,13 @@ def test_a_departure_to_a_stable_cycle_is_simulated_from_nearer_the_cycle() -> N
 
 
 @pytest.mark.compiled
+def test_errors_of_a_coarse_simulation_do_not_hide_the_cycle_that_it_has_come_to() -> None:
+    """Changes no longer fell, at 12 times the tolerance, and the motion was said to grow."""
+    found = find_outcome(Parameters(N=200, Omega=8.75, c=0.0025), 1000, tol=1e-6)
+    assert found.outcome is Outcome.OTHER_CYCLE
+
+
+@pytest.mark.compiled
 @pytest.mark.parametrize("which", REST)
 def test_what_looks_like_rest_is_followed(which: str) -> None:
     N, Omega, outcome = REST[which]

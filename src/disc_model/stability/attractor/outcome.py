@@ -49,6 +49,9 @@ WATCHED, LEAST_FORCE = 40.0, 0.05
 GROWTH = 1.5
 """Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
 modes cause less."""
+ERRORS = 100
+"""Changes over the static deflection that simulation errors may cause, over the tolerance: 12 were seen on a cycle that
+attracts at 0.008/s."""
 CERTAIN = 0.02
 """Distance from a cycle, over the static deflection, from which a departure is simulated for critical speeds, and where
 it came to a stable cycle: farther away, its phase may decide between that cycle and separation."""
@@ -347,7 +350,7 @@ class _OutcomeSearch:
             return None
         near = self._back(x)
         # after a departure, a motion that comes near a cycle changes less and less
-        if near is None and (self.left is None or not again[0] > max(self.changes[-2:][0], ARRIVED)):
+        if near is None and (self.left is None or not again[0] > max(self.changes[-2:][0], ARRIVED, ERRORS * self.tol)):
             near = cycle_near(self.map, x, again, unstable=WAITS if self.left is None else WAITS[:1])
         return near if near is not None and near.follows_cycle else None
 
