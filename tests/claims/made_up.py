@@ -345,6 +345,7 @@ def scans(
     windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
     damped: str = "separation",
     strong: str = "",
+    reach: int = 5,
     soft: tuple[str, ...] = ("separation",) * 3,
     faster: float = 0.3,
     others: float = 0.9,
@@ -355,6 +356,7 @@ def scans(
     discs : outcome on the softest, a softer and the usual one
     windows : rad/s, where separation begins and ends, at three preloads or more
     damped, strong : outcome at large preloads with in-plane damping, and with more of it; growth falls if they separate
+    reach : number of preloads, from the least on, at which damping acts
     soft : outcome with the softest spring at 10, 11.25 and 20 rad/s
     faster : share of stick beyond 15.25 rad/s
     others : share of random starts that separate at 385 N, 15 rad/s, where the static one does not
@@ -400,6 +402,7 @@ def scans(
     pulled = np.ones((5, len(dampers), 1), dtype=np.int8)
     pulled[2:, 1] = pulled[1, 0] = flags["flag_meanings"].split().index(damped)
     pulled[2:, 2:] = flags["flag_meanings"].split().index(strong or damped)
+    pulled[reach:] = pulled[0]
     falls = np.linspace(0.02, 0.01 if damped == "separation" else 0.03, len(dampers))
     map_c_p = xr.Dataset(
         {

@@ -90,7 +90,15 @@ def test_what_is_computed_is_said(table: pd.DataFrame) -> None:
 @pytest.mark.compiled
 def test_claims_about_the_disc_need_no_simulation(table: pd.DataFrame) -> None:
     assert table.loc["F13", "ours"] == "first separation at 54.42 s"
-    expected = {"F13": REMARK, "P01": HOLDS, "P02": HOLDS, "P04": REMARK, "P05": REMARK, "P06": UNDECIDED, "P07": FAILS}
+    expected = {
+        "F13": REMARK,
+        "P01": REMARK,
+        "P02": HOLDS,
+        "P04": REMARK,
+        "P05": REMARK,
+        "P06": UNDECIDED,
+        "P07": FAILS,
+    }
     assert table["verdict"][list(expected)].to_dict() == expected
     assert table.loc["P04", "ours"].startswith("850.86, 1492.55, 1516.76, 1814.90")
     assert "1178.65, 1500.28, 1723.08, 2575.73, 4111.83" in table.loc["P04", "remark"]

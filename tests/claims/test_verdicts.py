@@ -239,6 +239,12 @@ def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
     assert "with several = 1" in BY_NAME["F29b"].settle(lambda one: one.evaluate(cases))[1]
 
 
+def test_half_of_a_whole_is_not_doubled_to_all_of_it() -> None:
+    """F26 was undecided, since no decrease at all is as good as one to 100 %."""
+    judge = lambda one: Finding("", HOLDS if one.texts.bounds["part"] == 0.5 else FAILS)  # noqa: E731
+    assert BY_NAME["F26"].turned_by(judge, HOLDS) == "does not hold with part = 0.3333, part = 0.6667"
+
+
 def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     """Growth rates were judged at one value of every parameter."""
     cases, claim = views(made_up.made_up(some("S43E100", "F02", "S43E200"))), BY_NAME["S43E"]

@@ -16,10 +16,12 @@ from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_mod
 BASE = Parameters(N=200, Omega=20)
 
 
-def disc_frequencies(*, printed: Sequence[float], within: float, hertz: float) -> Answer:
+def disc_frequencies(*, printed: Sequence[float], hertz: float) -> Answer:
     """Whether the frequencies of the disc alone are the printed ones, which are in rad/s or, if `hertz`, in Hz."""
     ours = plate_modes(BASE)["omega"].to_numpy() / (2 * np.pi if hertz else 1)
-    return Answer(np.all(np.abs(ours - printed) <= within), frequency=ours)
+    digits = np.round(100 * np.array(printed))
+    rounded, cut = digits == np.round(100 * ours), digits == np.floor(100 * ours)
+    return Answer(np.all(rounded | cut), frequency=ours, cut=list(ours[cut & ~rounded]))
 
 
 def nine_modes() -> Answer:

@@ -108,6 +108,7 @@ class Text(BaseModel):
     undecided : by name, reasons why the evidence may decide nothing
     parts : by name of a value, how its rows are said
     apart : why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint
+    also : the claim that says the same, of a conclusion that is judged under several models
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -132,10 +133,13 @@ class Text(BaseModel):
     undecided: dict[str, str] = {}
     parts: dict[str, Part] = {}
     apart: str = ""
+    also: str = ""
 
 
 RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
 """Dimensionless bounds, which are compared with 1."""
+SHARES = frozenset({"part", "share"})
+"""Those of them that are parts of a whole."""
 CHANGED = 1.001
 """Factor by which a parameter is changed to test whether the verdict changes."""
 
@@ -238,14 +242,19 @@ class Claim:
     def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
         """The bounds, halved or doubled, or the parameters, changed, that change the verdict; "stable" without any.
 
-        For ratios between 0.5 and 2, the distance from 1 is halved or doubled.
+        For ratios between 0.5 and 2, the distance from 1 is halved or doubled. For parts of a whole, the ratio to the
+        rest is.
         """
         if not (self.texts.bounds or self.texts.computed) or verdict.startswith(NOT_COMPUTED):
             return ""
         others = {}
         for name, bound in self.texts.bounds.items():
             for factor in (0.5, 2.0):
-                other = 1 + factor * (bound - 1) if name in RELATIVE and 0.5 < bound < 2 else factor * bound
+                other = factor * bound
+                if name in RELATIVE and 0.5 < bound < 2:
+                    other = 1 + factor * (bound - 1)
+                elif name in SHARES:
+                    other /= 1 + (factor - 1) * bound
                 texts = self.texts.model_copy(update={"bounds": self.texts.bounds | {name: other}})
                 others[f"{name} = {other:.4g}"] = judge(replace(self, texts=texts)).verdict
         if self.texts.computed:

@@ -1,6 +1,6 @@
 """Claims of Section 4.1: separation occurs, and ignoring it changes the motion."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -209,16 +209,31 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
 
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
-    published = [case for case in cases if case.from_rest]
-    rows = _ranges(published)
-    for row, (case, ignored) in zip(rows, pairs(published), strict=True):
-        row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in (case, ignored))
-    differ = [max(a, b) >= factor * min(a, b) for row in rows for a, b in [(row["stick"], row["without"])]]
+    rows = _with_stick([case for case in cases if case.from_rest])
     return Answer(
-        any(row["ratio"] * factor <= 1 and stick for row, stick in zip(rows, differ, strict=True)),
+        any(row["ratio"] * factor <= 1 and _sticks_otherwise(row, factor) for row in rows),
         pairs=rows,
         another=measures.another_motion(*cases),
     )
+
+
+def _with_stick(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
+    """`_ranges`, with the late shares of stick in %, with separation and without it."""
+    rows = _ranges(cases)
+    for row, pair in zip(rows, pairs(cases), strict=True):
+        row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in pair)
+    return rows
+
+
+def _sticks_otherwise(row: Mapping[str, float], factor: float) -> bool:
+    return max(row["stick"], row["without"]) >= factor * min(row["stick"], row["without"])
+
+
+def often_very_different(*cases: CaseView, factor: float, part: float) -> Answer:
+    """Whether the fraction of stick or the range of the disc differs in that part of the pairs; it decides 'often'."""
+    rows = _with_stick(cases)
+    differ = [row["ratio"] * factor <= 1 or _sticks_otherwise(row, factor) for row in rows]
+    return Answer(sum(differ) >= part * len(rows), pairs=rows, count=sum(differ), of=len(rows))
 
 
 def should_be_considered(*cases: CaseView) -> Answer:

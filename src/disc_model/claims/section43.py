@@ -197,13 +197,36 @@ def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
 def normal_stiffness(*evidence: Any) -> Answer:
     """Whether softer springs separate sooner; undecided if on the map, at other speeds, some do not at all."""
     *cases, study = evidence
-    times = [case["first_separation"] for case in cases[:3]]
-    sooner = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    holds = sooner and not cases[3].separates and not _grew(cases[3])
+    times = [case["first_separation"] for case in cases]
+    holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
     N, horizon = stated_in(study, "base")["N"], stated_in(study, "options")["horizon"]
     return Answer(None if holds and returns else holds, "speed", N=N, returns=returns, horizon=horizon)
+
+
+def stiff_enough(case: CaseView) -> Answer:
+    """Whether the stiffness of a case makes motion stable at all points of a grid; undecided if at some of them."""
+    points = _grid(case.parameters)
+    rates = np.array([growth_or_nan(p) for p in points])
+    gone = np.isnan(rates)
+    rates[gone] = [sliding_growth(p) for p, at in zip(points, gone, strict=True) if at]
+    others = [p for p, rate in zip(points, rates, strict=True) if not rate < 0]
+    speeds = {N: [f"{p.Omega:g}" for p in others if p.N == N] for N in dict.fromkeys(p.N for p in others)}
+    calm = not case.separates and not _grew(case)
+    return Answer(
+        None if calm and 0 < len(others) < len(points) else calm and not others,
+        "some",
+        stable=len(points) - len(others),
+        points=len(points),
+        others=[{"N": N, "Omega": ", ".join(at)} for N, at in speeds.items()],
+    )
+
+
+def _grid(p: Parameters) -> list[Parameters]:
+    """A case at loads and speeds of the paper and beyond."""
+    grid = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
+    return [p.replace(N=N, Omega=speed) for N, speed in grid]
 
 
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
@@ -263,24 +286,25 @@ def always_upward(*cases: CaseView, share: float) -> Answer:
     return Answer(min(shares.values(), default=0.0) >= share, shares=texts or ["none that separates"])
 
 
-def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, few: float) -> Answer:
+def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, few: float) -> Answer:
     """Whether, from some preload on, all separate with any damper that do not without it: the largest decide.
 
-    If one of them separates with none, there is no such preload. Undecided if each does with some.
+    If one of them separates with none, there is no such preload. Undecided if each does with some, or if the
+    largest preload of the paper does with the damper ``c_p``.
     """
     loads, damping, apart = _map(study, "N", "c_p")
     quiet, dampers = ~apart[:, damping == 0][:, 0], damping[damping > 0]
     newly, compared = apart[quiet][:, damping > 0], loads[quiet][-int(few) :]
-    largest = newly[-int(few) :]
+    decisive, shown = newly[-int(few) :], newly[loads[quiet] == largest][:, dampers == c_p]
     rows = [
         {"N": N, "count": row.sum(), "of": row.size, "c_p": dampers[row].min()}
-        for N, row in zip(compared, largest, strict=True)
+        for N, row in zip(compared, decisive, strict=True)
         if row.any()
     ]
-    each = largest.any(axis=1).all()
+    each = decisive.any(axis=1).all()
     return Answer(
-        bool(largest.all()) if largest.all() or not each else None,
-        "some",
+        True if decisive.all() else None if each or shown.any() else False,
+        "some" if each else "beyond",
         N=measures.extent(loads),
         compared=[f"{N:g}" for N in compared],
         Omega=stated_in(study, "base")["Omega"],
@@ -354,7 +378,7 @@ def stiffer_spring(case: CaseView) -> Answer:
 def stiffer_inplane(case: CaseView) -> Answer:
     rates, said = _stiffened_at_speeds(case, "k_p")
     rises = all(np.all(np.diff(each[: np.argmax(each) + 1]) > 0) for each in rates)
-    return Answer(rises and all(each[-1] < 0 for each in rates), rates=said)
+    return Answer(rises, rates=said)
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -433,8 +457,7 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     Without a stick-slip cycle near the start, the motion is steady sliding. Its growth is compared if the damper is the
     in-plane one. ``growing`` counts cycles that grow with little of it and exist with much.
     """
-    grid = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
-    points = [case.parameters.replace(N=N, Omega=speed) for N, speed in grid]
+    points = _grid(case.parameters)
     without, damped = (
         np.array([growth_or_nan(p.replace(**{damper: value})) for p in points]) for value in (little, much)
     )

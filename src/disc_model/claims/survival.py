@@ -17,7 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
-from disc_model.claims import measures
+from disc_model.claims import measures, section42
 from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, rate_text
 from disc_model.claims.model import Answer, checks_of, claims
 from disc_model.claims.pages import Comparison, page_texts
@@ -185,6 +185,11 @@ def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
 def _require_ok(grid: xr.Dataset, name: str) -> None:
     if not np.all(flag_names(grid["status"]) == "ok"):
         raise Missing(f"study {name} has points that failed")
+
+
+def below_critical(found: Evidence, *, share: float) -> Answer:
+    cases = found.separating()
+    return section42.far_below(*cases, share=share) if cases else Answer(None, "none", lower=[], critical=math.nan)
 
 
 def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
