@@ -9,7 +9,7 @@ import os
 import time as clock
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -127,10 +127,11 @@ def simulate(
         progress, checkpoint, checkpoint_every, ramps,
     )  # fmt: skip
     raise_faults(asked.faults())
-    start, t_end, steps = asked.start, float(asked.t_end), None if max_steps is None else int(max_steps)
-    record = record.resolved(start, t_end)
     # numbers of other types would make the engine compile again, and would round differently
-    run = _Run(replace(asked, t_end=t_end, tol=float(tol), record=record, max_steps=steps))
+    start, asked.t_end, asked.tol = asked.start, float(asked.t_end), float(tol)
+    asked.max_steps = None if max_steps is None else int(max_steps)
+    t_end, asked.record = asked.t_end, record.resolved(start, asked.t_end)
+    record, run = asked.record, _Run(asked)
     for window in record.outside(start, t_end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
@@ -153,7 +154,7 @@ def simulate(
     return result
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class _Request:
     """Arguments of `simulate`, with a `Record` and a tuple of ramps in every case."""
 
@@ -181,13 +182,15 @@ class _Request:
         time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
         timed = is_finite(time)
         start = time if timed else 0.0
-        rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
+        later, rule = is_number(t_end) and start < t_end < math.inf, ""
+        if not later:
+            rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
+            rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
         found = foreign_case(self.p) + violations(
             (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
             (starts, "initial_state", self.initial_state, "must be a State"),
             (timed, "initial_state.time", time, "must be finite"),
-            (is_number(t_end) and start < t_end < math.inf, "t_end", t_end, rule),
+            (later, "t_end", t_end, rule),
         )
         stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
         counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
@@ -376,7 +379,7 @@ def _pause_after(model: layout.Model, audit_every_step: bool) -> int:
 
 def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
     time, phase = state.x[layout.TIME], PHASES[int(state.x[layout.PHASE])]
-    text = f"{status}: at t = {time:.9g} s in {phase}"
+    text = f"{status.value}: at t = {time:.9g} s in {phase}"
     if status is Status.PARADOX:
         slope = float(np.dot(model.dw_dtheta, state.z))
         text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.SPEED]:.6g} rad/s, slope B = {slope:.6g}"

@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -635,6 +635,7 @@ def series_tolerance(tol: float, compliant: bool = False) -> float:
     return min((LOCAL_COMPLIANT if compliant else LOCAL) * tol, LOOSEST)
 
 
+@cache
 def series_order(tol: float) -> int:
     """Degree of the Taylor series, an even number: the cheapest one for the tolerance, as measured (20 at 1e-10)."""
     digits = -math.log10(series_tolerance(tol))
