@@ -128,19 +128,19 @@ def simulate(
     )  # fmt: skip
     raise_faults(asked.faults())
     # numbers of other types would make the engine compile again, and would round differently
-    start, asked.t_end, asked.tol = asked.start, float(asked.t_end), float(tol)
+    start, end, asked.tol = asked.start, float(asked.t_end), float(tol)
+    asked.t_end, asked.record = end, record.resolved(start, end)
     asked.max_steps = None if max_steps is None else int(max_steps)
-    t_end, asked.record = asked.t_end, record.resolved(start, asked.t_end)
-    record, run = asked.record, _Run(asked)
-    for window in record.outside(start, t_end):
-        warnings.warn(f"{window}: stays empty, the run is from {start:g} to {t_end:g} s", stacklevel=2)
+    run = _Run(asked)
+    for window in asked.record.outside(start, end):
+        warnings.warn(f"{window}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
         log.info("continues at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
     if code == exit_codes.PAUSED or callable(progress):  # a short run has no progress to show
-        with simulating(progress, t_end) as tell:
+        with simulating(progress, end) as tell:
             while code == exit_codes.PAUSED:
                 if kept is not None and kept.due:
                     kept.save(run.contents())
