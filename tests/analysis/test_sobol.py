@@ -60,6 +60,8 @@ def test_a_share_has_wilsons_interval() -> None:
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
+    assert share(0, 40).low == 0
+    assert share(40, 40).high == 1
 
 
 def test_what_is_unknown_counts_against_both_ends() -> None:

@@ -2,7 +2,7 @@
 
 import math
 from functools import cache
-from itertools import product
+from itertools import groupby, product
 from typing import Any
 
 import numpy as np
@@ -208,19 +208,23 @@ def normal_stiffness(*evidence: Any) -> Answer:
 def stiff_enough(case: CaseView) -> Answer:
     """Whether the stiffness of a case makes motion stable at all points of a grid; undecided if at some of them."""
     points = _grid(case.parameters)
-    rates = np.array([growth_or_nan(p) for p in points])
-    gone = np.isnan(rates)
-    rates[gone] = [sliding_growth(p) for p, at in zip(points, gone, strict=True) if at]
-    others = [p for p, rate in zip(points, rates, strict=True) if not rate < 0]
-    speeds = {N: [f"{p.Omega:g}" for p in others if p.N == N] for N in dict.fromkeys(p.N for p in others)}
+    others = [p for p in points if not _growth(p) < 0]
     calm = not case.separates and not _grew(case)
     return Answer(
         None if calm and 0 < len(others) < len(points) else calm and not others,
         "some",
         stable=len(points) - len(others),
         points=len(points),
-        others=[{"N": N, "Omega": ", ".join(at)} for N, at in speeds.items()],
+        others=[
+            {"N": N, "Omega": ", ".join(f"{p.Omega:g}" for p in there)} for N, there in groupby(others, lambda p: p.N)
+        ],
     )
+
+
+def _growth(p: Parameters) -> float:
+    """Largest growth rate of the stick-slip cycle, or of steady sliding where there is none, 1/s."""
+    rate = growth_or_nan(p)
+    return sliding_growth(p) if math.isnan(rate) else rate
 
 
 def _grid(p: Parameters) -> list[Parameters]:
@@ -462,9 +466,7 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
         np.array([growth_or_nan(p.replace(**{damper: value})) for p in points]) for value in (little, much)
     )
     gone = np.isnan(damped)
-    rate = damped.copy()
-    if damper == "c_p":
-        rate[gone] = [sliding_growth(p.replace(c_p=much)) for p, at in zip(points, gone, strict=True) if at]
+    rate = np.array([_growth(p.replace(c_p=much)) for p in points]) if damper == "c_p" else damped
     grows, lower, higher = without > 0, rate < without, ~gone & (rate > without)
     counts = {"lowered": lower, "growing": grows & ~gone, "lowered_growing": grows & (damped < without)}
     remarks = {"slides": gone & lower, "ended": gone & (without < 0) & ~lower, "raised": higher}
