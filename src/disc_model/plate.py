@@ -32,10 +32,8 @@ Array = NDArray[np.float64]
 
 POINTS_PER_ROOT = 6
 """Grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought."""
-
 HUGE = 1e280
 """Bessel functions larger than this are computed by a recurrence with a separate exponent."""
-
 WIDEST = 1e11
 """Greatest ratio of squared frequencies of disc and slider. Their error is then 1e-5, compared with 60 digits."""
 
@@ -140,8 +138,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
 
 
 def coupled_natural_frequencies(p: Parameters) -> Array:
-    """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s,
-    ascending.
+    """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s, ascending.
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
@@ -150,18 +147,16 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
     """
     raise_faults(foreign_case(p))
     modes = mode_arrays(p)
-    coupled = coupled_frequencies(modes.omega, modes.psi, p.m, p.k)
-    return np.sort(np.concatenate([coupled, modes.omega[modes.diameters > 0]]))
+    return np.sort(np.concatenate([coupled_frequencies(p), modes.omega[modes.diameters > 0]]))
 
 
-def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, compliance: float = 0.0) -> Array:
+def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:
     """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending.
 
     Parameters
     ----------
-    omega, psi : rad/s and kg^-1/2, shape (n,), as in `plate_modes`
-    m, k : kg and N/m, mass and spring of the slider
-    compliance : m/N, compliance of the contact
+    compliance : m/N, compliance of the contact, instead of that of the case
+    kept : index or mask of the n modes of the disc that take part, by default of all
 
     Returns
     -------
@@ -172,27 +167,27 @@ def coupled_frequencies(omega: Array, psi: Array, m: float, k: float, compliance
     ModeError
         If the frequencies differ so much that rounding makes the highest inaccurate.
     """
-    return np.sort(1 / np.sqrt(_inverse_squares(omega, psi, m, k, compliance, eigvals_only=True)))
+    return np.sort(1 / np.sqrt(_inverse_squares(p, compliance, kept, eigvals_only=True)))
 
 
-def coupled_shapes(omega: Array, psi: Array, m: float, k: float, compliance: float = 0.0) -> tuple[Array, Array]:
+def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array]:
     """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode times its frequency.
 
     On a compliant contact the last row is the slider's.
     """
-    inverse_squares, shapes = _inverse_squares(omega, psi, m, k, compliance)
+    inverse_squares, shapes = _inverse_squares(p, compliance)
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _inverse_squares(omega: Array, psi: Array, m: float, k: float, compliance: float, **how: bool) -> Any:
+def _inverse_squares(p: Parameters, compliance: float, kept: Any = slice(None), **how: bool) -> Any:
     """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
     from scipy import linalg  # takes 0.3 s, and most jobs do without
 
+    modes = mode_arrays(p)
+    omega, psi = modes.omega[kept], modes.psi[kept]
     try:
         with np.errstate(all="ignore"):
-            matrices = (
-                _coupling(omega, psi, m, k) if compliance == 0 else _compliant_coupling(omega, psi, m, k, compliance)
-            )
+            matrices = _coupling(omega, psi, p.m, p.k, compliance)
         found = linalg.eigh(*matrices, **how)
         values = found if how else found[0]
         resolved = values.size == 0 or values[0] * WIDEST > values[-1]
@@ -200,27 +195,23 @@ def _inverse_squares(omega: Array, psi: Array, m: float, k: float, compliance: f
         resolved = False
     if not resolved:
         raise ModeError(
-            f"disc and slider at rest: m={as_text(m)}, k={as_text(k)}, a contact compliance of {compliance:g} m/N "
+            f"disc and slider at rest: m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N "
             f"and disc modes of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies "
             f"must be within a factor of {WIDEST:g}"
         )
     return found
 
 
-def _coupling(omega: Array, psi: Array, m: float, k: float) -> tuple[Array, Array]:
+def _coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
     """Both matrices of M y = lambda^-2 K y: the problem of `coupled_natural_frequencies` with y = omega v.
 
-    Dividing by the frequencies keeps the lowest ones accurate beside the highest.
+    Dividing by the frequencies keeps the lowest ones accurate beside the highest. On a compliant contact the last
+    coordinate is u over the square root of its compliance.
     """
     phi = psi / omega
-    mass = np.diag(omega**-2) + m * np.outer(phi, phi)
-    stiffness = np.eye(omega.size) + k * np.outer(phi, phi)
-    return mass, stiffness
-
-
-def _compliant_coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
-    """Both matrices on a compliant contact; the last coordinate is u over the square root of its compliance."""
-    stretch = np.append(psi / omega / np.sqrt(compliance), -1.0)
+    if compliance == 0:
+        return np.diag(omega**-2) + m * np.outer(phi, phi), np.eye(omega.size) + k * np.outer(phi, phi)
+    stretch = np.append(phi / np.sqrt(compliance), -1.0)
     mass = np.diag(np.append(omega**-2, m * compliance))
     stiffness = np.diag(np.append(np.ones(omega.size), k * compliance)) + np.outer(stretch, stretch)
     return mass, stiffness
@@ -288,9 +279,8 @@ class _Shapes:
         if not np.all(np.isfinite(amplitude)):
             l = self.l[~np.isfinite(amplitude)][0]
             raise ModeError(
-                f"normalization='as_published': the mode with {l} nodal diameters at a/b={self.inner:g} "
-                "overflows when its coefficient of J_l is 1; use fewer diameters or "
-                "normalization='orthonormal'"
+                f"normalization='as_published': the mode with {l} nodal diameters at a/b={self.inner:g} overflows when "
+                "its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
             )
         return amplitude
 
@@ -405,11 +395,10 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
 
 
 def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
-    """The edge conditions' matrix, (4 conditions, 4 functions, n), and the logarithms (4, n) taken out of its
-    columns.
+    """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken out of its columns.
 
-    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable
-    lambda x. The true column is exp(logarithm) times the one returned.
+    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable lambda x.
+    The true column is exp(logarithm) times the one returned.
     """
     value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
@@ -426,8 +415,7 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
 
 
 def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
-    """J, Y, I, K of order l and their derivatives at `x` (..., n), each (4, ..., n) times exp of the third
-    (4, ..., n).
+    """J, Y, I, K of order l and their derivatives at `x` (..., n), both times exp of the third: (4, ..., n) each.
 
     The larger of value and derivative is 1 in magnitude.
     """
@@ -453,8 +441,7 @@ def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
 
 
 def _bessel_small(l: int, x: Array) -> tuple[Array, Array]:
-    """As `_bessel` for `x` (n,) far below the order `l`, where the functions leave the range of floating
-    point.
+    """As `_bessel` for `x` (n,) far below the order `l`, where the functions leave the range of floats.
 
     J and I by their power series behind the factor (x/2)^l/l!; Y and K by their upward recurrences, which are
     stable, rescaled at every order.

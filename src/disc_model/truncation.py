@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import AUTO, CHOOSING, Disc, Finite, Parameters, Strict
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -110,13 +110,12 @@ def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tu
         sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
     else:
         sizes = [(count,) for count in counts(p.disc)]
-    modes, right = mode_arrays(p), _frequencies(p)
+    modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
     top = band * float(modes.omega.min())
     for size in sizes:
         kept = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
         chosen = resized(p, size)
-        mine = coupled_frequencies(modes.omega[kept], modes.psi[kept], p.m, p.k, contact_compliance(chosen))
-        error = _worst(mine, right, top)
+        error = _worst(coupled_frequencies(p, contact_compliance(chosen), kept), right, top)
         if error <= tolerance:
             largest = rich if p.disc is None else sizes[-1]
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), largest, band)
@@ -158,8 +157,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | Non
         p = Parameters.model_validate(rest)
     except ParameterError as error:
         raise ParameterError(*error.faults, *faults) from None
-    if faults:
-        raise ParameterError(*faults)
+    raise_faults(faults)
     return p, asked
 
 
@@ -186,13 +184,8 @@ def frequency_error(p: Parameters, rich: Parameters) -> float:
     The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that is missing in ``p``
     counts as an error of 1.
     """
-    return _worst(_frequencies(p), _frequencies(rich), BAND * float(mode_arrays(rich).omega.min()))
-
-
-def _frequencies(p: Parameters) -> np.ndarray:
-    """Coupled frequencies of a case under its own law of contact, rad/s."""
-    modes = mode_arrays(p)
-    return coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))
+    mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
+    return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
 
 
 def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:

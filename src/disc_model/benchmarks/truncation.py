@@ -113,10 +113,9 @@ def contact_study(
 
 def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]:
     """Quantities that follow from the modes alone, and the growth rate of a cycle, if it is given."""
-    modes = mode_arrays(p)
     return {
         "modes": float(real_modes(p.n_diameters, p.n_circles)),
-        "lowest_coupled": float(coupled_frequencies(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))[0]),
+        "lowest_coupled": float(coupled_frequencies(p, contact_compliance(p))[0]),
         "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
         "growth_rate": math.nan if growing is None else float(floquet(growing).growth_rate),
     }

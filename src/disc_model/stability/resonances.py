@@ -75,7 +75,7 @@ def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     own.  A compliant contact adds one mode, in which the slider moves against the disc.
     """
     modes = mode_arrays(p)
-    frequencies, shapes = coupled_shapes(modes.omega, modes.psi, p.m, p.k, contact_compliance(p))
+    frequencies, shapes = coupled_shapes(p, contact_compliance(p))
     coupled = [
         (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]), True)
         for frequency, shape in zip(frequencies, shapes.T, strict=True)
