@@ -28,23 +28,19 @@ def simulating(progress: Progress, t_end: float) -> Iterator[Callable[[float], o
     if callable(progress) or progress is False:
         yield progress or (lambda _: None)
         return
-    began, reached = time.perf_counter(), 0.0
-    line: _Line | None = None
+    began, reached, line = time.perf_counter(), 0.0, _Line(f"simulating {t_end:g} s", t_end)
 
     def tell(now: float) -> None:
-        nonlocal line, reached
+        nonlocal reached
         reached = min(float(now), t_end)
-        if line is None and time.perf_counter() - began > PATIENCE:
-            line = _Line(f"simulating {t_end:g} s", t_end)
-        if line is not None:
+        if time.perf_counter() - began > PATIENCE:
             line.show(f"simulating: {reached:.2f} of {t_end:g} s", reached)
 
     try:
         yield tell
     finally:
-        if line is not None:
-            line.stop(f"simulated {reached:g} s in {time.perf_counter() - began:.0f} s")
-            line.close()
+        line.stop(f"simulated {reached:g} s in {time.perf_counter() - began:.0f} s")
+        line.close()
 
 
 _watched = False
@@ -66,14 +62,14 @@ def compiling(report: bool = True) -> Iterator[None]:
             yield
     finally:
         _watched = False
-        kernels.close()
+        kernels.line.close()
 
 
 class _Kernels(event.Listener):
     """Counts the compiled parts of kernels, which are nested, and measures the time."""
 
     def __init__(self) -> None:
-        self.line: _Line | None = None
+        self.line = _Line(COMPILING)
         self.depth, self.count, self.seconds, self.began = 0, 0, 0.0, 0.0
 
     def on_start(self, found: Any) -> None:
@@ -88,22 +84,15 @@ class _Kernels(event.Listener):
         self._show()
         if self.depth == 0:
             self.seconds += time.perf_counter() - self.began
-            if self.line is not None:
-                self.line.stop(f"kernels compiled in {self.seconds:.0f} s")
+            self.line.stop(f"kernels compiled in {self.seconds:.0f} s")
 
     def _show(self) -> None:
-        if self.line is None and self.seconds + time.perf_counter() - self.began > UNNOTICED:
-            self.line = _Line(COMPILING)
-        if self.line is not None:
+        if self.seconds + time.perf_counter() - self.began > UNNOTICED:
             self.line.show(f"{COMPILING}, {self.count} parts done", self.count)
-
-    def close(self) -> None:
-        if self.line is not None:
-            self.line.close()
 
 
 class _Line:
-    """Progress in one line, by `show` and `stop`, which may repeat, and finally `close`.
+    """Progress in one line, by `show` and `stop`, which may repeat, and finally `close`; empty before the first `show`.
 
     Parameters
     ----------
@@ -112,35 +101,42 @@ class _Line:
     """
 
     def __init__(self, text: str, total: float | None = None) -> None:
-        from rich.console import Console
-
-        self.total, self.end = total, ""
+        self.text, self.total, self.end = text, total, ""
+        self.shown = False
         self.bar: Any = None
         self.handle: Any = None
+
+    def _open(self) -> None:
+        from rich.console import Console
+
         console = Console(stderr=True)
         if console.is_jupyter:  # here rich's own bars would need ipywidgets
             from IPython.display import display
 
-            self.handle = display({"text/plain": text}, raw=True, display_id=True)
+            self.handle = display({"text/plain": self.text}, raw=True, display_id=True)
         elif sys.stderr.isatty():
             from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-            left = [TextColumn("left:"), TimeRemainingColumn()] if total else []
+            left = [TextColumn("left:"), TimeRemainingColumn()] if self.total else []
             columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
             self.bar = Progress(*columns, console=console, transient=True)
-            self.task = self.bar.add_task(text, total=total)
+            self.task = self.bar.add_task(self.text, total=self.total)
         else:
-            print(text, file=sys.stderr, flush=True)
+            print(self.text, file=sys.stderr, flush=True)
 
     def show(self, text: str, count: float) -> None:
         """Start or continue the display, with this text and count."""
+        if not self.shown:
+            self.shown = True
+            self._open()
         if self.bar is not None:
             self.bar.start()
             self.bar.update(self.task, description=text, completed=count)
         elif self.handle is not None:
-            filled = round(WIDTH * count / self.total) if self.total else 0
-            bar = "█" * filled + "░" * (WIDTH - filled) + " " if self.total else ""
-            self.handle.update({"text/plain": bar + text}, raw=True)
+            if self.total:
+                filled = round(WIDTH * count / self.total)
+                text = "█" * filled + "░" * (WIDTH - filled) + " " + text
+            self.handle.update({"text/plain": text}, raw=True)
 
     def stop(self, text: str) -> None:
         """Pause or end the display, and show the result in `text`."""
@@ -151,5 +147,5 @@ class _Line:
             self.handle.update({"text/plain": text}, raw=True)
 
     def close(self) -> None:
-        if self.bar is None and self.handle is None:
+        if self.shown and self.bar is None and self.handle is None:
             print(self.end, file=sys.stderr, flush=True)
