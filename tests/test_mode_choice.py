@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import CANDIDATES, choose_when_run, larger
+from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
@@ -45,12 +45,12 @@ def test_every_quantity_but_frequencies_is_measured() -> None:
 
 
 def test_candidates_come_by_size_and_are_compared_with_larger_ones() -> None:
-    sizes = [real_modes(*size) for size in CANDIDATES]
+    compared = list(mode_choice._compared(P))
+    sizes = [real_modes(*size) for size, *_ in compared]
     assert sizes == sorted(set(sizes))
-    for size in CANDIDATES:
-        for other in larger(size):
-            assert real_modes(*other) >= 1.6 * real_modes(*size)
-        assert larger(size)[1][1] > size[1]
+    for size, *others in compared:
+        assert all(real_modes(*other) >= 1.6 * real_modes(*size) for other in others)
+        assert others[-1][1] > size[1]
 
 
 def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Measured) -> None:

@@ -39,9 +39,6 @@ HORIZON = 600.0
 LATE = (20.0, 10.0)
 """s, time from the first separation to the interval in which separations are counted, and length of that interval."""
 
-Size = tuple[int, int]
-"""Highest diameters and circles of a plate."""
-
 
 def choose_modes(
     case: Parameters | Mapping[str, Any],
@@ -106,12 +103,9 @@ def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
 def by_motion(p: Parameters, asked: ModeRequest) -> ModeChoice:
     """The first candidate with which larger models agree; raises `DiscModelError` if there is none."""
     values: dict[tuple[int, ...], float] = {}
-    change = math.inf
-    for size, *others in _compared(p):
-        group = (size, *others)
-        for one in group:
-            if one not in values:
-                values[one] = MEASURES[asked.quantity](resized(p, one))
+    for group in _compared(p):
+        size, *others = group
+        values |= {one: MEASURES[asked.quantity](resized(p, one)) for one in group if one not in values}
         if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
             raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(p, group)}")
         change = max(_change(values[size], values[other]) for other in others or group)
@@ -132,19 +126,13 @@ def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
     The first modes of a table are compared with twice as many and with all; the last candidate is the whole table.
     """
     if p.disc is None:
-        yield from ((size, *larger(size)) for size in CANDIDATES)
+        yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in CANDIDATES)
         return
     most, count = counts(p.disc)[-1], counts(p.disc)[0]
     while count < most:
         yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
         count += (count + 1) // 2
     yield ((most,),)
-
-
-def larger(size: Size) -> tuple[Size, Size]:
-    """The two larger models for comparison with a candidate."""
-    diameters, circles = size
-    return (2 * diameters, circles), (2 * diameters, circles + 1)
 
 
 def _change(mine: float, other: float) -> float:
