@@ -17,16 +17,12 @@ from numpy.typing import NDArray
 
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
-from disc_model.plate import mode_arrays
-
-Array = NDArray[np.float64]
+from disc_model.plate import Array, mode_arrays
 
 HIGHEST_HARMONIC = 4096
 """Highest harmonic of the sum; beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
-
 ROUNDING = 1e-13
 """Relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l."""
-
 MODAL_SUM = (60, 20)
 """Diameters and circles of the modal sum that represents all modes if the modes are ``as_published``."""
 
@@ -94,9 +90,9 @@ def contact_compliance(p: Parameters) -> float:
     if not value > 0:
         if p.disc is not None:
             rule = f"must be greater than what its modes give at the slider, {residual_flexibility(p).kept:.6g} m/N"
-            raise ParameterError(Fault(("disc", "static_compliance"), as_text(p.disc.static_compliance), rule))
+            raise ParameterError(Fault.of(("disc", "static_compliance"), p.disc.static_compliance, rule))
         rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
-        raise ParameterError(Fault(("contact_compliance",), as_text(RESIDUAL), rule))
+        raise ParameterError(Fault.of(("contact_compliance",), RESIDUAL, rule))
     return value
 
 
@@ -117,8 +113,7 @@ def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float
     value = np.empty(l.shape)
     for order, particular in ((0, _axisymmetric), (1, _first)):
         value[l == order] = _with_edges(order, particular(x), inner, x, nu)
-    high = l[l >= 2]
-    value[l >= 2] = _high_harmonics(high, inner, x, nu) if high.size else 0.0
+    value[l >= 2] = _high_harmonics(l[l >= 2], inner, x, nu)
     return value
 
 
@@ -159,14 +154,8 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     largest = np.array([1.0, 1.0, inner, inner])[:, None]
     clamped, free, here = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
-    matrix = np.stack(
-        [
-            clamped * at_inner[0],
-            clamped * at_inner[1] * inner / n,
-            free * _moment(l, nu, at_outer) / n**2,
-            free * _shear(l, nu, at_outer) / n**3,
-        ]
-    )
+    moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
+    matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged
     near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
@@ -175,8 +164,8 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
         [
             inside[0] + inside[1],
             (inside[0] * n + inside[1] * (n + 2)) / n,
-            (outside[0] * _moment(l, nu, _power(2 - n, 1.0)) + outside[1] * _moment(l, nu, _power(-n, 1.0))) / n**2,
-            (outside[0] * _shear(l, nu, _power(2 - n, 1.0)) + outside[1] * _shear(l, nu, _power(-n, 1.0))) / n**3,
+            (outside[0] * moment[3] + outside[1] * moment[2]) / n**2,
+            (outside[0] * shear[3] + outside[1] * shear[2]) / n**3,
         ]
     )
     edges = np.linalg.solve(np.moveaxis(matrix, -1, 0), -right.T[..., None])[..., 0]
