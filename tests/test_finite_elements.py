@@ -22,6 +22,11 @@ RING = [(0.06, 0.1, -0.005, 0.005), (0.1, 0.12, -0.005, 0.005)]
 IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 
 
+def ring_by_elements(size: float = 0.01, rectangles: Any = RING, **changes: Any) -> dm.Disc:
+    given: dict[str, Any] = {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0}
+    return disc_of_section(section(rectangles, size), **IRON | given | changes)
+
+
 def plate_by_elements(highest_Hz: float) -> dm.Disc:
     mesh = section([(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], P.h)
     clamped, slider = (lambda x: x[0] < P.a + 1e-9), (P.r_0, P.h / 2)
@@ -49,12 +54,7 @@ def test_the_plate_is_confirmed() -> None:
 
 def test_finer_meshes_agree() -> None:
     """Stress is singular at the clamped corners: halving the elements still changes frequencies by 0.6 %."""
-    found = [
-        disc_of_section(
-            section(RING, size), **IRON, clamped=lambda x: x[0] < 0.06 + 1e-9, slider=(0.1, 0.005), highest_Hz=3000
-        )
-        for size in (0.01, 0.005)
-    ]
+    found = [ring_by_elements(size) for size in (0.01, 0.005)]
     assert found[0].diameters == found[1].diameters
     np.testing.assert_allclose(found[0].omega, found[1].omega, rtol=1e-2)
     np.testing.assert_array_less(found[1].omega, found[0].omega)  # a finer mesh is softer
@@ -86,12 +86,9 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
         ({"clamped": lambda x: False}, "clamped=0: must hold nodes"),
     ],
 )
-def test_what_cannot_be_found_is_said(change: dict[str, object], phrase: str) -> None:
-    given: dict[str, object] = (
-        IRON | {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0} | change
-    )
+def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> None:
     with pytest.raises(dm.ParameterError) as error:
-        disc_of_section(section(RING, 0.01), **given)
+        ring_by_elements(**change)
     assert phrase in str(error.value)
 
 
@@ -119,16 +116,14 @@ def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: o
 def test_units_by_a_thousand_or_more_off_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """E in GPa was searched for thousands of modes without an end."""
     monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
-    given: dict[str, Any] = {"nu": P.nu, "rho": P.rho, "clamped": lambda x: x[0] < 0.061, "slider": (0.1, 0.005)}
     with pytest.warns(dm.ImplausibleValue), pytest.raises(dm.ParameterError, match="lowest modes of 0 nodal diameters"):
-        disc_of_section(section(RING, 0.005), **given, E=150, highest_Hz=3000)
+        ring_by_elements(0.005, E=150)
 
 
 def test_a_section_in_pieces_is_refused() -> None:
     """A ring that nothing held was left out without a word."""
-    mesh = section([RING[0], (0.11, 0.12, -0.005, 0.005)], 0.01)
     with pytest.raises(dm.ParameterError, match="mesh=2: must be one piece"):
-        disc_of_section(mesh, **IRON, clamped=lambda x: x[0] < 0.061, slider=(0.1, 0.005), highest_Hz=3000)
+        ring_by_elements(rectangles=[RING[0], (0.11, 0.12, -0.005, 0.005)])
 
 
 def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -94,7 +94,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
     static, modal = disc.static_compliance, modes_of_table(disc).flexibility
     if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
-        raise ParameterError(Fault((STATIC_COMPLIANCE,), as_text(static), rule))
+        raise ParameterError(Fault.of((STATIC_COMPLIANCE,), static, rule))
     return disc
 
 
@@ -111,7 +111,7 @@ def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str]
         return fault
     i = int(fault.path[1])
     unit = " rad/s" if names[at] == "frequency_Hz" and "within" in fault.rule else ""
-    return Fault((names[at],), as_text(rows[i][at]), f"{fault.rule}{unit} (mode {i + 1})")
+    return Fault.of((names[at],), rows[i][at], f"{fault.rule}{unit} (mode {i + 1})")
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -126,29 +126,26 @@ def disc_table(p: Parameters) -> str:
     """Write the modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
     from disc_model.flexibility import residual_flexibility
 
-    modes, lines = mode_arrays(p), []
+    modes = mode_arrays(p)
+    columns: dict[str, Any] = {"diameters": modes.diameters, "circles": modes.circles, "omega_rad_per_s": modes.omega}
+    columns |= {"amplitude_per_sqrt_kg": modes.psi, "damping_ratio": damping_ratios(p)}
     static = residual_flexibility(p).total if p.disc is None else p.disc.static_compliance
-    if static is not None:
-        lines.append(f"# {STATIC_COMPLIANCE}: {static}")
-    radii, shapes = ((), ()) if p.disc is None else (p.disc.radii, p.disc.shapes)
-    shape_columns = [f"shape_at_{radius}_m" for radius in radii]
-    names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio", *shape_columns)
-    lines.append(",".join(names))
-    columns = (modes.diameters, modes.circles, modes.omega, modes.psi, damping_ratios(p), *zip(*shapes, strict=True))
-    lines += [",".join(map(str, row)) for row in zip(*columns, strict=True)]
-    return "\n".join(lines) + "\n"
+    if p.disc is not None:
+        shapes = zip(p.disc.radii, zip(*p.disc.shapes, strict=True), strict=True)
+        columns |= {f"shape_at_{radius}_m": shape for radius, shape in shapes}
+    rows = [columns, *zip(*columns.values(), strict=True)]
+    comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
+    return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
 
 
 def _text(path: str | os.PathLike[str]) -> str:
     try:
-        too_large = Path(path).stat().st_size > LARGEST
-        text = "" if too_large else Path(path).read_text(encoding="utf-8-sig")
+        if Path(path).stat().st_size <= LARGEST:
+            return Path(path).read_text(encoding="utf-8-sig")
     except (OSError, TypeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
         raise _fault(path, f"must be a text file that can be read ({reason})") from None
-    if too_large:
-        raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
-    return text
+    raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
 
 
 def _static_compliance(lines: list[str], path: object) -> float | None:
@@ -169,8 +166,8 @@ def _column_faults(names: list[str]) -> list[Fault]:
     for name in names:
         if name not in COLUMNS and not SHAPE.fullmatch(name):
             if ";" in name or "\t" in name:
-                return [Fault(("columns",), as_text(name), "must be separated by commas, with points in numbers")]
-            faults.append(Fault(("columns",), as_text(name), f"unknown column{suggestion(name, list(COLUMNS))}"))
+                return [Fault.of(("columns",), name, "must be separated by commas, with points in numbers")]
+            faults.append(Fault.of(("columns",), name, f"unknown column{suggestion(name, list(COLUMNS))}"))
     radii = [f"shape_at_{float(match[1])}_m" for name in names if (match := SHAPE.fullmatch(name))]
     given = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
     for target in dict.fromkeys(["diameters", "omega", "amplitude", *given]):

@@ -103,7 +103,7 @@ def raise_faults(faults: Collection[str]) -> None:
 
 def violations(*rules: tuple[object, str, object, str]) -> list[str]:
     """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold; dots join a path."""
-    return [Fault(tuple(name.split(".")), as_text(value), rule) for holds, name, value, rule in rules if not holds]
+    return [Fault.of(tuple(name.split(".")), value, rule) for holds, name, value, rule in rules if not holds]
 
 
 class ModeError(DiscModelError):

@@ -18,14 +18,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, raise_faults, violations
 from disc_model.parameters import Disc, Parameters, is_number
+from disc_model.plate import Array
 from disc_model.plausibility import ImplausibleValue, warn_of_doubts
 
 if TYPE_CHECKING:
     from skfem import MeshQuad
-
-Array = NDArray[np.float64]
 
 SEEN = 1e-6
 """Least amplitude under the slider, relative to the largest: modes below it move in the plane of the disc alone."""
@@ -55,7 +54,7 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
     for i, one in enumerate(given or [()]):
         if not (len(one) == 4 and 0 < one[0] < one[1] < math.inf and -math.inf < one[2] < one[3] < math.inf):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault(("rectangles", str(i)), as_text(one), rule))
+            raise ParameterError(Fault.of(("rectangles", str(i)), one, rule))
     raise_faults(violations((is_number(size) and size > 0, "size", size, "must be > 0")))
     inner, outer, low, high = zip(*given, strict=True)
     count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
@@ -150,10 +149,7 @@ def disc_of_section(
         found += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
     largest = max((a for *_, a, _ in found), default=0.0)
     kept = sorted(row for row in found if row[3] > SEEN * largest)
-    if not kept:
-        raise ParameterError(
-            Fault(("highest_Hz",), as_text(highest_Hz), "must be above a mode that moves under the slider")
-        )
+    raise_faults(violations((kept, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
     names = ("omega", "diameters", "circles", "amplitude", "shapes")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
     return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(kept))
@@ -191,7 +187,7 @@ def _harmonic(
             most = math.sqrt(squares.max()) / math.tau
             rule = f"must be below the {count} lowest modes of {l} nodal diameters, which end at {most:.3g} Hz: "
             rule += "lengths are in m, E in Pa, rho in kg/m^3"
-            raise ParameterError(Fault(("highest_Hz",), as_text(highest / math.tau), rule))
+            raise ParameterError(Fault.of(("highest_Hz",), highest / math.tau, rule))
         count *= 2
     order = np.argsort(squares)
     order = order[squares[order] <= highest**2]

@@ -159,7 +159,7 @@ def limits_rule(limits: tuple[float, float]) -> str:
 def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
     """Faults of an argument that must be a number within limits."""
     good = is_number(value) and limits[0] <= value <= limits[1]
-    return [] if good else [Fault((name,), as_text(value), limits_rule(limits))]
+    return [] if good else [Fault.of((name,), value, limits_rule(limits))]
 
 
 def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
@@ -210,7 +210,7 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
         for name, value in data.items():
             if not isinstance(name, str):
                 comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-                yield Fault((*path, repr(name)), as_text(value), f"a name must be text{comma}")
+                yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
             yield from faults_of_names(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for i, value in enumerate(data):
@@ -230,12 +230,11 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
     return {name: mark.name for name, mark in found.items() if not mark.of}, decided
 
 
-def _marks(field: FieldInfo) -> Iterator[Any]:
-    parts = [field.annotation]
-    yield from field.metadata
+def _marks(field: FieldInfo) -> list[Any]:
+    parts = [*field.metadata, field.annotation]
     for part in parts:
         parts += get_args(part)
-    yield from parts
+    return parts
 
 
 class Strict(BaseModel):
@@ -283,7 +282,7 @@ class Strict(BaseModel):
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
-        raise ParameterError(Fault((cls.__name__.lower(),), as_text(obj), "must be a mapping of names to values"))
+        raise ParameterError(Fault.of((cls.__name__.lower(),), obj, "must be a mapping of names to values"))
 
 
 def given_values(model: Strict) -> dict[str, Any]:
@@ -315,7 +314,7 @@ class Checked(Strict, metaclass=_OwnNames):
         try:
             values = json.loads(json_data)
         except (ValueError, TypeError, RecursionError) as error:
-            raise ParameterError(Fault(("json_data",), as_text(json_data), f"must be JSON ({error})")) from None
+            raise ParameterError(Fault.of(("json_data",), json_data, f"must be JSON ({error})")) from None
         return cls.model_validate(values)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
@@ -421,7 +420,7 @@ def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
         given, rule = given & {"D_star"}, "must be left out where damping_ratio is given"
     else:
         return []
-    return [Fault((name,), as_text(data[name]), rule) for name in sorted(given)]
+    return [Fault.of((name,), data[name], rule) for name in sorted(given)]
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -476,9 +475,7 @@ class Disc(Checked):
         diameters, omega = data.get("diameters"), data.get("omega")
         if not (isinstance(diameters, tuple | list) and isinstance(omega, tuple | list)):
             return data
-        ratio, circles = data.get("damping_ratio") or (), data.get("circles") or ()
-        if not ratio:
-            ratio = (0.0,) * len(diameters)
+        ratio, circles = data.get("damping_ratio") or (0.0,) * len(diameters), data.get("circles") or ()
         if not circles and len(omega) == len(diameters) and all(map(is_number, omega)):
             order = sorted(range(len(omega)), key=omega.__getitem__)
             circles = [sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega))]
@@ -513,11 +510,10 @@ class Disc(Checked):
     @property
     def numbers(self) -> dict[str, float]:
         """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal diameters, no circle."""
-        modes = list(zip(self.diameters, self.circles, strict=True))
         return {
             f"{column}_{l}_{c}": value
             for column in ("omega", "amplitude", "damping_ratio")
-            for (l, c), value in zip(modes, getattr(self, column), strict=True)
+            for l, c, value in zip(self.diameters, self.circles, getattr(self, column), strict=True)
         }
 
     def with_numbers(self, **changes: float) -> Disc:
@@ -541,7 +537,7 @@ def _shape_faults(radii: Any, shapes: Any) -> list[str]:
         rule = "must be two or more, with a value of the shape of every mode at each"
         faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
     elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
-        faults.append(Fault(("radii",), as_text(list(radii)), "must ascend"))
+        faults.append(Fault.of(("radii",), list(radii), "must ascend"))
     return faults
 
 
@@ -563,7 +559,7 @@ def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> l
                     f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
                     f"pair once, by its mean frequency, and what splits it is neglected"
                 )
-            faults.append(Fault(("omega", str(j)), as_text(omega[j]), rule))
+            faults.append(Fault.of(("omega", str(j)), omega[j], rule))
     return faults[:3]
 
 
@@ -707,7 +703,7 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
 
 def foreign_case(p: object) -> list[str]:
     """Faults of an argument that must be `Parameters`."""
-    return [] if isinstance(p, Parameters) else [Fault(("p",), as_text(p), "must be Parameters")]
+    return [] if isinstance(p, Parameters) else [Fault.of(("p",), p, "must be Parameters")]
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:
@@ -731,7 +727,7 @@ def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
     # a disc that is given by its modes has other radii than the plate
     for low, sign, holds, high in _ORDER if data.get("disc") is None else _ORDER[:1]:
         if low in values and high in values and not holds(values[low], values[high]):
-            faults.append(Fault((low,), as_text(values[low]), f"must be {sign} {high}={as_text(values[high])}"))
+            faults.append(Fault.of((low,), values[low], f"must be {sign} {high}={as_text(values[high])}"))
     if values.keys() >= {"E", "h", "nu"} and values["E"] > 0 and values["h"] > 0 and abs(values["nu"]) < 1:
         try:
             rigidity = _rigidity(values["E"], values["h"], values["nu"])
@@ -739,5 +735,5 @@ def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
             rigidity = math.inf
         if not 0 < rigidity < math.inf:
             rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
-            faults.append(Fault(("h",), as_text(values["h"]), rule))
+            faults.append(Fault.of(("h",), values["h"], rule))
     return faults

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from tests import needs
+from tests import needs, processes
+from tests.packaging.test_light import names
 
 pytestmark = pytest.mark.slow
 
@@ -30,18 +30,8 @@ PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
 
 def run(*command: str | Path, cwd: Path, **environment: str) -> str:
     """Output of a command that must succeed, run with nothing in the environment that leads to the sources."""
-    kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "VIRTUAL_ENV")}
-    done = subprocess.run(
-        [str(word) for word in command],
-        cwd=cwd,
-        env=kept | environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=1800,
-    )
-    assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
-    return done.stdout
+    clean = ("env", "-u", "PYTHONPATH", "-u", "VIRTUAL_ENV")
+    return processes.run(*clean, *command, cwd=cwd, timeout=1800, **environment).stdout
 
 
 def interpreter(version: str) -> str:
@@ -188,15 +178,10 @@ def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path
 # ---- the lock file
 
 
-def names(text: str) -> set[str]:
-    lines = [line.split("#")[0].strip() for line in text.splitlines()]
-    return {canonicalize_name(Requirement(line).name) for line in lines if line and not line.startswith("-")}
-
-
 @pytest.mark.parametrize("file", LOCKS)
 def test_everything_wanted_is_pinned_with_hashes_and_no_address(file: str) -> None:
     lock, wanted = (ROOT / file).read_text(), (ROOT / file).with_suffix(".in").read_text()
-    assert names(wanted) <= {canonicalize_name(name) for name, _ in PIN.findall(lock)}
+    assert names(wanted.splitlines()) <= {canonicalize_name(name) for name, _ in PIN.findall(lock)}
     assert not re.search(r"://|--(extra-)?index-url|--find-links|--trusted-host| @ ", lock)
     for block in re.split(r"^(?=[A-Za-z0-9])", lock, flags=re.MULTILINE)[1:]:
         assert PIN.match(block), block
