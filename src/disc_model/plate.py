@@ -108,8 +108,7 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
         from scipy.interpolate import make_interp_spline  # few callers need it
 
         radii, known = _given_shapes(p.disc, p.r_0)
-        spline: Array = make_interp_spline(radii, known, k=min(3, len(radii) - 1), axis=1)(r)
-        return spline
+        return make_interp_spline(radii, known, k=min(3, len(radii) - 1), axis=1)(r)
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -221,8 +220,7 @@ def modal_damping(p: Parameters) -> Array:
     """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no ratio xi is given."""
     omega = mode_arrays(p).omega
     ratio = p.damping_ratio if p.disc is None else np.array(p.disc.damping_ratio)
-    damping: Array = p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
-    return damping
+    return p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
 
 
 @lru_cache(maxsize=64)

@@ -127,8 +127,8 @@ class _Line:
     def show(self, text: str, count: float) -> None:
         """Start or continue the display, with this text and count."""
         if not self.shown:
-            self.shown = True
             self._open()
+            self.shown = True
         if self.bar is not None:
             self.bar.start()
             self.bar.update(self.task, description=text, completed=count)
