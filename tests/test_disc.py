@@ -19,7 +19,7 @@ from disc_model.disc import disc_table
 from disc_model.plate import mode_arrays, mode_shapes
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
-from disc_model.studies.study import StudyError, load_study
+from disc_model.studies.study import GridStudy, StudyError, load_study
 from tests import needs
 from tests.commands import Command
 
@@ -32,6 +32,20 @@ def written(path: Path, p: dm.Parameters) -> dm.Parameters:
     path.write_text(disc_table(p))
     left = {name: p.canonical[name] for name in ("N", "Omega", "r_0", "contact_force") if name in p.canonical}
     return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=dm.read_disc(path))
+
+
+def grid_in(folder: Path, text: str) -> GridStudy:
+    """The grid of a study file beside its tables."""
+    (folder / "study.yaml").write_text(text)
+    grid = load_study(folder / "study.yaml").grid
+    assert grid is not None
+    return grid
+
+
+def computed(folder: Path, text: str) -> xr.Dataset:
+    """A study of a disc from its file, as the workflow computes it."""
+    grid = grid_in(folder, text)
+    return merge_batches([run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs)
 
 
 @pytest.mark.parametrize(
@@ -122,8 +136,7 @@ def test_the_slider_on_a_given_disc_runs_where_the_plate_ends(tmp_path: Path) ->
     assert dm.Parameters(N=1, Omega=1, disc=dm.Disc(**THREE), r_0=0.13).r_0 == 0.13
     (tmp_path / "disc.csv").write_text(disc_table(P))
     for phrase in ("base: {disc: disc.csv, r_0: 0.13, N: 1}", "base: {r_0: 0.13, N: 1}\naxes: {disc: [disc.csv]}"):
-        (tmp_path / "study.yaml").write_text(f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{phrase}\n")
-        load_study(tmp_path / "study.yaml")
+        grid_in(tmp_path, f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{phrase}\n")
 
 
 FIRST_LINES = (
@@ -167,30 +180,23 @@ def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
         dm.read_disc(path)  # type: ignore[arg-type]
 
 
-def study(folder: Path, disc: str) -> Path:
-    path = folder / "study.yaml"
-    text = f"study: own\nbase: {{disc: {disc}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"
-    path.write_text(text)
-    return path
+OWN = "study: own\nbase: {{disc: {}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"
 
 
 def test_a_study_names_a_table_beside_it(tmp_path: Path) -> None:
     """What the table holds, and not its name, decides which batches there are."""
     for name in ("a.csv", "b.csv"):
         (tmp_path / name).write_text(disc_table(P))
-    grids = [load_study(study(tmp_path, name)).grid for name in ("a.csv", "b.csv")]
-    batches = [list(grid.batches) for grid in grids if grid is not None]
+    batches = [list(grid_in(tmp_path, OWN.format(name)).batches) for name in ("a.csv", "b.csv")]
     assert batches[0] == batches[1]
     (tmp_path / "b.csv").write_text(disc_table(P.replace(h=0.0021)))
-    changed = load_study(study(tmp_path, "b.csv")).grid
-    assert changed is not None
-    assert list(changed.batches) != batches[0]
+    assert list(grid_in(tmp_path, OWN.format("b.csv")).batches) != batches[0]
 
 
 def test_a_study_that_is_named_by_another_has_its_tables_beside_it(tmp_path: Path) -> None:
     """Only the file that was asked for itself had them read."""
     (tmp_path / "disc.csv").write_text(disc_table(P))
-    (tmp_path / "own.yaml").write_text(study(tmp_path, "disc.csv").read_text())
+    (tmp_path / "own.yaml").write_text(OWN.format("disc.csv"))
     (tmp_path / "all.yaml").write_text(f"study: all\nstudies: [{tmp_path}/own.yaml]\n")
     grids, _ = load_study(tmp_path / "all.yaml").grids()
     assert grids["own"].base["disc"]["omega"] == tuple(mode_arrays(P).omega)
@@ -198,15 +204,7 @@ def test_a_study_that_is_named_by_another_has_its_tables_beside_it(tmp_path: Pat
 
 def test_a_study_without_its_table_says_so(tmp_path: Path) -> None:
     with pytest.raises(StudyError, match=r"must be a text file that can be read \(No such file or directory\)"):
-        load_study(study(tmp_path, "nowhere.csv"))
-
-
-def computed(folder: Path, text: str) -> xr.Dataset:
-    """A study of a disc from its file, as the workflow computes it."""
-    (folder / "study.yaml").write_text(text)
-    grid = load_study(folder / "study.yaml").grid
-    assert grid is not None
-    return merge_batches([run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs)
+        grid_in(tmp_path, OWN.format("nowhere.csv"))
 
 
 def test_discs_are_an_axis(tmp_path: Path) -> None:

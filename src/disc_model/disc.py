@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.errors import Fault, ParameterError, as_text, suggestion
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.plate import Array, modal_damping, mode_arrays, modes_of_table
 
@@ -72,8 +72,7 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
         for i, row in enumerate(rows, 1)
         if len(row) != len(names)
     ]
-    if faults := _column_faults(names) or uneven[:3]:
-        raise ParameterError(*faults)
+    raise_faults(_column_faults(names) or uneven[:3])
     return names, rows
 
 
