@@ -62,7 +62,6 @@ from disc_model.studies.document import (
     BatchSpec,
     Blocks,
     Document,
-    NamedCase,
     SensitivityOptions,
     Value,
     blocks_of,
@@ -162,12 +161,11 @@ def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
     """`own` over `base`, mappings merged key by key; None drops what is inherited."""
     merged = dict(base)
     for key, value in own.items():
+        old = merged.get(key)
         if value is None and key in base:
             del merged[key]
-            continue
-        old = merged.get(key)
-        both = isinstance(old, Mapping) and isinstance(value, Mapping)
-        merged[key] = inherit(old, value) if both else value  # type: ignore[arg-type]
+        else:
+            merged[key] = inherit(old, value) if isinstance(old, Mapping) and isinstance(value, Mapping) else value
     return merged
 
 
@@ -186,30 +184,33 @@ class CaseFigure(NamedTuple):
     caption: str
 
 
-@dataclass(frozen=True)
 class Study:
-    """A checked study. `cases` and `specs` have the same keys, in the order of the file.
+    """A study. What is wrong with it is added to a list of faults as it is made.
 
     Attributes
     ----------
+    document : content of the file; the study has its name, title, claims, cases, and files of further grid studies
+    specs : what is simulated of each case, in the order of the file
     figures : the requested figures of the paper
     plots : figures of cases, by name
-    claims : whether the paper's statements are checked against the cases
     grid : the file's own grid, if it has one
-    studies : files of further grid studies; * stands for any part of a name
     """
 
-    name: str
-    title: str
-    cases: Mapping[str, NamedCase]
-    specs: Mapping[str, CaseSpec]
-    figures: tuple[str, ...]
-    plots: Mapping[str, CasePlot]
-    claims: bool
-    grid: GridStudy | None
-    studies: tuple[str, ...]
-    overrides: Mapping[str, Mapping[str, Any]]
-    resolution: int
+    def __init__(self, document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> None:
+        self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
+        self.cases, self.studies = document.cases, document.studies
+        if self.name in TAKEN:
+            faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
+        if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
+            faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
+        self.specs: dict[str, CaseSpec] = {}
+        for name, case in self.cases.items():
+            try:
+                self.specs[name] = case.spec()
+            except ParameterError as error:
+                faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
+        self.figures, self.plots, of_grid = _figures(document, raw, self.specs, faults)
+        self.grid = GridStudy(document, raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -248,17 +249,16 @@ class Study:
         folders : searched for the files; the first that has one counts
         """
         grids = {} if self.grid is None else {self.name: self.grid}
-        paths = [Path(path) for pattern in self.studies for path in _found(pattern, folders)]
+        paths = [path for pattern in self.studies for path in _found(pattern, folders)]
         asked = (*grids, *(path.stem for path in paths))
         plots = () if self.grid is None else self.grid.plots.values()
         shown_too = {name for plot in plots for name in plot.overlays.values()}.difference(asked)
-        helpers = [Path(path) for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders)]
-        known = {*grids, *(path.stem for path in paths)}
+        helpers = [path for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders) if path.is_file()]
+        known = {*asked, *(path.stem for path in helpers)}
         faults: list[str] = []
-        for path in [*paths, *(path for path in helpers if path.is_file())]:
-            known.add(path.stem)
+        for path in [*paths, *helpers]:
             self._add_grid(path, grids, faults)
-        for name in self.overrides.keys() - known:
+        for name in self.document.overrides.keys() - known:
             faults.append(f"overrides.{name}: no such study{suggestion(name, sorted(known))}")
         for name in grids.keys() & set(asked):
             faults += _misfits(grids[name], grids, known)
@@ -270,7 +270,8 @@ class Study:
         """Add the grid of another file, with the overriding values applied."""
         try:
             raw, more = read_file(path)
-            raw = {"resolution": self.resolution, **inherit(mapping(raw), self.overrides.get(path.stem, {}))}
+            own = inherit(mapping(raw), self.document.overrides.get(path.stem, {}))
+            raw = {"resolution": self.document.resolution, **own}
             study = parse_study(raw, path.parent, _shown_path(path), more)
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
@@ -317,30 +318,10 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study", kno
     if folder is not None:
         raw = _with_discs(raw, folder, before)
     document, faults = _checked(raw)
-    study = None if document is None else _study(document, raw, faults)
+    study = None if document is None else Study(document, raw, faults)
     if study is None or before or faults:
         raise StudyError(*before, *faults, source=source)
     return study
-
-
-def _study(document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> Study:
-    """The study of a file's valid parts, which is right if it adds no fault."""
-    if document.study in TAKEN:
-        faults.append(Fault.of(("study",), document.study, "is the name of another folder of results"))
-    if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
-        faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
-    specs = {}
-    for name, case in document.cases.items():
-        try:
-            specs[name] = case.spec()
-        except ParameterError as error:
-            faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
-    listed, plots, of_grid = _figures(document, raw, specs, faults)
-    grid = GridStudy(document, raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
-    return Study(
-        document.study, document.title, document.cases, specs, listed, plots, document.claims, grid, document.studies,
-        document.overrides, document.resolution,
-    )  # fmt: skip
 
 
 def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...] = ()) -> Any:
@@ -376,18 +357,14 @@ def _groups(raw: Mapping[str, Any]) -> list[Any]:
 
 def _shown_path(path: Path) -> str:
     """The shortest form of a path, relative to the current folder if possible."""
-    try:
-        return str(path.resolve().relative_to(Path.cwd()))
-    except ValueError:
-        return str(path)
+    whole, here = path.resolve(), Path.cwd()
+    return str(whole.relative_to(here) if whole.is_relative_to(here) else path)
 
 
-def _found(pattern: str, folders: Sequence[Path]) -> list[str]:
+def _found(pattern: str, folders: Sequence[Path]) -> list[Path]:
     """Files that match a pattern, in the first folder that has any; the pattern itself if there are none."""
-    for folder in folders:
-        if matches := sorted(glob(str(folder / pattern))):
-            return matches
-    return [pattern]
+    found = (sorted(glob(str(folder / pattern))) for folder in folders)
+    return [Path(path) for path in next(filter(None, found), [pattern])]
 
 
 def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]) -> Iterator[str]:

@@ -1,6 +1,6 @@
 """Results of a quantity at points: rows of values by column, a status, and the errors that make a point fail."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -41,6 +41,16 @@ DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "dow
 
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
 """Errors that make a point fail: this package's errors, division by zero and overflow, unsolvable matrices."""
+
+
+def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
+    """Values and message of what an error has ended."""
+    return {flag: "failed"}, f"{type(error).__name__}: {error}"
+
+
+def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
+    """A column of shares, those of the lower and of the upper ends of their intervals, by name."""
+    return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:

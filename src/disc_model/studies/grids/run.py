@@ -20,7 +20,7 @@ from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Start
 from disc_model.studies.document import QUANTITIES
-from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row
+from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row, failed
 from disc_model.truncation import FREQUENCIES, by_frequencies, read_asked
 
 # ----------------------------------------------------------------------------------------------------
@@ -151,11 +151,9 @@ def own_coordinates(quantity: Any, options: Any) -> dict[str, xr.Variable]:
 def compute(quantity: Any, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
     """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
     try:
-        if isinstance(point, DiscModelError):
-            raise point
-        return quantity.compute_point(point, options)
+        return failed(point) if isinstance(point, DiscModelError) else quantity.compute_point(point, options)
     except NUMERICAL as error:
-        return {"status": "failed"}, f"{type(error).__name__}: {error}"
+        return failed(error)
 
 
 def variables_of(quantity: Any, rows: Sequence[Row], options: Any, sizes: Mapping[str, int]) -> dict[str, xr.Variable]:

@@ -13,9 +13,9 @@ from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.merge import failures
-from disc_model.studies.grids.points import SAMPLE_CYCLES
+from disc_model.studies.grids.points import SAMPLE_CYCLES, Row
 from disc_model.studies.grids.quantities import sensitivity
-from disc_model.studies.grids.quantities.sensitivity import Evaluated, quantile, unit_draws, variants
+from disc_model.studies.grids.quantities.sensitivity import quantile, unit_draws, variants
 from tests.studies.grids.conftest import SMALL, computed
 from tests.studies.refused import faults_of, parse_grid
 
@@ -29,8 +29,12 @@ def study(distributions: dict[str, Any], **changes: Any) -> dict[str, Any]:
     return {"study": "s", "quantity": "sensitivity", "options": options, **usual, **changes}
 
 
-def evaluating(monkeypatch: pytest.MonkeyPatch, function: Callable[[dict[str, float]], Evaluated]) -> None:
-    monkeypatch.setattr(sensitivity, "evaluate", lambda p, values, tol: function(values))
+def evaluating(monkeypatch: pytest.MonkeyPatch, function: Callable[[dict[str, float]], Row]) -> None:
+    monkeypatch.setattr(sensitivity, "evaluate", lambda p, values, tol: (function(values), ""))
+
+
+def cycle_row(word: str, growth_rate: float) -> Row:
+    return {"cycle": word, "growth_rate": growth_rate}
 
 
 def ishigami(x: float, y: float, z: float) -> float:
@@ -44,9 +48,9 @@ FIRST, TOTAL = (0.31391, 0.44241, 0.0), (0.55759, 0.44241, 0.24368)
 def test_indices_of_ishigamis_function(monkeypatch: pytest.MonkeyPatch) -> None:
     """Through batches, merge and summary; of the indicator that it is above 3.5, scipy's indices are the measure."""
 
-    def function(values: dict[str, float]) -> Evaluated:
+    def function(values: dict[str, float]) -> Row:
         y = ishigami(*(values[name] - np.pi for name in ("c", "c_p", "k")))
-        return Evaluated("unstable" if y > 3.5 else "stable", y)
+        return cycle_row("unstable" if y > 3.5 else "stable", y)
 
     evaluating(monkeypatch, function)
     raw = study(
@@ -71,9 +75,9 @@ def test_indices_of_ishigamis_function(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """Shares and probabilities against counting; what has no cycle is a class, and what failed widens intervals."""
 
-    def function(values: dict[str, float]) -> Evaluated:
+    def function(values: dict[str, float]) -> Row:
         word = SAMPLE_CYCLES[min(int(8 * values["c"]), 7)]
-        return Evaluated(word, values["c"] if word in ("stable", "unstable") else np.nan)
+        return cycle_row(word, values["c"] if word in ("stable", "unstable") else np.nan)
 
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}
@@ -97,10 +101,10 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    def function(values: dict[str, float]) -> Evaluated:
+    def function(values: dict[str, float]) -> Row:
         if values["k"] > 5e4:
             raise np.linalg.LinAlgError("singular")
-        return Evaluated("stable", -1.0)
+        return cycle_row("stable", -1.0)
 
     evaluating(monkeypatch, function)
     found = computed(**study({"k": UNIFORM}))
@@ -183,5 +187,5 @@ def test_probabilities_can_be_drawn_as_any_variable() -> None:
 def made_up() -> xr.Dataset:
     """A study of two points, without the engine."""
     with pytest.MonkeyPatch.context() as patch:
-        evaluating(patch, lambda values: Evaluated("unstable" if values["k"] > 5e4 else "stable", values["k"] - 5e4))
+        evaluating(patch, lambda values: cycle_row("unstable" if values["k"] > 5e4 else "stable", values["k"] - 5e4))
         return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"growth_rate_cap": 1e6}))

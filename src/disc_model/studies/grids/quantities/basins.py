@@ -19,7 +19,7 @@ from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.document import BasinsOptions
-from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
+from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed, with_ends
 
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
 """Outcomes of a start."""
@@ -29,19 +29,12 @@ SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
 """Statistics of a stretch on an attractor."""
 SMALLEST = 2.0**-40
 """Fraction of the least separating energy of the sample, below which the bisection gives up."""
-_EACH, _SHARES, _POOLED, _KNOWN = (
-    ("energy", "start"),
-    ("energy", "attractor_class"),
-    ("attractor_class",),
-    ("attractor",),
-)
+_EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
 
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
-    bounds = {"": "", "_low": ", lower end of its confidence interval", "_high": ", upper end of it"}
-    return {
-        f"{what}{end}": Variable("1", f"share of the starts{that}{more}", dims=dims) for end, more in bounds.items()
-    }
+    ends = ("", ", lower end of its confidence interval", ", upper end of it")
+    return with_ends(what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends))
 
 
 COLUMNS = {
@@ -51,7 +44,7 @@ COLUMNS = {
     "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
     "lost_contact": Variable("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("basin_fraction_by_energy", _SHARES),
-    **_share("basin_fraction", _POOLED),
+    **_share("basin_fraction", _SHARES[1:]),
     **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
     "critical_energy": Variable("J", "least energy found that leads to lasting separation, by bisection"),
     "critical_energy_lower": Variable("J", "greatest energy below it, in the same direction, that does not"),
@@ -93,9 +86,7 @@ def compute_point(point: Point, options: BasinsOptions) -> tuple[dict[str, Any],
     values |= _shares("basin_fraction_by_energy", found, options.confidence)
     values |= {name: one for name, (one,) in _shares("basin_fraction", [rows], options.confidence).items()}
     shown = share(sum(reached.separates for reached in rows), len(rows), confidence=options.confidence)
-    values |= dict(
-        zip(("separating_fraction", "separating_fraction_low", "separating_fraction_high"), shown, strict=True)
-    )
+    values |= with_ends("separating_fraction", shown)
     values |= sample.critical_energy() | _described(starts)
     message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
     return values, message
@@ -120,12 +111,8 @@ class _Sample:
     def critical_energy(self) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
         energies = self.options.energies
-        separating = sorted(
-            (energies[j], i, j)
-            for j, row in enumerate(self.found)
-            for i, reached in enumerate(row)
-            if reached.separates
-        )
+        reached = ((energies[j], i, j, one) for j, row in enumerate(self.found) for i, one in enumerate(row))
+        separating = sorted((energy, i, j) for energy, i, j, one in reached if one.separates)
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
@@ -133,10 +120,8 @@ class _Sample:
             return least
         if self._outcome_of(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
-        low, high = min(
-            (self._bisected(*one) for one in separating[: self.options.n_bisection_directions]),
-            key=lambda ends: ends[1],
-        )
+        ends = [self._bisected(*one) for one in separating[: self.options.n_bisection_directions]]
+        low, high = min(ends, key=lambda pair: pair[1])
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
     def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
@@ -161,7 +146,7 @@ def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: flo
         [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
         for row in found
     ]
-    return dict(zip((name, f"{name}_low", f"{name}_high"), np.moveaxis(np.array(shares), -1, 0), strict=True))
+    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
 
 
 def _described(starts: Counter[Attractor]) -> dict[str, Any]:

@@ -83,12 +83,9 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
         if reached is not None and reached.follows_cycle and reached.cycle.stable:
             follow(reached.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
-    known = {
-        "status": "failed" if message else "ok",
-        "n_branches": len(rows),
-        "n_continuation_failures": len(unfollowed),
-    }
-    return listed(rows) | swept | known | {"sliding_growth_rate": sliding}, message
+    counts = {"n_branches": len(rows), "n_continuation_failures": len(unfollowed)}
+    known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
+    return listed(rows) | swept | counts | known, message
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> dict[str, Any]:
@@ -105,21 +102,14 @@ def _branch(cycle: FloquetResult, reached: bool, options: BranchesOptions) -> di
         np.concatenate([getattr(down, column)[::-1], getattr(up, column)[1:]])
         for column in ("values", "points", "period", "growth_rate")
     )
-    value = values[:, 0]
+    row = {"value": values[:, 0], "period": period, "growth_rate": growth_rate}
     own = ReturnMap(p)
     ranges = []
-    for one, x, time in zip(value, points, period, strict=True):
-        case = p.replace(**{name: float(one)})
+    for value, x, time in zip(row["value"], points, period, strict=True):
+        case = p.replace(**{name: float(value)})
         map_ = ReturnMap(case)
         ranges.append(_range(case, map_.state(x / own.scale * map_.scale), time))
-    return {
-        "releases": cycle.releases,
-        "separations": cycle.separations,
-        "value": value,
-        "period": period,
-        "range": np.array(ranges),
-        "growth_rate": growth_rate,
-    }
+    return row | {"range": np.array(ranges), "releases": cycle.releases, "separations": cycle.separations}
 
 
 def _range(p: Parameters, state: State, period: float) -> float:

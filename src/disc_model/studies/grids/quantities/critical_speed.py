@@ -50,7 +50,6 @@ COORDINATES = {
 def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str, Any], str]:
     """Scan and bisect the speed; the point's own Omega is not used."""
     p, scan = point.parameters, options.scan
-    step = round((scan.stop - scan.start) / scan.intervals / options.precision)
     motions: dict[int, OutcomeResult] = {}
     known: dict[int, float] = {}
     total = 0.0
@@ -66,7 +65,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
         none = math.isnan(found.first_separation) and found.status == "ok"
         known[i] = math.inf if none else found.first_separation
 
-    scanned = [i * step for i in range(scan.intervals + 1)]
+    scanned = [i * round(options.step) for i in range(scan.intervals + 1)]
     for i in scanned:
         look(i)
     for horizon in options.horizons:

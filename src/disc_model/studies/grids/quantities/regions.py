@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
-from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.neighbourhood import (
@@ -37,7 +36,7 @@ from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import ReturnMap, newton
 from disc_model.studies.document import RegionsOptions
-from disc_model.studies.grids.points import NUMERICAL, STATUS, Made, Point, Row
+from disc_model.studies.grids.points import NUMERICAL, STATUS, Made, Point, Row, failed
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -113,10 +112,12 @@ class _Followed(NamedTuple):
 
 class _Tile:
     def __init__(self, points: Sequence[Sequence[Made]], options: RegionsOptions, sampled: Collection[Place]) -> None:
-        self.points, self.options = points, options
-        self.shape = len(points), len(points[0])
-        places = product(range(self.shape[0]), range(self.shape[1]))
-        self.starts = {place: self._start(place) for place in places}
+        self.options, self.shape = options, (len(points), len(points[0]))
+        self.points = {(i, j): point for i, row in enumerate(points) for j, point in enumerate(row)}
+        self.starts = {
+            place: point if isinstance(point, Exception) else _tried(cycle_of_static_start, point)
+            for place, point in self.points.items()
+        }
         self.results: dict[Place, OutcomeResult | Exception] = {}
         self.filled: dict[Place, str] = {}
         self.presumed: dict[Place, str] = {}
@@ -133,10 +134,6 @@ class _Tile:
             for across, along in product(pairwise(rows), pairwise(columns)):
                 self._refine(across, along)
         self._check_what_is_filled()
-
-    def _start(self, place: Place) -> NearCycle | FloquetResult | Exception:
-        point = self.points[place[0]][place[1]]
-        return point if isinstance(point, Exception) else _tried(lambda: cycle_of_static_start(point))
 
     def _own(self, place: Place) -> NearCycle | None:
         """The cycle that the static start follows from its beginning."""
@@ -188,12 +185,11 @@ class _Tile:
         return found.word if isinstance(found, OutcomeResult) else "failed"
 
     def _result(self, place: Place, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        point, start = self.points[place[0]][place[1]], self.starts[place]
+        start = self.starts[place]
         if isinstance(start, Exception):
             return start
-        assert isinstance(point, Parameters)
         horizon, tol = self.options.horizon, self.options.tol
-        return _tried(lambda: find_outcome(point, horizon, tol=tol, near=start, furthest=furthest))
+        return _tried(find_outcome, self.points[place], horizon, tol=tol, near=start, furthest=furthest)
 
     def _trend(self, place: Place) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
@@ -285,12 +281,19 @@ class _Tile:
 
     def _row(self, place: Place, others: int) -> tuple[Row, str]:
         start, found = self.starts[place], self.results.get(place)
-        if isinstance(start, Exception) or isinstance(found, Exception):
-            error = start if isinstance(start, Exception) else found
-            return {"status": "failed"}, f"{type(error).__name__}: {error}"
-        row: dict[str, Any] = {"status": "ok", "other_cycles": others}
-        message = ""
-        if isinstance(found, OutcomeResult):
+        if isinstance(start, Exception):
+            return failed(start)
+        if isinstance(found, Exception):
+            return failed(found)
+        row: dict[str, Any] = {
+            "status": "ok",
+            "other_cycles": others,
+            "branch_continues_first": self._joined(place, (place[0] + 1, place[1])),
+            "branch_continues_second": self._joined(place, (place[0], place[1] + 1)),
+        }
+        if found is None:
+            row |= {"outcome": self._shown(place), "method": "multipliers" if self.trends[place] else "inferred"}
+        else:
             row |= {
                 "status": found.status,
                 "outcome": found.word,
@@ -298,13 +301,10 @@ class _Tile:
                 "first_separation": found.first_separation,
                 "simulated_time": found.simulated,
             }
-            message = found.message
+        followed = self.followed[place]
+        if followed is None:
+            row["cycle"] = _without(start, found)
         else:
-            row |= {"outcome": self._shown(place), "method": "multipliers" if self.trends[place] else "inferred"}
-        row["branch_continues_first"] = self._joined(place, (place[0] + 1, place[1]))
-        row["branch_continues_second"] = self._joined(place, (place[0], place[1] + 1))
-        followed = self.followed.get(place)
-        if followed is not None:
             cycle = followed.cycle
             lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
             row |= {
@@ -314,9 +314,7 @@ class _Tile:
                 "releases": cycle.releases,
                 "period_ratio": cycle.period * lowest,
             }
-        else:
-            row["cycle"] = _without(start, found)
-        return row, message
+        return row, "" if found is None else found.message
 
     def _others(self) -> dict[Place, int]:
         """Number of known cycles at each point besides the one nearest to the start.
@@ -349,9 +347,9 @@ class _Tile:
                 known[here].append(found.x)
 
 
-def _tried(compute: Callable[[], T]) -> T | Exception:
+def _tried(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
     try:
-        return compute()
+        return compute(*arguments, **named)
     except NUMERICAL as error:
         return error
 

@@ -6,9 +6,9 @@ Saltelli et al. (2010) for first-order and total indices, see `disc_model.analys
 seed and its own number.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,18 @@ from disc_model.parameters import Parameters
 from disc_model.stability.attractor.outcome import find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.studies.document import Distribution, SensitivityOptions
-from disc_model.studies.grids.points import DRAWS, NUMERICAL, SAMPLE_CYCLES, SAMPLE_OUTCOMES, STATUS, Coordinate, Point
+from disc_model.studies.grids.points import (
+    DRAWS,
+    NUMERICAL,
+    SAMPLE_CYCLES,
+    SAMPLE_OUTCOMES,
+    STATUS,
+    Coordinate,
+    Point,
+    Row,
+    failed,
+    listed,
+)
 
 Array = NDArray[np.float64]
 
@@ -55,20 +66,13 @@ def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, 
     given = [(options.distributions[name], float(own[name])) for name in names]
     drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
     rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
-    found = [_evaluated(p, row, options.tol) for row in rows]
-    values: dict[str, Any] = {
-        "status": "ok",
-        "parameter_values": drawn,
-        "cycle": [one.cycle for one in found],
-        "growth_rate": [one.growth_rate for one in found],
-        "outcome": "not_simulated",
-    }
-    messages = [one.message for one in found if one.message]
+    cycles, messages = zip(*(_tried("cycle", evaluate, p, row, options.tol) for row in rows), strict=True)
+    values = listed(cycles) | {"status": "ok", "parameter_values": drawn, "outcome": "not_simulated"}
     if point.sample < options.simulated_samples:
-        more, message = _followed(p.replace(**rows[0]), options)
+        more, message = _tried("outcome", _followed, p.replace(**rows[0]), options)
         values |= more
-        messages += [message] if message else []
-    return values, "; ".join(dict.fromkeys(messages))
+        messages += (message,)
+    return values, "; ".join(dict.fromkeys(filter(None, messages)))
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -97,15 +101,15 @@ def _block(seed: int, count: int, block: int) -> Array:
 def quantile(given: Distribution, own: float, share: float) -> float:
     """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     scale = own if given.relative else 1.0
+    low, high = given.ends
     if given.distribution == "uniform":
-        return float(scale * (given.low + share * (given.high - given.low)))
+        return float(scale * (low + share * (high - low)))
     first, last = EDGE / 2, 1 - EDGE / 2
     if given.distribution == "truncated_normal":
-        first, last = (ndtr((end - given.mean) / given.deviation) for end in (given.low, given.high))
-        # rounding must not exceed the ends
-        value = given.mean + given.deviation * float(ndtri(first + share * (last - first)))
-        return float(scale * min(max(value, given.low), given.high))
-    return float(scale * (given.mean + given.deviation * float(ndtri(first + share * (last - first)))))
+        first, last = (ndtr((end - given.mean) / given.deviation) for end in (low, high))
+    value = given.mean + given.deviation * float(ndtri(first + share * (last - first)))
+    # rounding must not exceed the ends
+    return float(scale * min(max(value, low), high))
 
 
 def variants(drawn: Array) -> Array:
@@ -118,26 +122,19 @@ def variants(drawn: Array) -> Array:
 # Results of one sample
 
 
-class Evaluated(NamedTuple):
-    """A variant: its class in `SAMPLE_CYCLES`, growth rate (1/s), and an error message."""
-
-    cycle: str
-    growth_rate: float
-    message: str = ""
-
-
-def _evaluated(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluated:
+def _tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -> tuple[Row, str]:
+    """Values and a message, also of what raises an error."""
     try:
-        return evaluate(p, values, tol)
+        return compute(*arguments)
     except NUMERICAL as error:
-        return Evaluated("failed", float("nan"), f"{type(error).__name__}: {error}")
+        return failed(error, flag)
 
 
-def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> Evaluated:
-    """Compute the cycle of a case with some parameters replaced."""
+def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> tuple[Row, str]:
+    """Compute the cycle of a case with some parameters replaced: its class and growth rate (1/s), and a message."""
     found = floquet(p.replace(**values), tol=tol)
     cycle = cycle_word(found)
-    return Evaluated(cycle, found.growth_rate, found.message if cycle == "failed" else "")
+    return {"cycle": cycle, "growth_rate": found.growth_rate}, found.message if cycle == "failed" else ""
 
 
 def cycle_word(found: FloquetResult) -> str:
@@ -150,10 +147,7 @@ def cycle_word(found: FloquetResult) -> str:
     return words.get(found.status, "failed")
 
 
-def _followed(p: Parameters, options: SensitivityOptions) -> tuple[dict[str, Any], str]:
+def _followed(p: Parameters, options: SensitivityOptions) -> tuple[Row, str]:
     """Simulate the static start and return its outcome."""
-    try:
-        found = find_outcome(p, options.horizon, tol=options.motion_tol)
-    except NUMERICAL as error:
-        return {"outcome": "failed"}, f"{type(error).__name__}: {error}"
+    found = find_outcome(p, options.horizon, tol=options.motion_tol)
     return {"outcome": found.word, "first_separation": found.first_separation}, found.message

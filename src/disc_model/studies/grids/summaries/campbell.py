@@ -9,7 +9,7 @@ at its ends.
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -48,39 +48,17 @@ COLUMNS: Mapping[str, Variable] = {
 COORDINATES = {"crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))}
 
 
-class Crossing(NamedTuple):
-    """A crossing of a mode with a line.
-
-    detuning : Hz, shape (n,), frequency of the line less that of the mode, at all speeds
-    place : index of the speed before it
-    """
-
-    Omega: float
-    frequency: float
-    mode: int
-    line: str
-    multiple: float
-    detuning: Array
-    place: int
-
-
 def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
     """Summarise over the speeds, which ascend."""
-    cell = cell.transpose("Omega", ...)
-    found = sorted(crossings(cell), key=lambda one: (one.Omega, one.mode, one.multiple))
-    rows = []
-    growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
-    for one in found[: options.max_crossings]:
-        effect, highest, rise, mode = effect_of(
-            one, growth, cell["growth_rate"].values, options.half_bandwidth, options.min_rise
-        )
-        row = {name: getattr(one, name) for name in ("Omega", "frequency", "mode", "line", "multiple")}
-        rows.append(row | {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode})
-    return {"n_crossings": len(found)} | {f"crossing_{name}": column for name, column in listed(rows).items()}
+    found = crossings(cell.transpose("Omega", ...), options)
+    rows = sorted(found, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
+    columns = listed(rows[: options.max_crossings])
+    return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
 
 
-def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
+def crossings(cell: xr.Dataset, options: CampbellOptions) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
+    growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
     speeds = cell["Omega"].values
     releases = bridged(speeds, cell["stick_slip_frequency"].values)
     turns = cell["rotation_frequency"].values
@@ -98,9 +76,14 @@ def crossings(cell: xr.Dataset) -> Iterator[Crossing]:
                 if detuning[place] == detuning[place + 1] or (detuning[place + 1] == 0 and place + 2 < len(speeds)):
                     continue  # the next interval begins there
                 part = detuning[place] / (detuning[place] - detuning[place + 1])
-                at = float(speeds[place] + part * (speeds[place + 1] - speeds[place]))
-                seen = float(own[place] + part * (own[place + 1] - own[place]))
-                yield Crossing(at, seen, int(mode), line, multiple, detuning, int(place))
+                yield {
+                    "Omega": float(speeds[place] + part * (speeds[place + 1] - speeds[place])),
+                    "frequency": float(own[place] + part * (own[place + 1] - own[place])),
+                    "mode": int(mode),
+                    "line": line,
+                    "multiple": multiple,
+                    **effect_of(detuning, int(place), growth, leading, options),
+                }
 
 
 def frequency_of(mode: xr.Dataset) -> Array:
@@ -120,32 +103,30 @@ def bridged(speeds: Array, values: Array) -> Array:
     return np.interp(speeds, speeds[known], values[known], left=np.nan, right=np.nan)
 
 
-def effect_of(
-    one: Crossing, growth: Array, leading: Array, window: float, least: float
-) -> tuple[str, float, float, int]:
+def effect_of(detuning: Array, place: int, growth: Array, leading: Array, options: CampbellOptions) -> dict[str, Any]:
     """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
-    number.
+    number, as far as they are known.
 
+    detuning : Hz, (speeds,), frequency of the line less that of the mode; place : index of the speed before it
     growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
     """
-    inside = np.abs(one.detuning) <= window
-    outside = np.flatnonzero(~inside)
-    first = outside.max(initial=-1, where=outside <= one.place)
-    last = outside.min(initial=len(inside), where=outside > one.place)
+    outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
+    first = outside.max(initial=-1, where=outside <= place)
+    last = outside.min(initial=len(detuning), where=outside > place)
     within = slice(first + 1, last)
-    if first < 0 or last >= len(inside) or last - first - 1 < FEWEST:
-        return "unresolved", math.nan, math.nan, 0
+    if first < 0 or last >= len(detuning) or last - first - 1 < FEWEST:
+        return {"effect": "unresolved"}
     highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
     if not np.isfinite(leading[first : last + 1]).all():
-        return "no_cycle", highest, math.nan, 0
+        return {"effect": "no_cycle", "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():
-        return "unresolved", highest, math.nan, 0
+        return {"effect": "unresolved", "growth_rate": highest}
     mode = int(np.nanargmax(rises))
     rise = float(rises[mode])
-    beside = max(leading[first], leading[last])
-    if highest > 0 >= beside:
-        return "destabilises", highest, rise, mode + 1
+    beside, least = max(leading[first], leading[last]), options.min_rise
     effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
-    return effect, highest, rise, mode + 1
+    if highest > 0 >= beside:
+        effect = "destabilises"
+    return {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode + 1}

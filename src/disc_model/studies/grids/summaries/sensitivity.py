@@ -12,10 +12,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.sobol import share, sobol_intervals
+from disc_model.analysis.sobol import Indices, share, sobol_intervals
 from disc_model.data.variables import Variable, flag_names
 from disc_model.studies.document import SensitivityOptions
-from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE, Coordinate
+from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE, Coordinate, with_ends
 
 Array = NDArray[np.float64]
 
@@ -28,8 +28,8 @@ _INDEX = ("output", "parameter")
 
 
 def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Variable]:
-    given = {name: words, f"{name}_low": f"{words}, lower end", f"{name}_high": f"{words}, upper end"}
-    return {key: Variable("1", value, dims=dims) for key, value in given.items()}
+    ends = ("", ", lower end", ", upper end")
+    return with_ends(name, (Variable("1", f"{words}{end}", dims=dims) for end in ends))
 
 
 COLUMNS: Mapping[str, Variable] = {
@@ -69,9 +69,8 @@ def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
     values |= _shares("probability_separation", outcomes, [("separation",)])
     outputs = outputs_of(words, cell["growth_rate"].transpose("sample", "variant").values, options.growth_rate_cap)
     found = [sobol_intervals(output, options.seed) for output in outputs]
-    for kind in ("first", "total"):
-        for end in ("", "_low", "_high"):
-            values[f"sobol_{kind}{end}"] = np.array([getattr(one, f"{kind}{end}") for one in found])
+    for name in Indices._fields:
+        values[f"sobol_{name}"] = np.array([getattr(one, name) for one in found])
     values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
     return values
 
@@ -86,5 +85,4 @@ def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) 
     """Fraction of each class of words among those that are known, with its interval."""
     known = words[words != FAILED]
     found = np.array([share(int(np.isin(known, one).sum()), len(known), len(words) - len(known)) for one in classes])
-    ends = found[0] if len(classes) == 1 else found.T
-    return {f"{name}{end}": values for end, values in zip(("", "_low", "_high"), ends, strict=True)}
+    return with_ends(name, found[0] if len(classes) == 1 else found.T)
