@@ -19,8 +19,6 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
         history = xarray.open_dataset("cases.nc", group="F13/history")           # one window of one case
         tree = xarray.open_datatree("cases.nc")                                  # everything
 
-    Parameters
-    ----------
     cases : by id, the dataset of each case's file; failed cases have scalars only
     labels : by id, texts that become variables of the table, such as title and reference
     """

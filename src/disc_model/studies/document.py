@@ -57,14 +57,7 @@ from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span,
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.rules import checked_rule
-from disc_model.truncation import (
-    CHOSEN_BY,
-    FREQUENCIES,
-    TRUSTED,
-    ModeRequest,
-    by_frequencies,
-    read_asked,
-)
+from disc_model.truncation import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Names
@@ -801,26 +794,26 @@ class NamedCase(Strict):
         """The specification to simulate; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
         p, truncation, modes = self._modes(faults)
-        kept = self.record
-        windows = [
-            (name, self._within(window, ("record", "windows", name), faults)) for name, window in kept.windows.items()
-        ]
-        stated = Span() if kept.events is True else kept.events or None
-        events = None if stated is None else self._within(stated, ("record", "events"), faults)
-        for fault in ramp_faults(p, self.ramps, poincare=kept.poincare is not None) if self.ramps else ():
+        record, events = self.record, None
+        windows = {
+            name: self._within(window, ("record", "windows", name), faults) for name, window in record.windows.items()
+        }
+        if record.events:
+            span = self._within(Span() if record.events is True else record.events, ("record", "events"), faults)
+            events = span.start, span.stop
+        for fault in ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ():
             faults.append(fault.inside(("parameters",)) if fault.path[0] in RAMPED else fault)
         if faults:
             raise ParameterError(*faults)
-        how = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
         return CaseSpec(
             parameters=p,
             truncation=truncation,
             modes=modes,
-            windows=tuple(windows),
-            poincare=kept.poincare,
-            events=None if events is None else (events.start, events.stop),
-            audit_every_step=kept.audit_every_step,
-            **how,
+            windows=tuple(windows.items()),
+            poincare=record.poincare,
+            events=events,
+            audit_every_step=record.audit_every_step,
+            **{name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")},
         )
 
     def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:

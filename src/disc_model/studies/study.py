@@ -113,8 +113,7 @@ LARGEST = 100_000
 def _given_twice(root: yaml.Node) -> list[str]:
     """Keys that are given twice, of which YAML itself would take the last value.
 
-    Raises ValueError if there are too many values: nested aliases in a few lines can expand to more than fits into
-    memory.
+    Raises ValueError if there are too many values: nested aliases can expand to more than fits into memory.
     """
     nodes, faults = [root], []
     for node in nodes:
@@ -187,8 +186,6 @@ class CaseFigure(NamedTuple):
 class Study:
     """A study. What is wrong with it is added to a list of faults as it is made.
 
-    Attributes
-    ----------
     document : content of the file; the study has its name, title, claims, cases, and files of further grid studies
     specs : what is simulated of each case, in the order of the file
     figures : the requested figures of the paper
@@ -244,8 +241,6 @@ class Study:
 
         A figure of the file's own grid may show further grids. These are read from files beside it and are included.
 
-        Parameters
-        ----------
         folders : searched for the files; the first that has one counts
         """
         grids = {} if self.grid is None else {self.name: self.grid}
@@ -555,8 +550,7 @@ LOOKED_AT = 300
 FIRST_SAMPLES = 64
 """Number of samples in the first block."""
 MOST_POINTS = 1_000_000
-"""Greatest number of points of a grid. Snakemake takes hours over so many jobs, and many more do not fit into memory.
-"""
+"""Greatest number of points of a grid: Snakemake takes hours over so many jobs; many more do not fit into memory."""
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
@@ -564,10 +558,10 @@ _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 class GridStudy:
     """A grid study. What is wrong with it is added to a list of faults as it is made.
 
-    Attributes
-    ----------
-    document : content of the file
+    document, raw : content of the file
     quantity, options : name of the quantity, and its options
+    scanned : parameters that the quantity varies by itself
+    wanted : names that are to vary, even if the file describes them incorrectly
     base : values that do not vary
     dims : in the order of `VARIED`
     starts : starts of motions, by name
@@ -583,9 +577,7 @@ class GridStudy:
         self.entry = QUANTITIES.get(self.quantity)
         self.options: Any = document.options if self.entry else None
         self.scanned = self.entry.scanned(self.options) if self.entry else ()
-        """Parameters that the quantity varies by itself."""
         self.wanted = {str(name) for group in _groups(raw) for name in mapping(group)}
-        """Names that are to vary, even if the file describes them incorrectly."""
         self.base, self.asked = self._base()
         self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
         self._check()
@@ -608,8 +600,7 @@ class GridStudy:
         if not most:
             return {}
         few = [dim.thinned(most) for dim in self.dims]
-        every = [[*chain.from_iterable(point)] for point in product(*(dim.values for dim in few))]
-        return self._texts(few, [{"points": every}])
+        return self._texts(few, [{"points": [[*point.values()] for point in points(few)]}])
 
     def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         """Parts of the grid that have points left, each as a text with everything that its result depends on."""
@@ -666,13 +657,12 @@ class GridStudy:
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible points, each with their number."""
         base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
+        base |= next(points(self.dims, self.where, base))
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
             looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
-            first = next(points(self.dims, self.where, base))
-            cases = [base | first | point for point in points(looked_at, self.where, base | first)] or [base | first]
-            discs = self.discs
-            found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, discs))))]
+            cases = [base | point for point in points(looked_at, self.where, base)] or [base]
+            found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, self.discs))))]
             if found:
                 about = "about " * (n_points(looked_at) < n_points(dims))
                 yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
@@ -995,19 +985,15 @@ def _tiles(
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
     names = [dim.name for dim in plane]
-    sides = [_cuts([value for (value,) in dim.values], batch.tile) for dim in plane]
     gathered = batch.over or [dim.name for dim in others]
     shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
-    for chosen, tile in product(product(*shares), product(*sides)):
-        own: dict[str, Sequence[tuple[Value, ...]]] = {
-            dim.name: share for dim, share in zip(others, chosen, strict=True)
-        }
-        own |= {name: [(value,) for value in kept] for name, (_, kept) in zip(names, tile, strict=True)}
+    for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
+        along, kept = zip(*tile, strict=True)
+        own = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *kept], strict=True))
         points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
-        along = [values for values, _ in tile]
         within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
-        kept = sorted(places for places in within if None not in places)
-        yield {"points": points, "tile": {"names": names, "along": along, "sampled": kept}}
+        inside = sorted(places for places in within if None not in places)
+        yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
 
 
 def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimension]:
@@ -1021,9 +1007,9 @@ def _at(value: float, along: Sequence[Value]) -> int | None:
     return next((i for i, one in enumerate(along) if math.isclose(value, float(one), rel_tol=1e-12)), None)
 
 
-def _cuts(values: Sequence[Value], size: int) -> list[tuple[list[Value], list[Value]]]:
+def _cuts(values: Sequence[tuple[Value, ...]], size: int) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:
     """Stretches of about `size` intervals, and the part of each that no later stretch contains."""
     n = len(values) - 1
     count = max(1, round(n / size))
     edges = [round(i * n / count) for i in range(count + 1)]
-    return [(list(values[a : b + 1]), list(values[a : b + (b == n)])) for a, b in pairwise(edges)]
+    return [([value for (value,) in values[a : b + 1]], values[a : b + (b == n)]) for a, b in pairwise(edges)]

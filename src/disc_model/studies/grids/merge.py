@@ -34,21 +34,13 @@ def merge_batches(
 ) -> xr.Dataset:
     """Merge batches; raises `MergeError` if their dimensions disagree, or if they do not match the grid.
 
-    Parameters
-    ----------
     batches : as `disc_model.studies.grids.run.run_batch` makes them
     grid : dimensions, as from `disc_model.studies.study.GridStudy.grid`
     attrs : further attributes, such as the title
     """
     try:
         flat = xr.concat(
-            list(batches),
-            POINT,
-            join="exact",
-            combine_attrs="override",
-            data_vars="all",
-            coords="minimal",
-            compat="equals",
+            batches, POINT, join="exact", combine_attrs="override", data_vars="all", coords="minimal", compat="equals"
         )
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None

@@ -46,9 +46,8 @@ COORDINATES = {
     "branch_point": Coordinate("1", "number of the point along the branch", lambda o: range(2 * o.max_points)),
 }
 SAME = np.array([2e-4, 0.4])
-"""Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Ranges between
-points of a steep branch are known roughly; periods distinguish branches.
-"""
+"""Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Periods
+distinguish branches; ranges between points of a steep branch are known roughly."""
 
 
 def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any], str]:

@@ -99,8 +99,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
     """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair.
 
-    known : first separations by place on the lattice, s; infinite without one within the longest horizon, nan if
-        unknown
+    known : first separations by place on the lattice, s; infinite if none came within the longest horizon, or nan
     """
     return [
         (a, b)

@@ -32,8 +32,8 @@ COORDINATES = {
 def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, Any], str]:
     """Sweep the speed up and down; the point's own Omega is not used."""
     speeds = options.scan.values
-    columns = {name: column for name, column in COLUMNS.items() if column.dims}
-    values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns.items()}
+    shape = 2, len(speeds)
+    values: dict[str, Any] = {name: column.empty(shape) for name, column in COLUMNS.items() if column.dims}
     status, message = "ok", ""
     for place, result, late in sweep(
         point.parameters, "Omega", speeds, options.dwell, options.evaluation_time, options.tol

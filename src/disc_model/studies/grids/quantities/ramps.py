@@ -25,9 +25,7 @@ COLUMNS = {
 }
 COORDINATES = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
 STRETCH = 100.0
-"""Length of a stretch of the way down that is simulated at once, s: the events of all of it would fill hundreds of
-megabytes.
-"""
+"""Length of a stretch of the way down that is simulated at once, s; events of all of it would fill hundreds of MB."""
 _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
 
 

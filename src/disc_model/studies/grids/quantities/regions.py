@@ -1,15 +1,10 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
 
-A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. The cycle's multipliers
-give the outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else
-within the horizon. Elsewhere the start is simulated at the corners of coarse cells. If multipliers decide all corners,
-one inner point is simulated instead. A cell is divided if these outcomes differ, or if slow growth lies beside
-separation. Narrow stripes of separation may cross a cell whose corners all grow in contact. Such a cell is divided
-once, and then the point in its middle must agree. Neutral curves and folds are thus resolved point by point, borders of
-separation to the grid's own intervals. In an undivided cell, all points not decided by multipliers take the outcome of
-the simulated ones. A departure is simulated from its start where separation lies only at the point itself, or on both
-sides of it. Two kinds of points are computed one by one. At the first, the start follows a growing cycle amid quiet
-points. At the second, it follows no cycle, on a strip thinner than the grid.
+A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. Its multipliers give the
+outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else within the
+horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/algorithms.md,
+Regions, describes. Neutral curves and folds are thus resolved point by point, borders of separation to the grid's own
+intervals. In an undivided cell, points not decided by multipliers take the outcome of the simulated ones.
 """
 
 import math
@@ -143,8 +138,7 @@ class _Tile:
     def _check_what_is_filled(self) -> None:
         """Compute the points that their cell's corners do not decide.
 
-        These are points whose start follows a growing cycle and yet was taken to stay quiet. They also include points
-        where it follows none, although most neighbours do.
+        Their start follows a growing cycle and yet was taken to stay quiet, or follows none though most neighbours do.
         """
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
@@ -256,15 +250,14 @@ class _Tile:
         points only, which would then differ from their neighbours.
         """
         own, found = self._own(place), self.results.get(place)
-        leaves = own is None or (
-            isinstance(found, OutcomeResult) and found.outcome is Outcome.QUIET and found.cycle is not own.cycle
-        )
-        if isinstance(found, OutcomeResult) and leaves:
-            if found.cycle is None or found.cycle.state is None:
-                return None
-            map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
-            return _Followed(found.cycle, map_, map_.point(found.cycle.state))
-        return own
+        if not isinstance(found, OutcomeResult):
+            return own
+        if own is not None and (found.outcome is not Outcome.QUIET or found.cycle is own.cycle):
+            return own
+        if found.cycle is None or found.cycle.state is None:
+            return None
+        map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
+        return _Followed(found.cycle, map_, map_.point(found.cycle.state))
 
     def _joined(self, here: Place, ahead: Place) -> str:
         """Whether, and how, a point's cycle continues into the cycle of the next point."""
@@ -324,10 +317,9 @@ class _Tile:
         """
         known = {place: [start.x] if isinstance(start, NearCycle) else [] for place, start in self.starts.items()}
         for i in range(self.shape[0]):
-            ways = list(range(self.shape[1]))
-            for way in (ways, ways[::-1]):
-                for before, here in pairwise(way):
-                    self._carry(known, (i, before), (i, here))
+            row = [(i, j) for j in range(self.shape[1])]
+            for before, here in (*pairwise(row), *pairwise(row[::-1])):
+                self._carry(known, before, here)
         return {place: max(0, len(cycles) - 1) for place, cycles in known.items()}
 
     def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:

@@ -51,9 +51,7 @@ COORDINATES = {
     "sample_matrix": Coordinate("", "one of the two draws of a sample", lambda o: DRAWS),
     "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
     "variant": Coordinate(
-        "",
-        "draw A, draw B, or A with this parameter taken from B",
-        lambda o: (*DRAWS, *sorted(o.distributions)),
+        "", "draw A, draw B, or A with this parameter taken from B", lambda o: (*DRAWS, *sorted(o.distributions))
     ),
 }
 

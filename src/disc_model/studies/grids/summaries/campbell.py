@@ -28,8 +28,7 @@ there and on neither side; there is no cycle; or fewer than three speeds, or an 
 FEWEST = 3
 LIKE = 0.75
 """Modal assurance criterion from which a multiplier belongs to a mode. A real multiplier, in a resonance, resembles the
-conjugate as much, and has 0.5 at most.
-"""
+conjugate as much, and has 0.5 at most."""
 _EACH = ("crossing",)
 COLUMNS: Mapping[str, Variable] = {
     "n_crossings": Variable("1", "number of crossings found", whole=True),
