@@ -10,9 +10,7 @@ shipped copy is ``workflow/schemas/study.schema.json``.
 import json
 import math
 from collections.abc import Callable, Collection, Mapping
-from functools import reduce
-from operator import or_
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union
 
 from pydantic import (
     AfterValidator,
@@ -654,6 +652,7 @@ CYCLE = 2.5e-3
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
+AFTER_TRANSIENT: dict[str, Any] = {"starts": True, "motions": 8, "motion": "After the transient."}
 QUANTITIES = {
     "outcome": Entry(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
     "regions": Entry(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
@@ -670,18 +669,10 @@ QUANTITIES = {
     ),
     "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6, starts=True),
     "bifurcation": Entry(
-        BifurcationOptions,
-        lambda o: SIMULATED * (o.transient + o.max_transient / 2),
-        starts=True,
-        motions=8,
-        motion="After the transient.",
+        BifurcationOptions, lambda o: SIMULATED * (o.transient + o.max_transient / 2), **AFTER_TRANSIENT
     ),
     "lyapunov": Entry(
-        LyapunovOptions,
-        lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
-        starts=True,
-        motions=8,
-        motion="After the transient.",
+        LyapunovOptions, lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration), **AFTER_TRANSIENT
     ),
     "stability_curves": Entry(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
     "branches": Entry(BranchesOptions, lambda o: WORK, scans=("parameter",)),
@@ -857,7 +848,7 @@ if TYPE_CHECKING:
     Figures = dict[str, CasePlot | Plot] | tuple[Any, ...]
 else:
     Plots = Annotated[
-        reduce(or_, (*CASE_PLOTS.values(), *PLOTS.values())),
+        Union[*CASE_PLOTS.values(), *PLOTS.values()],
         Field(discriminator="kind"),
         BeforeValidator(_of_known_kind),
     ]

@@ -71,8 +71,6 @@ from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.rules import holds, names_in
 from disc_model.truncation import FREQUENCIES, ModeRequest, asked_modes
 
-TAKEN = ("compiled", "bench")
-"""Folders of results whose names no study may have."""
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 """Keys of a study file that concern the grid alone."""
 REQUIRED = ("N", "Omega")
@@ -196,7 +194,7 @@ class Study:
     def __init__(self, document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> None:
         self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
         self.cases, self.studies = document.cases, document.studies
-        if self.name in TAKEN:
+        if self.name in ("compiled", "bench"):
             faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
         if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
             faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
@@ -246,7 +244,7 @@ class Study:
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _found(pattern, folders)]
         asked = (*grids, *(path.stem for path in paths))
-        plots = () if self.grid is None else self.grid.plots.values()
+        plots = [plot for grid in grids.values() for plot in grid.plots.values()]
         shown_too = {name for plot in plots for name in plot.overlays.values()}.difference(asked)
         helpers = [path for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders) if path.is_file()]
         known = {*asked, *(path.stem for path in helpers)}
@@ -492,9 +490,8 @@ class Dimension:
         seen: set[Any] = set()
         kept = []
         for block in blocks:
-            new = sorted(set(block) - seen)
-            seen.update(new)
-            if new:
+            if new := sorted(set(block) - seen):
+                seen.update(new)
                 kept.append(tuple(new))
         return cls(tuple(names), tuple(kept))
 

@@ -44,9 +44,8 @@ def merge_batches(
         )
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
-    names = [name for dim in grid for name in dim["names"]]
-    base, where = _common(batches, names), attrs.get("where", "")
-    place = _places(flat, grid, names, [where] * bool(where), json.loads(base["base"]))
+    base = _common(batches)
+    place = _places(flat, grid, attrs.get("where", ""), json.loads(base["base"]))
     sizes = {"_".join(dim["names"]): len(dim["values"]) for dim in grid}
     data = {}
     for name, variable in flat.data_vars.items():
@@ -58,7 +57,7 @@ def merge_batches(
         for dim in grid
         for i, name in enumerate(dim["names"])
     }
-    coords |= {name: flat[name] for name in flat.coords if name not in names}
+    coords |= {name: flat[name] for name in flat.coords if name not in coords}
     merged = xr.Dataset(data, coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
     return summarised(merged, str(merged.attrs["quantity"]), stated_in(merged, "options"))
@@ -92,20 +91,15 @@ def _with_excluded(variable: xr.DataArray) -> xr.Variable:
     return xr.Variable(variable.dims, np.concatenate([variable.values, more]), attrs)
 
 
-def _places(
-    flat: xr.Dataset,
-    grid: Sequence[Mapping[str, Any]],
-    names: Sequence[str],
-    where: Sequence[str],
-    base: Mapping[str, Any],
-) -> np.ndarray:
-    """Row of each point, in the order of the grid, last dimension fastest; -1 for points excluded by rules."""
+def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], where: str, base: Mapping[str, Any]) -> np.ndarray:
+    """Row of each point, in the order of the grid, last dimension fastest; -1 for points excluded by a rule."""
+    names = [name for dim in grid for name in dim["names"]]
     found = list(zip(*(flat[name].values.tolist() for name in names), strict=True))
     rows = {point: row for row, point in enumerate(found)}
     if twice := [point for row, point in enumerate(found) if rows[point] != row]:
         raise MergeError(f"there twice: {dict(zip(names, twice[0], strict=True))}")
     points = [tuple(chain.from_iterable(point)) for point in product(*(dim["values"] for dim in grid))]
-    kept = [point for point in points if not where or holds(where, {**base, **dict(zip(names, point, strict=True))})]
+    kept = [point for point in points if not where or holds([where], {**base, **dict(zip(names, point, strict=True))})]
     if missing := [point for point in kept if point not in rows]:
         raise MergeError(f"missing: {dict(zip(names, missing[0], strict=True))} and {len(missing) - 1} more")
     if len(kept) != len(rows):
@@ -113,7 +107,7 @@ def _places(
     return np.array([rows.get(point, -1) for point in points])
 
 
-def _common(batches: Sequence[xr.Dataset], names: Sequence[str]) -> dict[str, str]:
+def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes common to all batches (quantity, options, base values, sources), and the commits that made them."""
     specification = json.loads(batches[0].attrs["specification"])
     for name in ("points", "names", "tile"):

@@ -59,9 +59,7 @@ def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, 
         tol=options.tol,
     ).isel(Omega=0)
     status = STATUS_NAMES[int(data["status"])]
-    values: dict[str, Any] = {
-        name: data[name].values for name in COLUMNS if name in data and name not in ("status", "phase")
-    }
+    values: dict[str, Any] = {name: data[name].values for name in COLUMNS if name in data}
     values |= {"status": status, "phase": data["phase"].values + 1, "transient_time": options.transient}
     return values, "" if status == "ok" else f"the simulation ended early: {status}"
 
