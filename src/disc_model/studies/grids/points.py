@@ -48,6 +48,14 @@ def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
     return {flag: "failed"}, f"{type(error).__name__}: {error}"
 
 
+def tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -> tuple[Row, str]:
+    """Values and message that a function returns; with an error (see `NUMERICAL`) this flag is `failed`."""
+    try:
+        return compute(*arguments)
+    except NUMERICAL as error:
+        return failed(error, flag)
+
+
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
     """A column of shares, those of the lower and of the upper ends of their intervals, by name."""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))

@@ -20,7 +20,7 @@ from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Start
 from disc_model.studies.document import QUANTITIES
-from disc_model.studies.grids.points import NUMERICAL, Made, Point, Row, failed
+from disc_model.studies.grids.points import Made, Point, Row, failed, tried
 from disc_model.truncation import FREQUENCIES, by_frequencies, read_asked
 
 # ----------------------------------------------------------------------------------------------------
@@ -150,10 +150,9 @@ def own_coordinates(quantity: Any, options: Any) -> dict[str, xr.Variable]:
 
 def compute(quantity: Any, point: Point | DiscModelError, options: Any) -> tuple[Row, str]:
     """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
-    try:
-        return failed(point) if isinstance(point, DiscModelError) else quantity.compute_point(point, options)
-    except NUMERICAL as error:
-        return failed(error)
+    if isinstance(point, DiscModelError):
+        return failed(point)
+    return tried("status", quantity.compute_point, point, options)
 
 
 def variables_of(quantity: Any, rows: Sequence[Row], options: Any, sizes: Mapping[str, int]) -> dict[str, xr.Variable]:

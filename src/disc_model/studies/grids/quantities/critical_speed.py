@@ -99,7 +99,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
     """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair.
 
-    known : first separations by place on the lattice, s; infinite if none came within the longest horizon, or nan
+    known : first separations by place on the lattice, s; inf without one within the longest horizon, nan if unknown
     """
     return [
         (a, b)

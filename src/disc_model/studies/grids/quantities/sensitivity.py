@@ -6,7 +6,7 @@ Saltelli et al. (2010) for first-order and total indices, see `disc_model.analys
 seed and its own number.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -22,15 +22,14 @@ from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet
 from disc_model.studies.document import Distribution, SensitivityOptions
 from disc_model.studies.grids.points import (
     DRAWS,
-    NUMERICAL,
     SAMPLE_CYCLES,
     SAMPLE_OUTCOMES,
     STATUS,
     Coordinate,
     Point,
     Row,
-    failed,
     listed,
+    tried,
 )
 
 Array = NDArray[np.float64]
@@ -64,10 +63,10 @@ def compute_point(point: Point, options: SensitivityOptions) -> tuple[dict[str, 
     given = [(options.distributions[name], float(own[name])) for name in names]
     drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
     rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
-    cycles, messages = zip(*(_tried("cycle", evaluate, p, row, options.tol) for row in rows), strict=True)
+    cycles, messages = zip(*(tried("cycle", evaluate, p, row, options.tol) for row in rows), strict=True)
     values = listed(cycles) | {"status": "ok", "parameter_values": drawn, "outcome": "not_simulated"}
     if point.sample < options.simulated_samples:
-        more, message = _tried("outcome", _followed, p.replace(**rows[0]), options)
+        more, message = tried("outcome", _followed, p.replace(**rows[0]), options)
         values |= more
         messages += (message,)
     return values, "; ".join(dict.fromkeys(filter(None, messages)))
@@ -118,14 +117,6 @@ def variants(drawn: Array) -> Array:
 
 # ----------------------------------------------------------------------------------------------------
 # Results of one sample
-
-
-def _tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -> tuple[Row, str]:
-    """Values and a message, also of what raises an error."""
-    try:
-        return compute(*arguments)
-    except NUMERICAL as error:
-        return failed(error, flag)
 
 
 def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> tuple[Row, str]:
