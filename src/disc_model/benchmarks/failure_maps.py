@@ -93,15 +93,10 @@ def _facts(scene: str, diameters: int) -> dict[str, float]:
     return {
         "modes": float(real_modes(diameters, 0)),
         "omega_max": top,
-        "step_limit": _step_limit(p),
+        "step_limit": STABILITY_LIMIT / top,
         "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
         "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
     }
-
-
-def _step_limit(p: Parameters) -> float:
-    """Linear stability limit of RK4, s."""
-    return STABILITY_LIMIT / float(mode_arrays(p).omega.max())
 
 
 @lru_cache(maxsize=64)
@@ -125,7 +120,7 @@ def observed_step_limit(diameters: int) -> float:
     Compare with 2 sqrt(2)/omega_max.
     """
     problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
-    theory = _step_limit(problem.parameters)
+    theory = _facts("stick_slip", diameters)["step_limit"]
     low, high = 0.7 * theory, 1.5 * theory
     while high / low > 1.0 + RESOLUTION:
         middle = math.sqrt(low * high)
@@ -145,7 +140,7 @@ ANSWER_TRUNCATIONS = (1, 2, 4, 8)
 BUDGET = 3.0
 """Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
 VALUES = 6
-"""Greatest number of settings."""
+"""Greatest number of settings, of those of the method the first and the last among them."""
 ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=AnswerStatus)
 
 
@@ -177,18 +172,13 @@ def answer_map(
         judged = {"verdict": verdict("first_separation", found, right), "error": abs(found.value - right)}
         return judged | {"status": found.status, "found": found.value, "seconds": found.seconds}
 
-    values = _thinned(own.map_values) if values is None else values
+    if values is None:
+        places = np.linspace(0, len(own.map_values) - 1, min(VALUES, len(own.map_values))).round().astype(int)
+        values = [own.map_values[place] for place in places]
     about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
     return _map_of(method, values, ANSWER_VARIABLES, measure, facts, about)
 
 
-def _thinned(values: Sequence[float]) -> Sequence[float]:
-    """At most `VALUES` of the values, including the first and the last."""
-    places = np.unique(np.linspace(0, len(values) - 1, min(VALUES, len(values))).round().astype(int))
-    return [values[place] for place in places]
-
-
-@lru_cache(maxsize=64)
 def _right(diameters: int) -> float:
     """Correct time of the first separation (s), nan if there is none."""
     return _first_separation(simulated.by(METHODS["series"], REFERENCE_TOL), math.inf, diameters).value

@@ -38,9 +38,5 @@ class Rival(BaseModel):
     requires: tuple[str, ...] = ()
 
 
-def _read() -> tuple[Rival, ...]:
-    found = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
-    return tuple(Rival(name=name, **given) for name, given in found.items())
-
-
-RIVALS = _read()
+_DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
+RIVALS = tuple(Rival(name=name, **given) for name, given in _DECLARED.items())

@@ -87,12 +87,9 @@ def separating_start(p: Parameters) -> State:
     stored = json.loads((DATA / "separating_start.json").read_text(encoding="utf-8"))
     physics = Physics(p)
     y = physics.pack(static_start(p))
-    for i in range(physics.n):
-        l = int(physics.l[i])
-        if i <= p.n_diameters and l in stored["diameters"]:
-            for name in ("a", "b", "alpha", "beta"):
-                value = stored[name][stored["diameters"].index(l)]
-                y[getattr(physics, name)][i] = value * math.copysign(1.0, physics.shape[i])
+    known = slice(min(p.n_diameters + 1, len(stored["diameters"])))  # modes without nodal circles come first
+    for name in ("a", "b", "alpha", "beta"):
+        y[getattr(physics, name)][known] = np.array(stored[name])[known] * np.sign(physics.shape[known])
     y[physics.psi], y[physics.f] = stored["psi"], stored["f"]
     return physics.unpack(stored["time"], stored["phase"], stored["direction"], y)
 

@@ -69,10 +69,7 @@ def at_default(points: pd.DataFrame) -> pd.DataFrame:
 
 
 def table(dataset: xr.Dataset) -> pd.DataFrame:
-    """One row per measured point, with the ratio of its cost to the series engine's at the same event-time error.
-
-    ``times_series`` is the cost divided by that of the series engine at the same event-time error, by `cost_at`.
-    """
+    """One row per measured point; ``times_series``: its cost over the series engine's at that error, by `cost_at`."""
     points = measured_points(dataset)
     series = points[points["solver"] == "series"]
     wanted = zip(points["scene"], points["event_error"], strict=True)

@@ -67,13 +67,8 @@ def truncation_study(
 
 
 def _described(study: xr.Dataset, title: str, cases: Mapping[str, Any], **more: Any) -> xr.Dataset:
-    more |= {
-        "title": title,
-        "cases": json.dumps(cases, sort_keys=True),
-        "band": BAND,
-        "compared_with": json.dumps(RICH),
-    }
-    return study.assign_attrs({"Conventions": "CF-1.11"} | more)
+    more |= {"title": title, "cases": json.dumps(cases, sort_keys=True), "band": BAND}
+    return study.assign_attrs({"Conventions": "CF-1.11"} | more | {"compared_with": json.dumps(RICH)})
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
@@ -91,24 +86,23 @@ CONTACT_VARIABLES = variables("contact_truncation")
 
 def contact_study(
     models: Sequence[tuple[int, int]] = MODELS,
-    cases: Mapping[str, Mapping[str, Any]] | None = None,
+    cases: Mapping[str, Mapping[str, Any]] = SEPARATING,
     *,
     horizon: float = 200.0,
 ) -> xr.Dataset:
     """Measure everything of `CONTACT_VARIABLES` along (case, contact, model); nan where there is none."""
-    named = SEPARATING if cases is None else cases
 
     def measure(case: str, contact: str, model: str) -> dict[str, float]:
         diameters, circles = map(int, model.split(","))
-        p = Parameters(**named[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
+        p = Parameters(**cases[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
         few = real_modes(diameters, circles) <= MOST_GROWTH
         row = _of_the_modes(p, p if few else None) | _separating(p, horizon, LATE)
         return row | {"contact_compliance": contact_compliance(p)}
 
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
-    study = measured({"case": [*named], "contact": [*CONTACTS], "model": sizes}, CONTACT_VARIABLES, measure)
+    study = measured({"case": [*cases], "contact": [*CONTACTS], "model": sizes}, CONTACT_VARIABLES, measure)
     about = {"late": json.dumps(LATE), "most_growth": MOST_GROWTH, "horizon": horizon, "machine": machine()}
-    return _described(study, "What residual flexibility changes", dict(named), **about)
+    return _described(study, "What residual flexibility changes", dict(cases), **about)
 
 
 def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]:

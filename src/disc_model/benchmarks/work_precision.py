@@ -38,20 +38,8 @@ CALLS = 21
 """Number of whole calls of `simulate` in a round."""
 FLOOR = 1e-13
 """Errors below this (s, or relative) are rounding and are left out of the fit of the order."""
-
-
 Settings = Mapping[str, Mapping[str, Sequence[float]]]
 """Settings from coarse to fine, by scene and method."""
-
-
-def all_settings() -> Settings:
-    """Settings of every method."""
-    return {
-        scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
-        for scene in SCENES
-    }
-
-
 VARIABLES = variables("work_precision", verdict=Verdict)
 OF_LINES = variables("work_precision_lines")
 """Variables of methods and scenes."""
@@ -66,17 +54,6 @@ class Point(NamedTuple):
     value: float
 
 
-def points(settings: Settings) -> list[Point]:
-    """All points whose method is installed."""
-    return [
-        Point(scene, method, place, value)
-        for scene, by_method in settings.items()
-        for method, values in by_method.items()
-        if not METHODS[method].unavailable()
-        for place, value in enumerate(values)
-    ]
-
-
 @one_core()
 def work_precision(
     settings: Settings | None = None,
@@ -89,7 +66,7 @@ def work_precision(
 
     Parameters
     ----------
-    settings : those of `all_settings` if not given
+    settings : those of all methods if not given
     rounds : number of measurements of quick points
     budget : s for a point; a method that gives up at a coarse setting is not tried at finer ones
     progress : called with each point and the seconds it took
@@ -99,8 +76,18 @@ def work_precision(
     Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, and
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
-    settings = all_settings() if settings is None else settings
-    todo, rows, calls = points(settings), [], []
+    settings = settings or {
+        scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
+        for scene in SCENES
+    }
+    todo = [
+        Point(scene, method, place, value)
+        for scene, by_method in settings.items()
+        for method, values in by_method.items()
+        if not METHODS[method].unavailable()
+        for place, value in enumerate(values)
+    ]
+    rows, calls = [], []
     walls: dict[Point, list[float]] = defaultdict(list)
     hopeless: set[tuple[str, str]] = set()
     for turn in range(rounds):

@@ -9,7 +9,6 @@ Kinds of lines:
   that of the model, against the richest one.  No tolerance makes up for it.
 """
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -33,8 +32,7 @@ LINES: Mapping[str, tuple[str, str]] = {
     "residual": ("series, modes, residual flexibility", "diameters"),
 }
 """Lines that belong to no method: name in words, and meaning of the setting."""
-
-
+VARIABLES = variables("answers", status=AnswerStatus, verdict=AnswerVerdict)
 Row = dict[str, Any]
 """One measured point, by the names of `VARIABLES`."""
 
@@ -111,25 +109,16 @@ def _row(answer: str, line: str, setting: float, right: float, found: Found) -> 
     return found._asdict() | row
 
 
-VARIABLES = variables("answers", status=AnswerStatus, verdict=AnswerVerdict)
-
-
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:
     dataset = xr.Dataset()
     for name, own in VARIABLES.items():
         values = np.array([row[name] for row in rows], np.int8 if own.flags else None)
         dataset[name] = ("row", values, own.attributes)
-    about = {
-        name: {"title": own.title, "units": own.units, "enough": own.enough, "error": _error(name)}
-        for name, own in questions.QUESTIONS.items()
-    }
+    about = {}
+    for name, question in questions.QUESTIONS.items():
+        right = questions.reference(name)
+        about[name] = question._asdict() | {"error": f"{right.error:.2g}, {right.by}"}
     title = "What each answer costs"
     return dataset.assign_attrs(
         machine=machine(), title=title, questions=json_attribute(about), versions=json_attribute(versions())
     )
-
-
-def _error(name: str) -> str:
-    own = questions.reference(name)
-    size = f"{own.error:.2g}" if math.isfinite(own.error) else "unknown"
-    return f"{size}, {own.by}"

@@ -14,14 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.benchmarks.answers import questions, simulated
-from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, Found
+from disc_model.benchmarks.answers.questions import SIDE, Found
 from disc_model.benchmarks.answers.simulated import found
 from disc_model.benchmarks.methods import METHODS
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, floquet
 
@@ -50,11 +49,14 @@ def ask(model: Model) -> Iterator[tuple[str, Found]]:
 
 def after_separation(p: Parameters) -> simulated.Answers:
     """Answers as of `simulated.after_separation`, from the state that this model's motion reaches."""
-    start = _settled(p)
-    if start is None:
-        nothing = Found(math.nan, math.nan, AnswerStatus.NONE, f"no separation within {SETTLES_WITHIN:g} s")
-        return dict.fromkeys(("separation_rate", "disc_range", "period"), nothing)
-    return simulated.after_separation(solve, NEVER, p, start)
+    quiet = Record(events=False)
+    first = simulate(p, SETTLES_WITHIN, tol=DEFAULT, record=quiet, stop_at="first_separation")
+    if not math.isfinite(first.first_separation):
+        nothing = found(math.nan, math.nan, f"no separation within {SETTLES_WITHIN:g} s")
+        return dict.fromkeys(simulated.AFTER_SEPARATION, nothing)
+    state = first.final_state
+    late = simulate(p, state.time + SETTLES_FOR, tol=DEFAULT, record=quiet, initial_state=state)
+    return simulated.after_separation(solve, NEVER, p, late.final_state)
 
 
 def _timed(ask: Callable[[Parameters, float], Found]) -> Callable[[Parameters, float], Found]:
@@ -104,17 +106,7 @@ def _cell(model: Model, place: int) -> tuple[bool, float]:
 @lru_cache(maxsize=1)
 def _richest_region() -> NDArray[np.bool_]:
     """Separation in the drawn cells under the richest model; all others are False."""
-    found = np.zeros(SIDE * SIDE, bool)
+    separates = np.zeros(SIDE * SIDE, bool)
     for place in simulated.drawn()[:CELLS]:
-        found[place], _ = _cell(RICHEST, int(place))
-    return found
-
-
-@lru_cache(maxsize=32)
-def _settled(p: Parameters) -> State | None:
-    quiet = Record(events=False)
-    first = simulate(p, SETTLES_WITHIN, tol=DEFAULT, record=quiet, stop_at="first_separation")
-    if not math.isfinite(first.first_separation):
-        return None
-    state = first.final_state
-    return simulate(p, state.time + SETTLES_FOR, tol=DEFAULT, record=quiet, initial_state=state).final_state
+        separates[place], _ = _cell(RICHEST, int(place))
+    return separates

@@ -31,7 +31,8 @@ def right_numbers(model: pd.DataFrame) -> str:
 
 def within(enough: float, units: str) -> str:
     """Tolerance of an answer as text."""
-    return f"{enough:g}" if units == "1" else f"{enough:g} {_unit(units)}"
+    unit = units.replace("rad s-1", "rad/s").replace("s-1", "1/s")
+    return f"{enough:g}" if units == "1" else f"{enough:g} {unit}"
 
 
 def to_markdown(dataset: xr.Dataset) -> str:
@@ -44,7 +45,3 @@ def to_markdown(dataset: xr.Dataset) -> str:
     frame = points(dataset).assign(**{name: flag_names(dataset[name]) for name in ("verdict", "status")})
     frame["answer"] = frame["answer"].map(titles)
     return texts.report(dataset.attrs["title"], about, frame[COLUMNS], "answer")
-
-
-def _unit(units: str) -> str:
-    return units.replace("rad s-1", "rad/s").replace("s-1", "1/s")

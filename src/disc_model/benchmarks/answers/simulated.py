@@ -25,12 +25,8 @@ Array = NDArray[np.float64]
 Solve = Callable[[Problem, float], MethodResult]
 Answers = dict[str, Found]
 
-
-def by(method: Method, value: float) -> Solve:
-    """A method at one setting."""
-    return lambda problem, budget: method.solve(problem, value, budget)
-
-
+AFTER_SEPARATION = ("separation_rate", "disc_range", "period")
+"""Names of the answers of `after_separation`."""
 REPEATS = 3
 """Number of repeated quick runs; the fastest counts, since disturbances only add time."""
 QUICK = 0.3
@@ -43,6 +39,11 @@ TRIED = 4
 """Number of cells from which the affordable number is estimated."""
 FEWEST = 16
 """Least number of cells for an answer."""
+
+
+def by(method: Method, value: float) -> Solve:
+    """A method at one setting."""
+    return lambda problem, budget: method.solve(problem, value, budget)
 
 
 class Broken(Exception):
@@ -87,13 +88,12 @@ def after_separation(
     seconds = result.seconds
     if seconds < 3.0:
         _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
-    names = ("separation_rate", "disc_range", "period")
     if result.outcome is not RunStatus.FINISHED:
-        return dict.fromkeys(names, Broken(result).found(seconds))
+        return dict.fromkeys(AFTER_SEPARATION, Broken(result).found(seconds))
     low, high = result.heights
     values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
     missing = "the motion does not repeat"
-    return {name: found(value, seconds, missing) for name, value in zip(names, values, strict=True)}
+    return {name: found(value, seconds, missing) for name, value in zip(AFTER_SEPARATION, values, strict=True)}
 
 
 def period(releases: Array) -> float:

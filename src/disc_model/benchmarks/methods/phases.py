@@ -4,7 +4,8 @@ A method supplies ``advance``; `run_phases` carries out the events and records t
 """
 
 import math
-from typing import NamedTuple, Protocol
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,18 +38,14 @@ PHASE = {
     (code, direction): Phase(name, direction, code) for code, name in enumerate(PHASES) for direction in (-1, 0, 1)
 }
 """By number and direction."""
-
-
 Ended = tuple[int | None, float, Array]
 """End of ``advance``: index of the function that stopped it (None at t_end), local time (s), and the state, which the
 caller may change.
 """
-
-
-class Advance(Protocol):
-    """Integrate a phase from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` is not changed."""
-
-    def __call__(self, phase: Phase, t: float, y: Array, t_end: float) -> Ended: ...
+Advance = Callable[[Phase, float, Array, float], Ended]
+"""Integrates a phase ``(phase, t, y, t_end)`` from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``;
+``y`` is not changed.
+"""
 
 
 def run_phases(advance: Advance, meter: Meter) -> MethodResult:

@@ -37,7 +37,6 @@ class Physics:
         self.alpha, self.beta = slice(2 * n, 3 * n), slice(3 * n, 4 * n)
         self.psi, self.f, self.u, self.v = range(4 * n, 4 * n + 4)
 
-    # ---- states
     def pack(self, state: State) -> Array:
         """The vector of a `State`."""
         tail = (state.psi, state.f, state.u, state.u_velocity)
@@ -49,13 +48,11 @@ class Physics:
         modal = {name: y[getattr(self, name)].copy() for name in ("a", "b", "alpha", "beta")}
         return State(time, phase, direction, float(y[self.psi]), float(y[self.f]), float(u), float(v), **modal)
 
-    # ---- formulas at an instant
     def disc_point(self, y: Array) -> tuple[float, float]:
         """w and dw/dt of the disc under the moving slider."""
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
-    # ---- how far two states are apart
     def distance(self, one: State, other: State) -> float:
         """Energy norm of the difference of two states divided by that of ``other``; dimensionless.
 

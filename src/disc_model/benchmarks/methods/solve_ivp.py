@@ -15,7 +15,6 @@ FLOOR = 2.3e-14
 """Least relative tolerance that scipy accepts."""
 IMPLICIT = ("LSODA", "Radau")
 Function = Callable[[float, Array], Any]
-Parts = tuple[Function, Function, list[Function]]
 
 
 class SolveIvp(Method):
@@ -26,10 +25,10 @@ class SolveIvp(Method):
 
     def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         meter = Meter(problem, budget)
-        scale, parts = absolute_scale(meter.physics), self._functions(meter)
+        scale = absolute_scale(meter.physics)
 
         def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            rate, slopes, events = parts(phase)
+            rate, slopes, events = _functions(meter, phase)
             more = {"jac": slopes} if self.algorithm in IMPLICIT else {"max_step": problem.max_step}
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
@@ -44,33 +43,29 @@ class SolveIvp(Method):
 
         return run_phases(advance, meter)
 
-    def _functions(self, meter: Meter) -> Callable[[Phase], Parts]:
-        """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
-        modes, c, values = meter.modes, meter.c, np.empty(3)
 
-        def parts(phase: Phase) -> Parts:
-            code, direction = phase.code, phase.direction
+def _functions(meter: Meter, phase: Phase) -> tuple[Function, Function, list[Function]]:
+    """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
+    modes, c, code, direction, values = meter.modes, meter.c, phase.code, phase.direction, np.empty(3)
 
-            def rate(_t: float, y: Array) -> Array:
-                dy = np.empty_like(y)
-                kernels.rate(modes, c, code, direction, y, dy)
-                return dy
+    def rate(_t: float, y: Array) -> Array:
+        dy = np.empty_like(y)
+        kernels.rate(modes, c, code, direction, y, dy)
+        return dy
 
-            def slopes(_t: float, y: Array) -> Array:
-                J = np.empty((len(y), len(y)))
-                kernels.jacobian(modes, c, code, direction, y, J)
-                return J
+    def slopes(_t: float, y: Array) -> Array:
+        J = np.empty((len(y), len(y)))
+        kernels.jacobian(modes, c, code, direction, y, J)
+        return J
 
-            def event(place: int) -> Function:
-                def value(_t: float, y: Array) -> float:
-                    kernels.switch_values(modes, c, code, direction, y, values)
-                    return float(values[place])
+    def event(place: int) -> Function:
+        def value(_t: float, y: Array) -> float:
+            kernels.switch_values(modes, c, code, direction, y, values)
+            return float(values[place])
 
-                return crossing(value, -1, last=True)
+        return crossing(value, -1, last=True)
 
-            return rate, slopes, [event(place) for place in range(ENDS[phase.name])]
-
-        return parts
+    return rate, slopes, [event(place) for place in range(ENDS[phase.name])]
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:
