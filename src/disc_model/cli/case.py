@@ -35,13 +35,15 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
     """
     for name, field in Parameters.model_fields.items():
         given, unit = placeholders.get(name), Parameters.unit(name)
-        default = "required" if field.is_required() and given is None else f"default: {_text(given or field.default)}"
+        default = given or field.default
+        shown = f"{default:g}" if isinstance(default, float) else default
+        rule = "required" if field.is_required() and given is None else f"default: {shown}"
         words, more = _words(field.annotation), ""
         if name == "disc":
             words = ("FILE",)
         if name == "n_diameters":
             words, more = (*words, AUTO), f", {AUTO} for as many as the tolerance below asks for"
-        told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{default}]"
+        told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{rule}]"
         yield _case_option(name, given, words, told)
     quantity, tolerance = CHOOSING
     yield _case_option(quantity, None, tuple(CHOSEN_BY), f"quantity by which {AUTO} chooses [default: {FREQUENCIES}]")
@@ -70,10 +72,6 @@ def _words(annotation: Any) -> tuple[str, ...]:
     if get_origin(annotation) is Literal:
         return get_args(annotation)
     return (ANY, *(word for part in get_args(annotation) if get_origin(part) is Literal for word in get_args(part)))
-
-
-def _text(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -134,8 +132,8 @@ def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
     if choice is not None:
         p, name = choice.parameters, choice.quantity.replace("_", " ")
         right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
-        size = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
-        size = size if p.disc is None else f"the first {len(p.disc.omega)} of the table"
+        of_plate = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
+        size = of_plate if p.disc is None else f"the first {len(p.disc.omega)} of the table"
         yield "modes chosen", f"{size} ({right})"
 
 

@@ -17,7 +17,7 @@ from disc_model.cli.case import (
     with_case_options,
 )
 from disc_model.disc import damping_ratios, disc_table
-from disc_model.errors import Fault, as_text, raise_faults, suggestion
+from disc_model.errors import Fault, raise_faults, suggestion
 from disc_model.kernels import KINDS, compile_kernels
 from disc_model.parameters import CYCLE_TOLERANCES, CycleTolerance
 
@@ -75,7 +75,6 @@ def floquet(
     from disc_model.stability.cycle import floquet as cycle_of
 
     cycle = cycle_of(parameters, tol=tolerance)
-    sliding = cycle.sliding
     found = cycle.status is CycleStatus.OK
     lines = [*case_lines(parameters, choice), ("status", cycle.message or cycle.status.value)]
     if found:
@@ -88,8 +87,9 @@ def floquet(
         ]
     else:
         lines.append(("advice", cycle.status.advice))
-    slides = math.isfinite(sliding.growth_rate)
-    lines.append(("steady sliding", f"growth rate {sliding.growth_rate:.6g} 1/s" if slides else sliding.message))
+    rate = cycle.sliding.growth_rate
+    sliding = f"growth rate {rate:.6g} 1/s" if math.isfinite(rate) else cycle.sliding.message
+    lines.append(("steady sliding", sliding))
     print_rows(lines)
     if not found:
         raise typer.Exit(1)
@@ -101,10 +101,9 @@ def compile_(
     ] = None,
 ) -> None:
     """Compile kernels into the cache, so that jobs started in parallel find them there."""
+    rule = "must be a kind of kernel"
     unknown = [kind for kind in kinds or () if kind not in KINDS]
-    raise_faults(
-        [Fault(("kinds",), as_text(kind), f"must be a kind of kernel{suggestion(kind, KINDS)}") for kind in unknown]
-    )
+    raise_faults([Fault.of(("kinds",), kind, f"{rule}{suggestion(kind, KINDS)}") for kind in unknown])
     for kind in kinds or ("simulate-rigid_vertical", "floquet-rigid_vertical"):
         typer.echo(f"{kind}: {compile_kernels(kind):.1f} s")
     typer.echo("kernels compiled and cached")
