@@ -4,6 +4,7 @@ import enum
 import math
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +35,7 @@ def measured(
     """Results of ``measure`` at each point; variables that it omits are nan, which a flag must never be."""
     shape = tuple(len(values) for values in coords.values())
     data = {name: np.full(shape, math.nan) for name in variables}
-    for place in np.ndindex(shape):
-        point = (values[i] for values, i in zip(coords.values(), place, strict=True))
+    for place, point in zip(np.ndindex(shape), product(*coords.values()), strict=True):
         for name, value in measure(*point).items():
             data[name][place] = value
     flags = {name: data[name].astype(np.int8) for name, own in variables.items() if own.flags}

@@ -39,9 +39,7 @@ JUDGED = ("stick_slip", "separating")
 CONVERGED = 1e-6
 """Greatest event-time error of a converged answer with all events, s."""
 LOST = 2.0
-"""Relative energy norm of the error from which an answer counts as unstable: two unrelated motions of equal energy are
-sqrt(2) apart.
-"""
+"""Relative energy norm of the error from which an answer is unstable; of unrelated motions of equal energy: sqrt(2)."""
 
 
 class Verdict(enum.IntEnum):

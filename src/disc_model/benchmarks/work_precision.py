@@ -59,16 +59,14 @@ def work_precision(
     settings: Settings | None = None,
     *,
     rounds: int = ROUNDS,
-    budget: float = BUDGET,
     progress: Callable[[Point, float], object] | None = None,
 ) -> xr.Dataset:
-    """Measure all points.
+    """Measure all points; a method that gives up at a coarse setting is not tried at finer ones.
 
     Parameters
     ----------
     settings : those of all methods if not given
     rounds : number of measurements of quick points
-    budget : s for a point; a method that gives up at a coarse setting is not tried at finer ones
     progress : called with each point and the seconds it took
 
     Returns
@@ -94,7 +92,7 @@ def work_precision(
         for point in todo:
             if point[:2] in hopeless if not turn else not _again(walls[point], turn):
                 continue
-            problem, limit = scenes.problem(point.scene), min(budget, BUDGETS.get(point.scene, budget))
+            problem, limit = scenes.problem(point.scene), BUDGETS.get(point.scene, BUDGET)
             result = METHODS[point.method].solve(problem, point.value, limit)
             if not turn and result.seconds < LONG:  # the first call compiles and warms caches
                 result = METHODS[point.method].solve(problem, point.value, limit)
@@ -183,9 +181,7 @@ def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: Sequence[float
 
 
 def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:
-    """Order against the step, or against a quantity that grows like its inverse. For methods of variable order it is
-    the exponent q of error ~ tolerance^q.
-    """
+    """Order against the step; for a method of variable order, the exponent q of error ~ tolerance^q."""
     line = dataset.sel(scene=scene, solver=method)
     usable = np.isin(line["verdict"].values, (int(Verdict.CONVERGED), int(Verdict.INACCURATE)))
     own = METHODS[method]

@@ -151,9 +151,9 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
-def option(name: str, text: str | None, kind: Any, faults: list[str], **optional: None) -> Any:
+def option(name: str, text: str | None, kind: Any, faults: list[str], default: Any = ...) -> Any:
     """The value of a type that `text` stands for, or None if it is faulty; faults are appended to `faults`."""
-    fields: dict[str, Any] = {name: (kind, optional.get("default", ...))}
+    fields: dict[str, Any] = {name: (kind, default)}
     given = {} if text is None else {name: text}
     try:
         return getattr(create_model("Option", __base__=Strict, **fields)(**given), name)

@@ -44,7 +44,7 @@ def ask(model: Model) -> Iterator[tuple[str, Found]]:
     yield from after_separation(questions.SETTLED.replace(**model)).items()
     yield "onset", onset(questions.SEPARATING.replace(**model), DEFAULT)
     yield "growth_rate", growth_rate(questions.GROWING.replace(**model), DEFAULT)
-    yield "region", region(model)
+    yield "region", simulated.judged(partial(_cell, model), _richest_region(), NEVER, CELLS)
 
 
 def after_separation(p: Parameters) -> simulated.Answers:
@@ -92,11 +92,6 @@ def growth_rate(p: Parameters, tol: float) -> Found:
     """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
     cycle = floquet(p, tol=tol)
     return found(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
-
-
-def region(model: Model) -> Found:
-    """Fraction of the drawn cells whose verdict differs from that of the richest model."""
-    return simulated.judged(partial(_cell, model), _richest_region(), NEVER, CELLS)
 
 
 def _cell(model: Model, place: int) -> tuple[bool, float]:

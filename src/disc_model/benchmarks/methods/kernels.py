@@ -17,8 +17,7 @@ CONSTANTS = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0", "
 _N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(len(CONSTANTS))
 
 ROWS = ("l", "psi", "omega^2", "2 xi omega", "l psi", "P by a", "P by alpha", "P by f beta", "P by -f^2 a")
-"""Rows of the table of modes; the last four are coefficients of the contact force over its denominator, one per state.
-"""
+"""Rows of the table of modes; the last four: coefficients of the contact force over its denominator, one per state."""
 _L, _PSI, _W2, _D, _SLOPE, _BY_A, _BY_ALPHA, _BY_BETA, _BENT = range(len(ROWS))
 
 STICK, SLIP, SEPARATION = 0, 1, 2
@@ -187,9 +186,7 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 
 @_kernel
 def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with the functions that fall through zero at the phase's end, see `phases.ENDS`; returns their
-    number.
-    """
+    """Fill ``out`` with the functions whose fall through zero ends the phase (`phases.ENDS`); returns their number."""
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
     return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)

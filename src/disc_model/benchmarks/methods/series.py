@@ -16,9 +16,7 @@ from disc_model.simulation.result import Result
 STEPS_PER_SECOND = 300_000
 """Steps per second of budget: the engine stops by steps, not by the clock."""
 WATCH_RATE = 2e4
-"""Sampling rate, 1/s; the disc's motion after a separation advances by 0.04 rad between samples, and its range is
-accurate to 2e-4.
-"""
+"""Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is accurate to 2e-4."""
 
 
 class Series(Method):

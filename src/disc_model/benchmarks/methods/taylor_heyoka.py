@@ -96,11 +96,7 @@ class Heyoka(Method):
 
 @lru_cache(maxsize=32)
 def _integrators(p: Parameters, tol: float, compact: bool) -> dict[str, Any]:
-    """Compiled integrators by phase.
-
-    Load, speed of the drive and height at rest are run-time parameters, so that cases that differ in them share the
-    code.
-    """
+    """Compiled integrators by phase; cases that differ in load and speed of the drive share them, see `system`."""
     import heyoka as hy
 
     made = {}
@@ -113,8 +109,7 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> dict[str, Any]:
 
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
-    """Equations of a phase as heyoka expressions, in the order of the common state vector, and the last of
-    `phases.ENDS`.
+    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `phases.ENDS`.
 
     Parameters at run time: N - k u_0, Omega and, in slip, its direction.
     """
