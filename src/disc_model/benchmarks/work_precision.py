@@ -23,7 +23,7 @@ from disc_model.benchmarks.registry import SCENES
 from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
-from disc_model.simulation.api import simulate, static_start
+from disc_model.simulation.api import simulate
 
 BUDGET = 12.0
 """Budget of a method for a point, s."""
@@ -137,8 +137,7 @@ def _whole_call(scene: str) -> float:
     It is the median of several calls: the first ones find caches filled by other methods.
     """
     problem = scenes.problem(scene)
-    start = None if scenes.MOTIONS[scene][1] is static_start else problem.start
-    seconds = []
+    start, seconds = scenes.users_start(scene), []
     for _ in range(CALLS):
         began = clock.thread_time()
         simulate(problem.parameters, problem.t_end, initial_state=start)
