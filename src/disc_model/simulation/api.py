@@ -19,7 +19,7 @@ from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
-from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, violations
+from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
 from disc_model.parameters import (
     TOLERANCES,
     Parameters,
@@ -148,7 +148,7 @@ def simulate(
                 code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
-    run.close()
+    give_back(run.case, run.order, run.workspace)
     if kept is not None:
         kept.remove()
     return result
@@ -229,8 +229,10 @@ class _Run:
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         limit = _step_limit(model, asked.t_end - start) if asked.max_steps is None else asked.max_steps
         self.max_steps = min(limit, MOST_STEPS)
-        self.pause_after = _pause_after(model, asked.record.audit_every_step)
-        self.audit_every = 1 if asked.record.audit_every_step else AUDIT_EVERY
+        every_step = asked.record.audit_every_step
+        self.audit_every = 1 if every_step else AUDIT_EVERY
+        # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
+        self.pause_after = max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1)))
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < asked.t_end:
@@ -342,10 +344,6 @@ class _Run:
             ramps=asked.ramps,
         )
 
-    def close(self) -> None:
-        """Return the arrays for use by later runs."""
-        give_back(self.case, self.order, self.workspace)
-
 
 def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], report: bool) -> Callable[..., int]:
     """The engine, compiled for this kind of model: the kind determines the types of all ``arguments`` of a run."""
@@ -369,12 +367,6 @@ def static_start(p: Parameters) -> State:
 def _step_limit(model: layout.Model, duration: float) -> int:
     """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
-
-
-def _pause_after(model: layout.Model, audit_every_step: bool) -> int:
-    """Steps between pauses, which serve checkpoints, progress and Ctrl-C; fewer where a step costs more."""
-    cost = (1 + model.more_blocks[0]) * (6 if audit_every_step else 1)
-    return max(1, STEPS_PER_PAUSE // cost)
 
 
 def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
@@ -418,21 +410,16 @@ def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[st
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The initial state of a motion of case `p`, at time 0; None is the static start.
 
-    Raises
-    ------
-    SimulationError, ParameterError
-        If the preceding motion ends early, or its parameters break a rule: the disc must have as many modes.
+    Raises `SimulationError` if the preceding motion ends early, `ParameterError` if its parameters break a rule, or its
+    disc has another number of modes.
     """
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
-        if differing := [name for name in ("n_diameters", "n_circles") if getattr(other, name) != getattr(p, name)]:
-            place = ("start", "prerun", "parameters")
-            rule = "must be that of the case, {}"
-            raise ParameterError(
-                *(Fault((*place, n), as_text(getattr(other, n)), rule.format(getattr(p, n))) for n in differing)
-            )
+        sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
+        place, rule = "start.prerun.parameters.", "must be that of the case, "
+        raise_faults(violations(*((found == own, place + name, found, f"{rule}{own}") for name, found, own in sizes)))
         state = transfer_state(p, _end_of(other, start.prerun.time, tol))
     return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
 
@@ -545,6 +532,5 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
 def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
     if span is None:
         return events.isel(event=slice(0))
-    time = events["time"].values
-    kept = events.isel(event=slice(*time.searchsorted([span[0], span[1]], side="left")))
+    kept = events.isel(event=slice(*events["time"].values.searchsorted(span)))
     return kept.assign_attrs(kept_from=span[0], kept_until=span[1])

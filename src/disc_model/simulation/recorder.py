@@ -37,8 +37,6 @@ SHARE = 0.1
 """Largest share of the wall time that writing checkpoints may take."""
 
 Array = NDArray[Any]
-
-
 Contents = dict[str, Array]
 """Contents of a checkpoint: the state, and parts of recorded rows such as ``events/0``, in order."""
 
@@ -94,9 +92,8 @@ class Checkpoint:
         except FileNotFoundError:
             return None
         except OSError as error:
-            raise ParameterError(
-                Fault(("checkpoint",), repr(str(self.path)), f"cannot be read: {error.strerror}")
-            ) from None
+            rule = f"cannot be read: {error.strerror}"
+            raise ParameterError(Fault(("checkpoint",), repr(str(self.path)), rule)) from None
         except (DamagedFile, ValueError, KeyError):
             self._set_aside("damaged, or not a checkpoint", hashlib.sha256(self.path.read_bytes()).hexdigest()[:12])
             return None
@@ -163,7 +160,8 @@ class Collector:
     """Provides the engine's buffers, empties them at each pause, and assembles the recorded arrays."""
 
     def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
-        self._windows = list(record.windows)
+        # samples in a bin of an envelope; None where single samples are kept
+        self._folds = [window.envelope for window in record.windows]
         grids: list[tuple[float, float, float, float]] = []
         per_step = self.capacity = 0
         if record.windows or record.poincare is not None:
@@ -171,6 +169,7 @@ class Collector:
             grids += [_uniform(window, start, t_end) for window in record.windows]
             if record.poincare is not None:
                 grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
+                self._folds.append(None)
             # the engine pauses between steps only, so one step's samples must fit above ``capacity``
             longest = longest_step + sampling.SAME_INSTANT * t_end
             per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
@@ -209,25 +208,22 @@ class Collector:
         n_events, n_rows = int(counters[event_loop.EVENT_ROWS]), int(counters[event_loop.SAMPLE_ROWS])
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if n_events:
-            self._take_events(self.event_rows[:n_events], separated=counters[event_loop.SEPARATIONS] > 0)
+            events = self.event_rows[:n_events]
+            if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
+                lost = events[events[:, 1] == event_loop.LOSS_OF_CONTACT]
+                self.first_separation = float(lost[0, 0]) if len(lost) else math.nan
+            if self._keep_events:
+                self._events.append(events.copy())
         if n_events > len(self.event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
             self.event_rows = np.empty((BUFFER, len(event_loop.EVENT_ROW)))
         rows = self.rows[:n_rows]
         for i in range(len(self.sampled)):
             self._take(i, rows[rows[:, 0] == i])
 
-    def _take_events(self, events: Array, separated: bool) -> None:
-        if separated and math.isnan(self.first_separation):
-            lost = np.flatnonzero(events[:, 1] == event_loop.LOSS_OF_CONTACT)
-            if lost.size:
-                self.first_separation = float(events[lost[0], 0])
-        if self._keep_events:
-            self._events.append(events.copy())
-
     def _take(self, i: int, rows: Array) -> None:
         if not len(rows):
             return
-        fold = self._fold_of(i)
+        fold = self._folds[i]
         if fold is None:
             self._parts[i].append(rows.copy())
             return
@@ -240,10 +236,6 @@ class Collector:
         self._rest[i] = [rows[whole:].copy()]
         self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
 
-    def _fold_of(self, i: int) -> int | None:
-        """Samples in a bin of an envelope; None where single samples are kept."""
-        return self._windows[i].envelope if i < len(self._windows) else None
-
     def events(self) -> Array:
         """All recorded events, shape (n, len(EVENT_ROW))."""
         if len(self._events) == 1:
@@ -252,13 +244,12 @@ class Collector:
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
         """Samples of each window, and the Poincare samples."""
-        shaped = [
-            _columns(parts, sampling.ROW if self._fold_of(i) is None else _FOLDED_ROW)
-            for i, parts in enumerate(self._parts)
-        ]
+        names = [sampling.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
+        shaped = list(map(_columns, self._parts, names))
         for samples in shaped:
             samples.pop("sampler", None)
-        return tuple(shaped[: len(self._windows)]), shaped[-1] if self._poincare else None
+        poincare = shaped.pop() if self._poincare else None
+        return tuple(shaped), poincare
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
