@@ -16,7 +16,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ParameterError, as_text
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.parameters import (
     AUTO,
     Checked,
@@ -170,10 +170,7 @@ class Record(Checked):
     def resolved(self, start: float, t_end: float) -> Record:
         """The same record with absolute times in all windows, for a run from ``start`` to ``t_end``.
 
-        Raises
-        ------
-        ParameterError
-            If a window begins at the end of the run or later.
+        Raises `ParameterError` if a window begins at the end of the run or later.
         """
         if not self.windows:
             return self
@@ -184,8 +181,7 @@ class Record(Checked):
                 windows.append(window.resolved(start, t_end))
             except ParameterError as error:
                 found += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
-        if found:
-            raise ParameterError(*found)
+        raise_faults(found)
         if all(one is other for one, other in zip(windows, self.windows, strict=True)):
             return self
         return self.replace(windows=tuple(windows))
@@ -243,7 +239,6 @@ class Start(Strict):
 
 # ----------------------------------------------------------------------------------------------------
 # One case ready to be run, and its content address
-
 
 _LATER = ("start", "truncation", "modes", "ramps")
 """Fields added later: a default is left out of the text, so that older content addresses stay valid."""

@@ -6,19 +6,17 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case, is_number
 from disc_model.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.simulation.api import simulate, static_start
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State, amplitude_faults, is_finite_array
+from disc_model.simulation.result import Array, State, amplitude_faults, is_finite_array
 
 if TYPE_CHECKING:
     import xarray as xr
-
-Array = NDArray[np.float64]
 
 _NOTHING = Record(events=False)
 
@@ -48,7 +46,12 @@ def snapshots(
     """
     given = _numbers(times)
     ascend = given is not None and not np.any(np.diff(given) < 0)
-    raise_faults(_foreign(p, initial_state) + violations((ascend, "times", times, "must be finite and ascend")))
+    starts = initial_state is None or isinstance(initial_state, State)
+    wrong = violations(
+        (starts, "initial_state", initial_state, "must be a State"),
+        (ascend, "times", times, "must be finite and ascend"),
+    )
+    raise_faults(foreign_case(p) + wrong)
     wanted: list[float] = [] if given is None else given.tolist()
     state = static_start(p) if initial_state is None else initial_state
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
@@ -102,7 +105,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 
 def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
-    raise_faults(_foreign(p, None))
+    raise_faults(foreign_case(p))
     given: list[Any] = list(states) if np.iterable(states) else [states]
     psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
@@ -123,12 +126,6 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     if faults or radii is None or angles is None:
         raise ParameterError(*faults)
     return given, radii, angles
-
-
-def _foreign(p: object, initial_state: object) -> list[str]:
-    """Faults of arguments of another type."""
-    state = initial_state is None or isinstance(initial_state, State)
-    return foreign_case(p) + violations((state, "initial_state", initial_state, "must be a State"))
 
 
 def _numbers(values: ArrayLike) -> Array | None:

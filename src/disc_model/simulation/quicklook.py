@@ -1,7 +1,7 @@
 """Quick plot of one run: contact force and disc displacement, one column for each recorded window."""
 
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,19 +13,6 @@ from disc_model.data.variables import axis_of, typeset, values_text
 from disc_model.errors import Fault, ParameterError
 
 PANELS = ("P", "w")
-
-
-class Sampled(Protocol):
-    """Attributes of a `disc_model.Result` that the figure uses."""
-
-    @property
-    def samples(self) -> tuple[Mapping[str, NDArray[np.float64]], ...]: ...
-
-    @property
-    def parameters(self) -> Any: ...
-
-    @property
-    def first_separation(self) -> float: ...
 
 
 class _ShownOnce(Figure):
@@ -43,8 +30,10 @@ class _ShownOnce(Figure):
         self.drawn = True
 
 
-def quicklook(result: Sampled) -> Figure:
+def quicklook(result: Any) -> Figure:
     """Plot contact force (top) and disc displacement under the slider (bottom), one column for each window.
+
+    result : a `disc_model.Result`, whose module imports this one
 
     Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """

@@ -486,19 +486,11 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
 def write_state(case: EngineCase, given: State, state: layout.EngineState, key: str = "") -> bool:
     """Write ``given`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
 
-    Returns
-    -------
-    Whether the engine has to determine the phase at this instant first: the state lies at an event of another case.
-
-    Raises
-    ------
-    ParameterError
-        If arrays have the wrong shape, numbers are not finite, the phase contradicts the velocities, or the state
-        belongs to other modes.
+    Returns whether the engine has to determine the phase at this instant first: the state lies at an event of another
+    case.  Raises `ParameterError` if arrays have the wrong shape, numbers are not finite, the phase contradicts the
+    velocities, or the state belongs to other modes.
     """
-    faults = _faults(given, case)
-    if faults:
-        raise ParameterError(*faults)
+    raise_faults(_faults(given, case))
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
