@@ -179,7 +179,7 @@ ENDS = [
 @pytest.mark.parametrize(("outcome", "status", "words"), ENDS)
 def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words):
     code = next(code for code, name in return_map_module.ENDS.items() if name == outcome)
-    flight = Flight(code, 1.0, 0.0, 1.0, 0.0, Counts(0, 0, 0, 0, 0))
+    flight = Flight(code, 1.0, 0.0, Counts(0, 0, 0, 0, 0))
 
     def evaluate(self, x, **_):
         return flight, x, np.eye(self.size), np.zeros((self.size, 0))

@@ -37,7 +37,7 @@ class TurningMap:
             jacobian = block_diag(step, decay) @ jacobian
             x = np.concatenate([new * turned[:, 0], decay @ x[2:]])
         counts = Counts(releases, 0, 0, 0, releases)
-        return Flight(RETURNED, releases * PERIOD, 0.0, releases * PERIOD, 0.0, counts), x, jacobian, np.zeros((4, 0))
+        return Flight(RETURNED, releases * PERIOD, 0.0, counts), x, jacobian, np.zeros((4, 0))
 
     def returns(self, x: np.ndarray, most: int, **_: Any) -> Iterator[np.ndarray]:
         for _ in range(most):

@@ -62,9 +62,7 @@ class ToyMap:
 
     def evaluate(self, x, *, releases=1, tangent=True, may_separate=False, coarse=False):
         Omega, N = self.parameters.Omega, self.parameters.N
-        returned, lost = (
-            Flight(code, PERIOD, 0.3 * PERIOD, 0.7 * PERIOD, 0.0, Counts(1, 0, 0, 0, 1)) for code in (RETURNED, LOST)
-        )
+        returned, lost = (Flight(code, PERIOD, 0.3 * PERIOD, Counts(1, 0, 0, 0, 1)) for code in (RETURNED, LOST))
         end, jacobian = np.asarray(x, float), np.eye(3)
         for _ in range(releases):
             if not np.all(np.abs(end) < 1e100):  # far beyond the fold

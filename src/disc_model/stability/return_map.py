@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import exit_codes, layout, transitions, variational
+from disc_model.engine import exit_codes, layout, variational
 from disc_model.engine import tangent as columns
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
@@ -127,8 +127,6 @@ class Flight:
     outcome: int
     period: float
     stick_time: float
-    slip_time: float
-    separation_time: float
     counts: Counts
 
 
@@ -197,10 +195,8 @@ class ReturnMap:
     ) -> tuple[Flight, Array, Array, Array]:
         """Follow the motion from `x` to the `releases`-th next release, with the map's tolerance or `COARSE`.
 
-        Returns
-        -------
-        flight, end (n,), Jacobian (n, n), derivatives by the map's parameters (n, number of parameters); the last two
-        are meaningless without `tangent` or if the flight did not return.
+        Returns flight, end (n,), Jacobian (n, n), derivatives by the map's parameters (n, number of parameters). The
+        last two are meaningless without `tangent` or if the flight did not return.
         """
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
@@ -211,16 +207,11 @@ class ReturnMap:
         )
         start = np.array(x, dtype=float)
         code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
-        whole, stick, slip, apart = t.log[variational.DURATION : variational.SEPARATION_TIME + 1].tolist()
+        whole, stick = t.log[[variational.DURATION, variational.STICK_TIME]].tolist()
         counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
-        flight = Flight(code, whole, stick, slip, apart, counts)
-        n, first = self.size, self._first
-        return (
-            flight,
-            self._section.end.copy(),
-            self._section.jacobian[:, :n].copy(),
-            self._section.jacobian[:, first : first + len(self._names)].copy(),
-        )
+        derivatives, first = self._section.jacobian, self._first
+        by = derivatives[:, first : first + len(self._names)].copy()
+        return Flight(code, whole, stick, counts), self._section.end.copy(), derivatives[:, : self.size].copy(), by
 
     def next_release(self, start: State) -> tuple[int, Array]:
         """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
@@ -238,23 +229,13 @@ class ReturnMap:
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
-        self._place(x)
-        return read_state(self._case, self._state)
-
-    def contact_force(self, x: Array) -> float:
-        """Contact force in stick at the point `x` of the section, N: P, or R under the normal force."""
-        self._place(x)
-        state, model = self._state, self.model
-        return float(transitions.force_in_stick(model, state, transitions.stick_force(model, state)))
-
-    def _place(self, x: Array) -> None:
-        """Set the engine's state to the point `x` of the section."""
         state, column = self._state, np.zeros(self._slider + columns.N_SLIDER_ROWS)
         column[self._section.rows] = x / self.scale
         state.disc[:], state.x[:] = 0.0, 0.0
         state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(column, [self._slider])
         state.x[layout.PHASE] = layout.STICK
         state.x[layout.PSI] = variational.release_angle(self.model, state)
+        return read_state(self._case, state)
 
     def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
         """Points of the motion from `x` at its next releases, at most `most`, as long as it returns."""
@@ -278,8 +259,8 @@ class FixedPoint(NamedTuple):
     residual: float
 
 
-COARSE_TRIES = 3
-"""Number of first Jacobians that are coarse, because they only give a direction."""
+MOST_JACOBIANS, COARSE_TRIES = 14, 3
+"""Largest number of Jacobians, and number of the first ones that are coarse, because they only give a direction."""
 GOOD_STEP = 0.05
 """If a step leaves less than this share of the residual, the next step reuses its Jacobian."""
 
@@ -290,13 +271,7 @@ def rounding(tol: float, factor: float) -> float:
 
 
 def newton(
-    map_: ReturnMap,
-    x: Array,
-    *,
-    tol: float = 1e-12,
-    releases: int = 1,
-    jacobians: int = 14,
-    may_separate: bool = False,
+    map_: ReturnMap, x: Array, *, tol: float = 1e-12, releases: int = 1, may_separate: bool = False
 ) -> FixedPoint | None:
     """Fixed point of the map, by Newton's method with a line search and reused Jacobians; None if it finds none.
 
@@ -329,7 +304,7 @@ def newton(
                 return None
             ratio = 1.0
         if residual > tol * size and ratio > GOOD_STEP:
-            if used >= jacobians:
+            if used >= MOST_JACOBIANS:
                 return None
             coarse = used < COARSE_TRIES
             flight, _, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=coarse)
