@@ -23,7 +23,6 @@ from disc_model.stability.return_map import (
     ComplexArray,
     Counts,
     FixedPoint,
-    Flight,
     ReturnMap,
     bifurcation_type,
     case_faults,
@@ -185,9 +184,34 @@ def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) ->
 
 
 def cycle_from_rest(map_: ReturnMap, tol: float) -> FloquetResult:
-    """The cycle that `find_cycle` finds from the static equilibrium, with a return map that is there."""
-    found = newton(map_, map_.static, tol=tol)
-    return _second_try(map_, tol) if found is None else cycle_of(map_, tol, found)
+    """The cycle that `find_cycle` finds from the static equilibrium; without one, the kind of the simulated motion."""
+    p, x = map_.parameters, map_.static
+    found = newton(map_, x, tol=tol)
+    if found is not None:
+        return cycle_of(map_, tol, found)
+    for _ in range(TRANSIENT):
+        flight, x, _, _ = map_.evaluate(x, tangent=False)
+        if flight.outcome != RETURNED:
+            status, why = _WITHOUT_RETURN[ENDS[flight.outcome]]
+            return _none(p, tol, status, why.format(flight.period))
+    for releases in RETURNS_TRIED:
+        found = newton(map_, x, tol=tol, releases=releases)
+        if found is not None:
+            return cycle_of(map_, tol, run_through_once(map_, tol, found))
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
+    return _none(p, tol, CycleStatus.NO_CYCLE, tried)
+
+
+_LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
+_WITHOUT_RETURN = {
+    "time_over": (CycleStatus.NO_STICK_SLIP, "the slider slips on for {:.3g} s without sticking"),
+    "lost_contact": _LOST,
+    "off_section": _LOST,
+    "non_finite": (CycleStatus.NON_FINITE, "the motion from the static start overflows"),
+    "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
+    "paradox": (CycleStatus.PARADOX, "the motion from the static start runs into Painleve's paradox"),
+}
+"""Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
 
 
 def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-12) -> FloquetResult:
@@ -233,36 +257,6 @@ def _degenerate(p: Parameters, tol: float) -> FloquetResult:
     if never_pulls(p):
         return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
     return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
-
-
-def _second_try(map_: ReturnMap, tol: float) -> FloquetResult:
-    """Search again from the end of a simulated transient; without success, report the kind of motion."""
-    p, x = map_.parameters, map_.static
-    for _ in range(TRANSIENT):
-        flight, x, _, _ = map_.evaluate(x, tangent=False)
-        if flight.outcome != RETURNED:
-            return _none(p, tol, *_why(flight))
-    for releases in RETURNS_TRIED:
-        found = newton(map_, x, tol=tol, releases=releases)
-        if found is not None:
-            return cycle_of(map_, tol, run_through_once(map_, tol, found))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
-    return _none(p, tol, CycleStatus.NO_CYCLE, tried)
-
-
-def _why(flight: Flight) -> tuple[CycleStatus, str]:
-    """Status and message of a transient's flight that did not return."""
-    lost = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
-    slips = f"the slider slips on for {flight.period:.3g} s without sticking"
-    reasons = {
-        "time_over": (CycleStatus.NO_STICK_SLIP, slips),
-        "lost_contact": lost,
-        "off_section": lost,
-        "non_finite": (CycleStatus.NON_FINITE, "the motion from the static start overflows"),
-        "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
-        "paradox": (CycleStatus.PARADOX, "the motion from the static start runs into Painleve's paradox"),
-    }
-    return reasons[ENDS[flight.outcome]]
 
 
 def _counted(counts: Counts) -> str:
