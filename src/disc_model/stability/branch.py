@@ -60,26 +60,20 @@ class CyclePoint:
 
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales).
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``scale`` replaces the usual ones of the parameters.
 
     With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
-        self,
-        p: Parameters,
-        names: tuple[str, ...],
-        scales: Mapping[str, float] | None,
-        tol: float,
-        order: Counts | None = None,
+        self, p: Parameters, names: tuple[str, ...], scale: float | None, tol: float, order: Counts | None = None
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
         self.size = float(np.linalg.norm(reference.static))
-        given = dict(scales or {})
-        self.scales = np.array([given.get(name, default_scale(p, name)) for name in names])
+        self.scales = np.array([default_scale(p, name) if scale is None else scale for name in names])
 
     def case(self, z: Array) -> Parameters:
         values = z[self.n :] * self.scales
@@ -301,18 +295,11 @@ class StepControl:
     sharpest: float = 0.9
 
     def __post_init__(self) -> None:
-        lengths = {name: getattr(self, name) for name in ("step", "longest", "shortest")}
-        lengths |= {} if self.scale is None else {"scale": self.scale}
+        names = ("step", "longest", "shortest", *(["scale"] if self.scale is not None else []))
+        lengths = [(name, getattr(self, name)) for name in names]
+        rules = [(is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths]
         counts = is_whole(self.max_points) and self.max_points >= 1
-        raise_faults(
-            violations(
-                *(
-                    (is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0")
-                    for name, x in lengths.items()
-                ),
-                (counts, "max_points", self.max_points, "must be a whole number >= 1"),
-            )
-        )
+        raise_faults(violations(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1")))
 
 
 def continue_curve(

@@ -5,7 +5,7 @@ regular point of that curve. `continue_border` follows neutral curves and folds 
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
@@ -81,10 +81,9 @@ def continue_cycle(
         If an argument breaks a rule, or no cycle is found to start from.
     """
     check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases, points=True))
-    at_state = isinstance(guess, State)
     cycle = find_cycle_near(p, guess, releases, tol) if isinstance(guess, State) else find_cycle(p, tol, guess)
-    order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if at_state else None
-    problem = CycleProblem(p, (name,), None if steps.scale is None else {name: steps.scale}, tol, order)
+    order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if isinstance(guess, State) else None
+    problem = CycleProblem(p, (name,), steps.scale, tol, order)
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
@@ -136,27 +135,20 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
 # Two parameters
 
 Kind = Literal["neutral", "fold"]
-Test = Callable[[Array, complex], tuple[float, complex]]
 
 
-def _nearest(values: ComplexArray, former: complex) -> complex:
-    return complex(values[np.argmin(np.abs(values - former))])
+def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float, complex]:
+    """Value of a test function that vanishes on the curve, and the multiplier nearest to `former`, which gives it.
 
-
-def _on_circle(jacobian: Array, former: complex) -> tuple[float, complex]:
-    """Logarithm of the modulus of the multiplier nearest to `former`, and that multiplier."""
-    mu = _nearest(np.linalg.eigvals(jacobian).astype(complex), former)
-    return math.log(abs(mu)), mu
-
-
-def _at_one(jacobian: Array, former: complex) -> tuple[float, complex]:
-    """The real multiplier nearest to `former`, less one, and that multiplier."""
+    For a neutral curve it is the logarithm of the multiplier's modulus, for a fold the real multiplier less one.
+    """
     values = np.linalg.eigvals(jacobian).astype(complex)
-    real = values[values.imag == 0]
-    if len(real) == 0:
-        raise CorrectorFailed("no multiplier is real any more")
-    mu = _nearest(real, former)
-    return mu.real - 1.0, mu
+    if kind == "fold":
+        values = values[values.imag == 0]
+        if len(values) == 0:
+            raise CorrectorFailed("no multiplier is real any more")
+    mu = complex(values[np.argmin(np.abs(values - former))])
+    return (mu.real - 1.0 if kind == "fold" else math.log(abs(mu))), mu
 
 
 @compiling()
@@ -187,19 +179,16 @@ def continue_border(
     ParameterError
         If an argument breaks a rule, no cycle is found to start from, or no curve of this kind is near it.
     """
-    known = violations(
-        (isinstance(kind, str) and kind in ("neutral", "fold"), "kind", kind, "must be 'neutral' or 'fold'")
-    )
-    check(
-        p, 2, names, bounds, tol, direction=direction, steps=steps, more=[*known, *guess_faults(guess, 1, points=True)]
-    )
+    known = isinstance(kind, str) and kind in ("neutral", "fold")
+    more = violations((known, "kind", kind, "must be 'neutral' or 'fold'")) + guess_faults(guess, 1, points=True)
+    check(p, 2, names, bounds, tol, direction=direction, steps=steps, more=more)
     names = tuple(names)  # type: ignore[assignment]
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, guess))
-    test, mu = (_on_circle, complex(multipliers(point.jacobian)[0])) if kind == "neutral" else (_at_one, 1.0 + 0j)
+    mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
     try:
-        point, mu = _reach(problem, point, test, mu)
-        ways = _ways(problem, point, test, mu)
+        point, mu = _reach(problem, point, kind, mu)
+        ways = _ways(problem, point, kind, mu)
     except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = ways.along[problem.n] if abs(ways.along[problem.n]) > 1e-12 else ways.along[problem.n + 1]
@@ -214,7 +203,7 @@ def continue_border(
             return "the curve is closed"
         return ""
 
-    first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, test)
+    first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, kind)
     places, ended = continue_curve(first, take, steps, meet=lambda *_: None, leaves=leaves)
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
@@ -245,11 +234,11 @@ class _OnCurve(Place):
     ways: _Ways
 
 
-def _ways(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> _Ways:
+def _ways(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _Ways:
     basis = problem.tangents(point)
     slopes, turns = np.zeros(2), np.zeros(2, complex)
     for i, unit in enumerate(basis):
-        ends = [test(problem.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
+        ends = [_evaluate_test(kind, problem.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
         slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
         turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
     size = float(np.linalg.norm(slopes))
@@ -263,13 +252,13 @@ LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
 """On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) -> tuple[CyclePoint, complex]:
+def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> tuple[CyclePoint, complex]:
     """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
-    value, mu = test(point.jacobian, mu)
+    value, mu = _evaluate_test(kind, point.jacobian, mu)
     for _ in range(REACHES):
         if abs(value) < 1e-10:
             return point, mu
-        here = _ways(problem, point, test, mu)
+        here = _ways(problem, point, kind, mu)
         move = -value * here.gradient / (here.gradient @ here.gradient)
         turn = abs(complex(here.multiplier @ move))
         move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
@@ -278,7 +267,7 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
             guess = point.z + move * 0.5**halvings
             try:
                 new = problem.correct(guess, rows, rows @ guess)
-                new_value, new_mu = test(new.jacobian, here.predicted(mu, move * 0.5**halvings))
+                new_value, new_mu = _evaluate_test(kind, new.jacobian, here.predicted(mu, move * 0.5**halvings))
                 break
             except CorrectorFailed:
                 if halvings == 5:
@@ -287,7 +276,7 @@ def _reach(problem: CycleProblem, point: CyclePoint, test: Test, mu: complex) ->
     raise CorrectorFailed("no point of the curve was found near the first cycle")
 
 
-def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float) -> _OnCurve:
+def _next_on_border(problem: CycleProblem, kind: Kind, here: _OnCurve, ds: float) -> _OnCurve:
     """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
     expected = here.ways.predicted(here.mu, ds * here.tangent)
     if abs(expected - here.mu) > 2 * LARGEST_TURN:
@@ -295,20 +284,20 @@ def _next_on_border(problem: CycleProblem, test: Test, here: _OnCurve, ds: float
     guess = here.point.z + ds * here.tangent
     rows = here.tangent[None, :]
     point = problem.evaluate(guess)
-    value, found = test(point.jacobian, expected)
+    value, found = _evaluate_test(kind, point.jacobian, expected)
     gradient = here.ways.gradient
     errors = [math.inf, math.inf]
     for _ in range(12):
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
         errors.append(float(np.linalg.norm(right)))
         if errors[-1] < 1e-10:
-            ways = _ways(problem, point, test, found)
+            ways = _ways(problem, point, kind, found)
             return _OnCurve(point, ways.along, found, ways)
         if errors[-1] > 0.9 * errors[-3]:
             break
         before, last = point, value
         point = problem.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
-        value, found = test(point.jacobian, found)
+        value, found = _evaluate_test(kind, point.jacobian, found)
         # Broyden's update: a gradient by differences would take four flights at each correction
         move = point.z - before.z
         gradient = gradient + (value - last - gradient @ move) / (move @ move) * move

@@ -95,14 +95,10 @@ def stability_curves(
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
+    counts = is_whole(points) and 2 <= points <= MOST_POINTS
     other = violations(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
-        (
-            is_whole(points) and 2 <= points <= MOST_POINTS,
-            "points",
-            points,
-            f"must be a whole number from 2 to {MOST_POINTS}",
-        ),
+        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     steps = replace(BORDER, longest=longest, shortest=SHORTEST, max_points=max_points)
     check(p, 2, names, bounds, tol, steps=steps, more=other)
@@ -125,16 +121,12 @@ def stability_curves(
             if len(curve.period) == 1:
                 notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
                 continue
-            i = _halfway(curve.values / span)
+            # the place halfway along the curve, since places are dense where two borders meet
+            length = np.cumsum(np.linalg.norm(np.diff(curve.values / span, axis=0), axis=1))
+            i = int(np.searchsorted(length, length[-1] / 2)) + 1
             if not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
                 found.append(curve)
     return found, notes
-
-
-def _halfway(places: Array) -> int:
-    """Index of the place halfway along a curve: places are dense where two borders meet."""
-    length = np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))
-    return int(np.searchsorted(length, length[-1] / 2)) + 1
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:

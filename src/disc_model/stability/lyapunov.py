@@ -176,9 +176,7 @@ def _orthonormalise(
     left : indices of the remaining columns
     vanished : length of an orthogonal part, relative to the column, below which it counts as zero
 
-    Returns
-    -------
-    logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,)
+    Returns logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,).
     """
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, left)] * metric)

@@ -50,10 +50,6 @@ class SlidingStatus(StatusBase):
     PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
 
 
-def _no_numbers() -> Array:
-    return np.zeros(0)
-
-
 @dataclass(frozen=True, eq=False)
 class SteadySliding:
     """The sliding equilibrium.
@@ -75,10 +71,10 @@ class SteadySliding:
     message: str
     contact_force: float = math.nan
     psi: float = math.nan
-    a: Array = field(default_factory=_no_numbers, repr=False)
-    b: Array = field(default_factory=_no_numbers, repr=False)
-    alpha: Array = field(default_factory=_no_numbers, repr=False)
-    beta: Array = field(default_factory=_no_numbers, repr=False)
+    a: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    b: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    alpha: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
