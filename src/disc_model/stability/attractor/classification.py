@@ -19,7 +19,7 @@ from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.simulation.api import perturb, simulate, static_start
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.neighbourhood import (
     CYCLE_TOL,
@@ -121,8 +121,7 @@ class Basins:
 
     def _leg(self, state: State, end: float) -> Result:
         window = Window(start=max(end - WATCHED, state.time), stop=end, rate=RATE)
-        record = Record(windows=(window,))
-        return simulate(self.p, end, tol=self.tol, initial_state=state, record=record)
+        return simulate(self.p, end, tol=self.tol, initial_state=state, record=window)
 
     def _difference(self, one: Segment, other: Segment) -> float:
         """Largest relative difference of ranges, shares of the phases and separations per second.
@@ -196,18 +195,14 @@ class Basins:
         if calm is not None:
             return Attractor(calm, stretch)
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
-        if near is not None and not near.cycle.stable and self._stays(near):
-            return None
-        return (
-            self._periodic(near, stretch)
-            if near is not None and near.follows_cycle
-            else Attractor(Outcome.UNDECIDED, stretch)
-        )
-
-    def _stays(self, near: NearCycle) -> bool:
-        """Whether a motion hardly moves on the section over a period of the near cycle; on a torus it would move."""
-        at = near.x + near.distance
-        return bool(np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size)
+        if near is not None and near.follows_cycle:
+            return self._periodic(near, stretch)
+        if near is not None and not near.cycle.stable:
+            # near the cycle the motion hardly moves on the section over a period; on a torus it would move
+            at = near.x + near.distance
+            if np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size:
+                return None
+        return Attractor(Outcome.UNDECIDED, stretch)
 
     def _same(self, one: Attractor, other: Attractor) -> bool:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
@@ -234,9 +229,8 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
     code, x = map_.next_release(stretch.final_state)
     if code != RETURNED:
         return None
-    return cycle_near(
-        map_, x, recurrence(map_, x, max(1, min(most, releases // 2)), may_separate=True), may_separate=True
-    )
+    again = recurrence(map_, x, max(1, min(most, releases // 2)), may_separate=True)
+    return cycle_near(map_, x, again, may_separate=True)
 
 
 class Regularity(NamedTuple):

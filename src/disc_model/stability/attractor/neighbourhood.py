@@ -98,13 +98,8 @@ class NearCycle:
 
     def moved(self, at: Array, periods: int, *, coarse: bool = True) -> tuple[Array, float]:
         """Point of a motion on the section some periods later, and the time taken, s; nan if it does not return."""
-        flight, end, _, _ = self.map.evaluate(
-            at,
-            releases=periods * self.cycle.releases,
-            tangent=False,
-            may_separate=self.cycle.separations > 0,
-            coarse=coarse,
-        )
+        n, separates = periods * self.cycle.releases, self.cycle.separations > 0
+        flight, end, _, _ = self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
         return end, flight.period if flight.outcome == RETURNED else math.nan
 
 
@@ -232,10 +227,7 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
 def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
     """Time over which multipliers represent a motion's departure, at most `room` periods, and the distance at its end.
 
-    Returns
-    -------
-    time : s, 0 if they do not represent it
-    distance : distance from the cycle on the section
+    The time (s) is 0 if they do not represent it. The distance is that from the cycle, on the section.
     """
     period = near.cycle.period
     powers = [near.jacobian]

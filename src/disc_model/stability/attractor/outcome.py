@@ -209,7 +209,7 @@ def find_outcome(
 class _OutcomeSearch:
     """State of a search: the present state of the motion, and the results so far.
 
-    shown : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
+    cycle : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
     left : the last unstable cycle from which the motion has departed
     departed : the one of slowest growth from which a departure was computed by multipliers
     near_start : the cycle near the static start, while the motion does not follow it
@@ -225,7 +225,7 @@ class _OutcomeSearch:
     late: float
     time: float = 0.0
     simulated: float = 0.0
-    shown: FloquetResult | None = None
+    cycle: FloquetResult | None = None
     left: NearCycle | None = None
     departed: FloquetResult | None = None
     near_start: NearCycle | None = None
@@ -251,9 +251,9 @@ class _OutcomeSearch:
         while True:
             over = self.time >= self.horizon
             if near is not None:
-                self.shown = self.shown or near.cycle
+                self.cycle = self.cycle or near.cycle
                 if near.cycle.stable:
-                    self.shown = near.cycle
+                    self.cycle = near.cycle
                     self.time += near.waited
                     return self._ended(near.kind, distance=float(np.linalg.norm(near.distance)) / near.size)
                 if over or self._depart(near) >= self.horizon:
@@ -270,7 +270,7 @@ class _OutcomeSearch:
             if self.early or self.time >= self.horizon:
                 calm = at_rest(self.p, result, self.tol)
                 if calm is not None:
-                    self.shown = None
+                    self.cycle = None
                     return self._ended(calm)
             near = self._look(result.final_state)
             if near is None and self._stays_in_contact():
@@ -310,18 +310,8 @@ class _OutcomeSearch:
         return code == RETURNED and self.torus.shows_no_change(x)
 
     def _ended(self, outcome: Outcome | None, **more: Any) -> OutcomeResult:
-        return OutcomeResult(
-            outcome,
-            self.simulated,
-            self.shown,
-            departed=self.departed,
-            time=self.time,
-            state=self.state,
-            changes=self.changes,
-            times=self.times,
-            segment=self.segment,
-            **more,
-        )
+        known = ("simulated", "cycle", "departed", "time", "state", "changes", "times", "segment")
+        return OutcomeResult(outcome, **{name: getattr(self, name) for name in known}, **more)
 
     def _depart(self, near: NearCycle) -> float:
         """Follow the linear map away from an unstable cycle, as far as it is valid; returns the time at its end, s."""
@@ -361,7 +351,7 @@ class _OutcomeSearch:
             return None
         if np.linalg.norm(left.x - near.x) <= SAME_POINT * near.size or not follows(near, x):
             return None
-        self.near_start = self.shown = None
+        self.near_start = self.cycle = None
         return replace(near, follows_cycle=True, distance=x - near.x)
 
 
@@ -401,7 +391,7 @@ def final_segment(
             return result, None
         state = result.final_state
     window = Window(start=stop - late, stop=stop, rate=RATE)
-    result = simulate(p, stop, tol=tol, initial_state=state, record=Record(windows=(window,)))
+    result = simulate(p, stop, tol=tol, initial_state=state, record=window)
     return result, segment_of(result) if result.status.complete else None
 
 
