@@ -108,13 +108,8 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     angle = np.angle(multipliers[own]) / (2 * math.pi)
     with np.errstate(divide="ignore"):
         growth = np.log(np.abs(multipliers)) * rate
-    found = np.array(
-        [
-            (angle + np.round(seen / rate - angle)) * rate,
-            np.maximum(growth[own], growth[other]),
-            mac[np.arange(len(own)), own],
-        ]
-    )
+    frequency = (angle + np.round(seen / rate - angle)) * rate
+    found = np.array([frequency, np.maximum(growth[own], growth[other]), mac[np.arange(len(own)), own]])
     # with fewer multipliers than places, some modes have none
     found[:, (own < 0) | (other < 0)] = math.nan
     return found

@@ -260,13 +260,9 @@ def _degenerate(p: Parameters, tol: float) -> FloquetResult:
 
 
 def _counted(counts: Counts) -> str:
-    named = {
-        "release": counts.releases,
-        "backward release": counts.backward_releases,
-        "slip reversal": counts.reversals,
-        "separation": counts.separations,
-    }
-    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for name, count in named.items() if count)
+    """Numbers of events in words; those of sticks are left out."""
+    named = zip(counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
+    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for count, name in named if count)
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
