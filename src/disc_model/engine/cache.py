@@ -27,9 +27,7 @@ import numba
 from disc_model.bytecode import bytecode_of
 
 SHIPPED = Path(__file__).parent / "kernels"
-"""Kernels shipped with the package, a folder for each level; its file `VERSIONS` states the versions that compiled
-them.
-"""
+"""Kernels shipped with the package, a folder for each level; its file `VERSIONS` states what compiled them."""
 VERSIONS = "versions.txt"
 LEVELS = {
     "x86-64-v4": ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"),
@@ -83,7 +81,10 @@ def shipped_level() -> str | None:
     if not levels:
         warn_once(f"{SHIPPED}: no kernels came with the package for this processor; they are compiled")
         return None
-    compiled_with = _read_text(SHIPPED / levels[0] / VERSIONS)
+    try:
+        compiled_with = (SHIPPED / levels[0] / VERSIONS).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        compiled_with = "unknown versions"
     if compiled_with != versions():
         warn_once(
             f"{SHIPPED / levels[0]}: these kernels are of {compiled_with}, here is {versions()}; they are compiled"
@@ -101,13 +102,6 @@ def _processor(codegen: Any) -> object:
     """The processor on which machine code depends: a chosen level, or all known properties."""
     levels = [level for level, target in TARGETS.items() if target == chosen_target()]
     return levels[0] if levels else codegen.magic_tuple()
-
-
-def _read_text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        return "unknown versions"
 
 
 class KernelCache:
@@ -158,15 +152,11 @@ def _hash(*of: object) -> str:
     return hashlib.sha256(repr((*of, versions())).encode()).hexdigest()[:16]
 
 
+@functools.cache
 def stored_helpers(codegen: Any) -> dict[str, bytes]:
     """The helpers that were compiled for earlier kernels."""
-    return _stored_helpers(folder(), _hash(_processor(codegen)))
-
-
-@functools.cache
-def _stored_helpers(place: Path, processor: str) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
-    for path in sorted(place.glob(f"*.{processor}{HELPERS}")):
+    for path in sorted(folder().glob(f"*.{_hash(_processor(codegen))}{HELPERS}")):
         found |= read(path) or {}
     return found
 

@@ -59,9 +59,12 @@ else:
             self.format = "".join(_format(kind) for kind, _ in fields.values())
             super().__init__(name=f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}")
 
+        @functools.cache  # noqa: B019 - a few types, which last as long as the process
         def narrowed(self, used):
             """The type without the tuples whose names are not in ``used``."""
-            return _narrowed(self, used)
+            fields = self.fields.items()
+            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
+            return PackedType(self.of, left)
 
         def can_convert_to(self, typingctx, other):
             """A narrowed type is the same memory."""
@@ -70,30 +73,13 @@ else:
     def _is_tuple(kind):
         return isinstance(kind, types.UniTuple)
 
-    def _words(kind):
-        if isinstance(kind, types.Array):
-            return 1 + kind.ndim
-        return max(_ROOM, kind.count) if _is_tuple(kind) else 1
-
     def _format(kind):
+        """The words of an entry, a character for each; an array is its address and its lengths."""
         if _is_tuple(kind):
             return _format(kind.dtype) * kind.count + "q" * (_ROOM - kind.count)
-        return "d" if kind == types.float64 else "q" * _words(kind)
-
-    @functools.cache
-    def _narrowed(whole, used):
-        fields = whole.fields.items()
-        left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
-        return PackedType(whole.of, left)
-
-    @functools.cache
-    def _packed_type(of, fields):
-        """The type of a named tuple from the names and types of its entries."""
-        placed, before = {}, 0
-        for name, kind in fields:
-            placed[name] = kind, before
-            before += _words(kind)
-        return PackedType(of, placed)
+        if isinstance(kind, types.Array):
+            return "q" * (1 + kind.ndim)
+        return "d" if kind == types.float64 else "q"
 
     @lower_cast(PackedType, PackedType)
     def _cast(context, builder, of, to, value):
@@ -109,8 +95,11 @@ else:
             """See `PackedType`."""
             decisive = type(self), *map(_decisive, self)  # numba's own answers take 1 ms for the tuples of a case
             if decisive not in _KNOWN:
-                kinds = tuple(zip(self._fields, map(_kind, self), strict=True))
-                _KNOWN[decisive] = _packed_type(type(self).__name__, kinds)
+                fields, before = {}, 0
+                for name, kind in zip(self._fields, map(_kind, self), strict=True):
+                    fields[name] = kind, before
+                    before += len(_format(kind))
+                _KNOWN[decisive] = PackedType(type(self).__name__, fields)
             return _KNOWN[decisive]
 
         @functools.cached_property
@@ -134,18 +123,16 @@ else:
             return value.numba_type
         return tuple(map(type, value)) if isinstance(value, tuple) else type(value)
 
-    def _address_of(array):
-        try:
-            return ctypes.addressof(ctypes.c_char.from_buffer(array))
-        except (TypeError, ValueError):  # read-only or empty; for others this takes three times as long
-            return array.ctypes.data
-
     def _words_of(value):
         """The words of an entry."""
         if isinstance(value, np.ndarray):
             if not value.flags.c_contiguous:
                 raise ValueError("an array of a packed tuple has to be contiguous")
-            return _address_of(value), *value.shape
+            try:
+                address = ctypes.addressof(ctypes.c_char.from_buffer(value))
+            except (TypeError, ValueError):  # read-only or empty; for others this takes three times as long
+                address = value.ctypes.data
+            return address, *value.shape
         if isinstance(value, _Packed):
             return (value.address,)
         return (*value, *(0,) * (_ROOM - len(value))) if isinstance(value, tuple) else (value,)

@@ -9,6 +9,8 @@ Pairs of diametral modes fill a block of eight lanes as (a, a, a, a, b, b, b, b)
 the two members of each pair.
 """
 
+import functools
+from itertools import accumulate
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -47,11 +49,8 @@ def aligned(n):
 
 def aligned_pieces(*sizes):
     """Zeros of these sizes, all but the last whole blocks, cut from one array: aligning takes as long as ten cuts."""
-    block, pieces, start = aligned(sum(sizes)), [], 0
-    for size in sizes:
-        pieces.append(block[start : start + size])
-        start += size
-    return pieces
+    block = aligned(sum(sizes))
+    return [block[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
 
 
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
@@ -111,18 +110,37 @@ else:
         def __init__(self, dmm, fe_type):
             super().__init__(dmm, fe_type, _VECTOR)
 
-    def _element(context, builder, sig, args):
-        """Pointer to the element of the array and the index that come first."""
-        data = context.make_array(sig.args[0])(context, builder, args[0]).data
-        return builder.gep(data, [args[1]])
+    def _instruction(result, *arguments):
+        """Let kernels call a function that writes LLVM code.
 
-    def _block(context, builder, sig, args):
-        """Pointer to the lanes that begin there."""
-        return builder.bitcast(_element(context, builder, sig, args), _VECTOR.as_pointer())
+        result, arguments : their types, None for an array, whose address the function receives
+        """
 
-    def _call(builder, name, result, *args):
-        """Call of an LLVM intrinsic by its mangled name."""
-        signature = ir.FunctionType(result, [a.type for a in args])
+        def made(write):
+            @intrinsic
+            @functools.wraps(write)  # numba reads the names of the arguments
+            def instruction(typingctx, *given):
+                def codegen(context, builder, sig, args):
+                    values = [
+                        context.make_array(kind)(context, builder, value).data if stated is None else value
+                        for stated, kind, value in zip(arguments, sig.args, args, strict=True)
+                    ]
+                    written = write(builder, *values)
+                    return context.get_dummy_value() if result == types.void else written
+
+                return result(*(stated or kind for stated, kind in zip(arguments, given, strict=True))), codegen
+
+            return instruction
+
+        return made
+
+    def _block(builder, array, i):
+        """Pointer to the lanes that begin at an element."""
+        return builder.bitcast(builder.gep(array, [i]), _VECTOR.as_pointer())
+
+    def _call(builder, name, *args):
+        """Call of an LLVM intrinsic by its mangled name; its result is of the type of the arguments."""
+        signature = ir.FunctionType(args[0].type, [a.type for a in args])
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
 
     def _shuffle(builder, v, indices):
@@ -144,118 +162,71 @@ else:
             v = instruction(builder, low, high)
         return builder.extract_element(v, _I32(0))
 
-    @intrinsic
-    def load(typingctx, array, i):
+    @_instruction(LANES, None, types.intp)
+    def load(builder, array, i):
         """Lanes array[i:i+8]."""
+        return builder.load(_block(builder, array, i), align=8)
 
-        def codegen(context, builder, sig, args):
-            return builder.load(_block(context, builder, sig, args), align=8)
-
-        return LANES(array, types.intp), codegen
-
-    @intrinsic
-    def store(typingctx, array, i, v):
+    @_instruction(types.void, None, types.intp, LANES)
+    def store(builder, array, i, v):
         """array[i:i+8] = v."""
+        builder.store(v, _block(builder, array, i), align=8)
 
-        def codegen(context, builder, sig, args):
-            builder.store(args[2], _block(context, builder, sig, args), align=8)
-            return context.get_dummy_value()
-
-        return types.void(array, types.intp, LANES), codegen
-
-    @intrinsic
-    def splat(typingctx, x):
+    @_instruction(LANES, types.float64)
+    def splat(builder, x):
         """All lanes equal to x."""
+        return _copies(builder, x)
 
-        def codegen(context, builder, sig, args):
-            return _copies(builder, args[0])
-
-        return LANES(types.float64), codegen
-
-    @intrinsic
-    def spread(typingctx, array, i):
+    @_instruction(LANES, None, types.intp)
+    def spread(builder, array, i):
         """All lanes equal to array[i], i >= 0: no check of the sign, unlike ``splat(array[i])``."""
+        return _copies(builder, builder.load(builder.gep(array, [i])))
 
-        def codegen(context, builder, sig, args):
-            return _copies(builder, builder.load(_element(context, builder, sig, args)))
-
-        return LANES(array, types.intp), codegen
-
-    @intrinsic
-    def item(typingctx, array, i):
+    @_instruction(types.float64, None, types.intp)
+    def item(builder, array, i):
         """array[i], i >= 0: no check of the sign, which took a third of the time where a loop counts down."""
+        return builder.load(builder.gep(array, [i]))
 
-        def codegen(context, builder, sig, args):
-            return builder.load(_element(context, builder, sig, args))
-
-        return types.float64(array, types.intp), codegen
-
-    @intrinsic
-    def put(typingctx, array, i, x):
+    @_instruction(types.void, None, types.intp, types.float64)
+    def put(builder, array, i, x):
         """array[i] = x, i >= 0: no check of the sign."""
+        builder.store(x, builder.gep(array, [i]))
 
-        def codegen(context, builder, sig, args):
-            builder.store(args[2], _element(context, builder, sig, args))
-            return context.get_dummy_value()
-
-        return types.void(array, types.intp, types.float64), codegen
-
-    @intrinsic
-    def fma(typingctx, a, b, c):
+    @_instruction(LANES, LANES, LANES, LANES)
+    def fma(builder, a, b, c):
         """a * b + c, lane by lane; rounded once where the processor can, since software takes 500 times as long."""
+        return _call(builder, "llvm.fmuladd.v8f64", a, b, c)
 
-        def codegen(context, builder, sig, args):
-            return _call(builder, "llvm.fmuladd.v8f64", _VECTOR, *args)
-
-        return LANES(LANES, LANES, LANES), codegen
-
-    def _lane_by_lane(instruction):
+    def _lane_by_lane(write):
         """An instruction of LLVM applied to two values lane by lane."""
-
-        @intrinsic
-        def operation(typingctx, a, b):
-            return LANES(LANES, LANES), lambda context, builder, sig, args: instruction(builder, *args)
-
-        return operation
+        return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
     mul = _lane_by_lane(ir.IRBuilder.fmul)
     add = _lane_by_lane(ir.IRBuilder.fadd)
     sub = _lane_by_lane(ir.IRBuilder.fsub)
-    maximum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", _VECTOR, a, b))
-    minimum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", _VECTOR, a, b))
+    maximum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
+    minimum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
 
-    @intrinsic
-    def swap_halves(typingctx, v):
+    @_instruction(LANES, LANES)
+    def swap_halves(builder, v):
         """Lanes 4..7, then 0..3."""
+        return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
 
-        def codegen(context, builder, sig, args):
-            return _shuffle(builder, args[0], [4, 5, 6, 7, 0, 1, 2, 3])
-
-        return LANES(LANES), codegen
-
-    @intrinsic
-    def total(typingctx, v):
+    @_instruction(types.float64, LANES)
+    def total(builder, v):
         """Sum of the lanes, by halves."""
+        return _fold(builder, v, ir.IRBuilder.fadd)
 
-        def codegen(context, builder, sig, args):
-            return _fold(builder, args[0], ir.IRBuilder.fadd)
-
-        return types.float64(LANES), codegen
-
-    @intrinsic
-    def absolute(typingctx, v):
+    @_instruction(LANES, LANES)
+    def absolute(builder, v):
         """Lane by lane modulus."""
+        return _call(builder, "llvm.fabs.v8f64", v)
 
-        def codegen(context, builder, sig, args):
-            return _call(builder, "llvm.fabs.v8f64", _VECTOR, *args)
-
-        return LANES(LANES), codegen
-
-    @intrinsic
-    def largest(typingctx, v):
+    @_instruction(types.float64, LANES)
+    def largest(builder, v):
         """Largest lane."""
 
         def larger(builder, low, high):
-            return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low.type, low, high)
+            return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low, high)
 
-        return types.float64(LANES), lambda context, builder, sig, args: _fold(builder, args[0], larger)
+        return _fold(builder, v, larger)
