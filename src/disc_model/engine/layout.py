@@ -19,7 +19,7 @@ from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
 
-# Rows of Model.lanes.
+# Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
 SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
 
 # Number of coefficients of a series; rows of Series.modes where e and scratch begin (z begins at 0); offsets of the
@@ -55,7 +55,6 @@ class Model(NamedTuple):
     damping: np.ndarray  # 2 xi omega
     mode_amplitude: np.ndarray  # psi_l in a-lanes, 0 in b-lanes
     dw_dtheta: np.ndarray  # l psi_l in b-lanes, 0 in a-lanes: sum(dw_dtheta z) = dw/dtheta under the slider
-    bend: np.ndarray  # -l^2 psi_l in a-lanes: sum(bend z) = d2w/dtheta2 there
     stiffness0: np.ndarray
     damping0: np.ndarray
     mode_amplitude0: np.ndarray
@@ -146,8 +145,8 @@ def drive_angle(model, time):
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
-    z, e and scratch are views of ``modes``; f to down are views of ``slider``, ``ROWS`` doubles each. Behind them stand
-    those of B / r_0, under the normal force, and of Omega and N, on a ramp.
+    z and e are views of ``modes``, whose end is scratch; f to down of ``slider``, ``ROWS`` doubles each. Behind them
+    stand those of B / r_0, under the normal force, and of Omega and N, on a ramp.
     """
 
     modes: np.ndarray
@@ -166,7 +165,6 @@ class Series(NamedTuple):
     powers: np.ndarray
     up: np.ndarray  # unit / (k + 1): integrates
     down: np.ndarray  # (k + 1) / unit: differentiates
-    scratch: np.ndarray
     roots: np.ndarray  # work space of the root finder
     amplitudes: np.ndarray  # of the modes of stick: real parts, imaginary parts; then those at a later time
 
@@ -187,11 +185,6 @@ class EngineState(NamedTuple):
 # already used its closed form as far as possible. The time is TIME + TIME_LOW, summed with compensation so that event
 # times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
 TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, PROPAGATED, DRIVE, LOAD, SCALARS = range(14)
-
-
-def lanes_for(n_pairs):
-    """Number of lanes that hold ``n_pairs`` pairs of modes (at least one block)."""
-    return WIDTH * max(1, -(-n_pairs // HALF))
 
 
 def pair_lanes(n_pairs):
@@ -218,7 +211,7 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     N, k, c, m = (slider[name] for name in ("N", "k", "c", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
-    width, lane = lanes_for(len(pairs)), pair_lanes(len(pairs))
+    width, lane = WIDTH * max(1, -(-len(pairs) // HALF)), pair_lanes(len(pairs))
     lanes = aligned((MINUS_AMPLITUDE_STIFFNESS + 1) * width)
     rows = lanes.reshape(-1, width)
     rows[SHIFT, lane], rows[SHIFT, lane + HALF] = diameters[pairs], -diameters[pairs]
@@ -235,13 +228,15 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
     modes = no_modes()
     if not normal:
+        each, n0 = np.concatenate([pairs, single, pairs]), len(single)
+        shape = np.where(np.arange(len(each)) < len(pairs) + n0, psi[each], 0.0)
+        place = np.concatenate([lane, 2 * width + np.arange(n0), lane + HALF])
         modes = build_stick_modes(
-            (omega[pairs], damping[pairs], psi[pairs], lane, lane + HALF, width),
-            (omega[single], damping[single], psi[single], 2 * width + np.arange(len(single)), len(single)),
-            slider=2 * (width + len(single)), length=disc_size(width, len(single), compliance > 0.0),
+            omega[each], damping[each], shape, np.stack([place, place + np.where(diameters[each] > 0, width, n0)]),
+            slider=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0),
             N=N, k=k, c=c, m=m, unit=unit, compliance=compliance,
         )  # fmt: skip
-    views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta", "bend"), rows, strict=False))
+    views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(
         lanes=lanes,
         more_blocks=(more,) if more else (0, 0),
@@ -302,10 +297,9 @@ def build_series(model: Model, order: int) -> Series:
     rows = slider.reshape(-1, ROWS)
     np.divide(model.unit, _FROM_1, out=rows[UP // ROWS])
     np.divide(_FROM_1, model.unit, out=rows[DOWN // ROWS])
-    z, e, scratch = modes[: E * width], modes[E * width : SCRATCH * width], modes[SCRATCH * width :]
-    return Series._make(
-        (modes, slider, z, e, y, g, *rows[: SLOPE_SERIES // ROWS], scratch, roots.reshape(ROOT_ROWS, -1), amplitudes)
-    )
+    z, e = modes[: E * width], modes[E * width : SCRATCH * width]
+    views = rows[: SLOPE_SERIES // ROWS]
+    return Series(modes, slider, z, e, y, g, *views, roots.reshape(ROOT_ROWS, -1), amplitudes)
 
 
 def build_state(model: Model) -> EngineState:

@@ -55,12 +55,11 @@ def no_modes() -> StickModes:
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
-def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
+def _eigenmodes(omega, damping, psi, k, c, m, unit):
     """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; see `_decomposed`.
 
-    frequencies: omega; dampings: 2 xi omega; shapes: psi, 0 for a mode that does not feel the slider.
+    damping: 2 xi omega; psi: 0 for a mode that does not feel the slider.
     """
-    omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
     rank_one = np.outer(psi, psi)
     inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * psi @ psi))
     return _decomposed(
@@ -68,9 +67,8 @@ def _eigenmodes(frequencies, dampings, shapes, k, c, m, unit):
     )
 
 
-def _compliant_eigenmodes(frequencies, dampings, shapes, k, c, m, unit, compliance):
+def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
     """Modes as of `_eigenmodes` for a compliant contact: the last entry of d is the slider's u."""
-    omega, damping, psi = np.array(frequencies), np.array(dampings), np.array(shapes)
     stretch = np.append(psi, -1.0)
     mass = np.append(np.ones(len(omega)), m)
     stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
@@ -100,32 +98,25 @@ def _decomposed(stiffness, damping, scale, unit):
     both = np.hstack([vectors, vectors.conj()])
     if np.linalg.cond(both) > WORST_CONDITION:
         return None
-    to_modes = np.linalg.inv(both)[:n]
-    # back to displacements and to velocities per second
-    to_modes = to_modes * np.concatenate([scale, np.full(n, unit)])
-    vectors = vectors / np.concatenate([scale, np.full(n, unit)])[:, None]
     decay = np.where(rates.real > -1e-15, 0.0, rates.real)
-    return decay + 1j * rates.imag, vectors, to_modes
+    back = np.concatenate([scale, np.full(n, unit)])  # to displacements and to velocities per second
+    return decay + 1j * rates.imag, vectors / back[:, None], np.linalg.inv(both)[:n] * back
 
 
-def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, compliance) -> StickModes:
+def build_stick_modes(omega, damping, shape, places, *, slider, length, N, k, c, m, unit, compliance) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
-    pairs : of the diametral modes: omega, damping, psi, indices of a, b in `EngineState.disc`, offset of velocities
-    single : of the axisymmetric modes: omega, damping, psi, their indices, offset of velocities
+    omega, damping, shape : of the components a, the modes without nodal diameter and the components b, whose shape is 0
+    places : shape (2, n), of their displacements and velocities in `EngineState.disc`
     slider : index of u in `EngineState.disc`, followed by u', where contact is compliant
     length : of `EngineState.disc`
     """
-    omega, damping, psi = (np.concatenate([pairs[i], single[i], pairs[i]]) for i in range(3))
-    n, held = len(omega), len(pairs[0]) + len(single[0])
-    shape = np.where(np.arange(n) < held, psi, 0.0)
+    n = len(omega)
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
-    place = np.concatenate([pairs[3], single[3], pairs[4]])
-    after = np.concatenate([pairs[3] + pairs[5], single[3] + single[4], pairs[4] + pairs[5]])
     if compliance:
-        place, after = np.append(place, slider), np.append(after, slider + 1)
-    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, np.concatenate([place, after])))
+        places = np.hstack([places, [[slider], [slider + 1]]])
+    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, places.ravel()))
     modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit), float(compliance))
     return modes._replace(rest=N * modes.rest, offset=N * modes.offset)
 
@@ -133,11 +124,11 @@ def build_stick_modes(pairs, single, *, slider, length, N, k, c, m, unit, compli
 @lru_cache(maxsize=256)
 def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, compliance) -> StickModes:
     """`StickModes` for N = 1, shared by many cases; ``places`` are the indices of (d, d') in `EngineState.disc`."""
-    system = (frequencies, dampings, shapes, k, c, m, unit)
+    omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
+    system = (omega, damping, shape, k, c, m, unit)
     modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
     if modes is None:
         return no_modes()
-    omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
     rest = aligned(length)
     rest[where[: len(omega)]] = -shape / omega**2
     # dP of a unit change of each displacement and velocity
