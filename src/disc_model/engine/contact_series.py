@@ -22,6 +22,7 @@ from .layout import (
     U_SERIES,
     UP,
     V_SERIES,
+    E,
     F,
     compliance_of,
     is_normal,
@@ -30,33 +31,30 @@ from .layout import (
 from .series import (
     _CARRIED,
     _axisymmetric,
+    _begin_orders,
     _disc_point,
     _e,
-    _first_order,
+    _end_slip,
     _kept,
     _last_force,
-    _order,
-    _order_from_memory,
-    _order_zero,
+    _modal_sum,
+    _move_slider,
+    _next_order,
     _row,
-    _set_e,
-    _set_event_function,
+    _spring,
     _stick_order,
     _z,
     drive,
     lane_count,
     load_at,
 )
-from .simd import WIDTH, add, fma, item, mul, splat, total
+from .simd import WIDTH, fma, item, mul, total
 
 
 @inlined
 def _deflection(model, s, k):
     """w of order k."""
-    width, n, lanes = lane_count(model), len(model.mode_amplitude0), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, AMPLITUDE_ROW, b), _z(s, k * width + b), lanes)
-    w = total(lanes)
+    n, w = len(model.mode_amplitude0), _modal_sum(model, s, AMPLITUDE_ROW, k)
     for j in range(n):
         w += model.mode_amplitude0[j] * s.y[k * n + j]
     return w
@@ -65,19 +63,13 @@ def _deflection(model, s, k):
 @inlined
 def _slope(model, s, k):
     """beta = B / r_0 of order k."""
-    width, lanes = lane_count(model), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, DW_DTHETA, b), _z(s, k * width + b), lanes)
-    return total(lanes) / model.r_0
+    return _modal_sum(model, s, DW_DTHETA, k) / model.r_0
 
 
 @inlined
 def _disc_velocity(model, s):
     """Order 0 of the disc's velocity under the slider, without f_0 B."""
-    width, lanes = lane_count(model), splat(0.0)
-    for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, AMPLITUDE_ROW, b), _e(s, width, b), lanes)
-    v = total(lanes)
+    v = _modal_sum(model, s, AMPLITUDE_ROW, E)
     for j in range(len(model.mode_amplitude0)):
         v += model.mode_amplitude0[j] * s.g[j]
     return v
@@ -95,15 +87,6 @@ def _closing(model, s, k, e, carried):
     for j in range(n):
         v += item(model.mode_amplitude0, j) * item(s.g, k * n + j)
     return v
-
-
-@inlined
-def _spring(model, s, k):
-    """F of order k, from psi_k and f_k."""
-    F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
-    if is_ramped(model):
-        return F_k + model.c_p * s.slider[DRIVE_SERIES + k]
-    return F_k + model.c_p * model.Omega if k == 0 else F_k
 
 
 @inlined
@@ -128,29 +111,16 @@ def _leverage(s, k):
 
 
 @inlined
-def _move_slider(model, s, k, f_rate, acceleration):
-    """psi, f, u, u' of order k + 1 from the rates of order k."""
-    up = s.slider[UP + k]
-    driven = drive(model, s) if k == 0 else 0.0
-    if is_ramped(model) and k == 1:
-        driven = s.slider[DRIVE_SERIES + 1]
-    s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
-    s.slider[F + k + 1] = f_rate * up
-    s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
-    s.slider[V_SERIES + k + 1] = acceleration * up
-
-
-@inlined
 def compliant_slip_series(model, s, order, direction):
     """Slip on a compliant contact.  Returns V / R, whose zero is a jammed contact; 1 under the vertical force.
 
     Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
     """
-    width, stiffness, friction = lane_count(model), 1.0 / compliance_of(model.compliance), direction * model.mu_k
+    stiffness, friction = 1.0 / compliance_of(model.compliance), direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
-    e, carried, e_last, z_last = _e(s, width, 0), splat(0.0), splat(0.0), splat(0.0)
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
+    _, pending, _, _, first = _begin_orders(model, s, f0)
     for k in range(order):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -170,21 +140,11 @@ def compliant_slip_series(model, s, order, direction):
         s.slider[P_SERIES + k] = R
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
-        if k == 0:
-            for b in range(0, width, WIDTH):
-                _order_zero(model, s, width, b, f0)
-            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
-            e_last, z_last = _e(s, width, 0), _z(s, width)
-        else:
-            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
-            for b in range(WIDTH, width, WIDTH):
-                _order_from_memory(model, s, width, b, k, f, f0, impulse)
-        _axisymmetric(model, s, k, impulse)
-        closing = _closing(model, s, k + 1, e, carried)
+        if k > 0:
+            _, _, pending, first = _next_order(model, s, k, f, f0, impulse, pending, first)
+        closing = _closing(model, s, k + 1, first[0], first[1])
         impulse = V * s.slider[UP + k]
-    _set_e(s, width, order * width, e)
-    _last_force(model, s, order, impulse)
-    _set_event_function(s, order, direction)
+    _end_slip(model, s, order, direction, first[0], impulse)
     return ratio
 
 
@@ -254,7 +214,6 @@ def normal_slip_series(model, s, order, direction):
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
     """
-    width = lane_count(model)
     f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.inverse_effective_mass
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
@@ -262,29 +221,16 @@ def normal_slip_series(model, s, order, direction):
     denominator = slip_denominator(model, model.m, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
-    coriolis = total(by_e)
-    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
-    # see slip_series
-    inertia = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
+    inertia, pending, by_f, by_f_rate, first = _begin_orders(model, s, f0)
     h, impulse = 0.0, 0.0
-    e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
-    e_last, z_last = _e(s, width, 0), _z(s, width)
     for k in range(order):
         f = s.slider[F + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)
-            more, left, e, carried, e_last, z_last = _order(
-                model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
-            )
-            part, pending = add(pending, more), left
-            for b in range(WIDTH, width, WIDTH):
-                more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
-                part, pending = add(part, more), add(pending, left)
-            single = _axisymmetric(model, s, k, impulse)
+            pairs, single, pending, first = _next_order(model, s, k, f, f0, impulse, pending, first)
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
-            inertia = total(part) + single + f * by_speed + impulse * model.damped_inverse_mass
+            inertia = pairs + single + f * by_speed + impulse * model.damped_inverse_mass
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
         R = (top + h * (mobility * friction - beta)) * inverse
@@ -293,7 +239,5 @@ def normal_slip_series(model, s, order, direction):
         rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
         impulse = V * s.slider[UP + k]
-    _set_e(s, width, order * width, e)
-    _last_force(model, s, order, impulse)
-    _set_event_function(s, order, direction)
+    _end_slip(model, s, order, direction, first[0], impulse)
     return denominator

@@ -107,20 +107,23 @@ def _keep(s, row, width, b, v):
 
 
 @inlined
+def _modal_sum(model, s, row, k):
+    """Sum of a row of the model times row k of ``Series.modes``: displacements of order k, or velocities from E on."""
+    width, lanes = lane_count(model), splat(0.0)
+    for b in range(0, width, WIDTH):
+        lanes = fma(_row(model, row, b), _z(s, k * width + b), lanes)
+    return total(lanes)
+
+
+@inlined
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
-    width, u, v, dw_dtheta = lane_count(model), splat(0.0), splat(0.0), splat(0.0)
-    for b in range(0, width, WIDTH):
-        force, z = _row(model, AMPLITUDE_ROW, b), _z(s, b)
-        u = fma(force, z, u)
-        v = fma(force, _e(s, width, b), v)
-        dw_dtheta = fma(_row(model, DW_DTHETA, b), z, dw_dtheta)
-    B = total(dw_dtheta)
-    u0, v0 = total(u), total(v) + s.slider[F] * B
+    B = _modal_sum(model, s, DW_DTHETA, 0)
+    u, v = _modal_sum(model, s, AMPLITUDE_ROW, 0), _modal_sum(model, s, AMPLITUDE_ROW, E) + s.slider[F] * B
     for j in range(len(model.mode_amplitude0)):
-        u0 += model.mode_amplitude0[j] * s.y[j]
-        v0 += model.mode_amplitude0[j] * s.g[j]
-    return u0, v0, B
+        u += model.mode_amplitude0[j] * s.y[j]
+        v += model.mode_amplitude0[j] * s.g[j]
+    return u, v, B
 
 
 @inlined
@@ -253,24 +256,6 @@ def _order_zero(model, s, width, b, f0):
 
 
 @inlined
-def _first_order(model, s, width, f0):
-    """Order 0 of all blocks.  Returns (lanes) their part of u'', the pending part, and the factors of f.
-
-    The factors of f are slope e_0, bend z_0 and slope z_1.
-    """
-    zero = splat(0.0)
-    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
-    for b in range(0, width, WIDTH):
-        pending = add(pending, _order_zero(model, s, width, b, f0))
-        z, e = _z(s, b), _e(s, width, b)
-        now = add(now, _pending(model, s, width, b, e, z, zero))
-        by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
-        by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, DW_DTHETA, b), _z(s, width + b), by_z1)
-    return now, pending, by_e, by_z, by_z1
-
-
-@inlined
 def _axisymmetric_mode(model, s, k, n, j, impulse):
     """Mode j of n without nodal diameter, order k: it only feels P.  Returns its part of u'' without P_{k-1}."""
     at, up, force, damping = k * n + j, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
@@ -296,6 +281,67 @@ def _axisymmetric(model, s, k, impulse):
 
 
 @inlined
+def _begin_orders(model, s, f0):
+    """Order 0 of all modes; ``_next_order`` takes the second and the last value returned.
+
+    Returns u'' without P and f', the part of u'' pending for order 1 (lanes), the factors of f_k and of (k + 1) f_k in
+    u'', and values of the first block.
+    """
+    width, zero = lane_count(model), splat(0.0)
+    now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
+    for b in range(0, width, WIDTH):
+        pending = add(pending, _order_zero(model, s, width, b, f0))
+        z, e = _z(s, b), _e(s, width, b)
+        now = add(now, _pending(model, s, width, b, e, z, zero))
+        by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
+        by_z = fma(_row(model, BEND, b), z, by_z)
+        by_z1 = fma(_row(model, DW_DTHETA, b), _z(s, width + b), by_z1)
+    coriolis = total(by_e)
+    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
+    # C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
+    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
+    first = _e(s, width, width), _kept(s, _CARRIED, width, 0), _e(s, width, 0), _z(s, width)
+    return acceleration, pending, by_f, by_f_rate, first
+
+
+@inlined
+def _next_order(model, s, k, f, f0, impulse, pending, first):
+    """Order k >= 1 of all modes; ``first``: what ``_order`` takes last and returns last, for the first block.
+
+    Returns the parts of u'' of the pairs and of the other modes, and ``pending`` and ``first`` of the next order.
+    """
+    width = lane_count(model)
+    part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, *first)
+    part = add(pending, part)
+    for b in range(WIDTH, width, WIDTH):
+        more, more_left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
+        part, left = add(part, more), add(left, more_left)
+    return total(part), _axisymmetric(model, s, k, impulse), left, (e, carried, e_last, z_last)
+
+
+@inlined
+def _spring(model, s, k):
+    """F of order k, from psi_k and f_k."""
+    F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
+    if is_ramped(model):
+        return F_k + model.c_p * s.slider[DRIVE_SERIES + k]
+    return F_k + model.c_p * model.Omega if k == 0 else F_k
+
+
+@inlined
+def _move_slider(model, s, k, f_rate, acceleration):
+    """psi, f, u, u' of order k + 1 from the rates of order k."""
+    up = s.slider[UP + k]
+    driven = drive(model, s) if k == 0 else 0.0
+    if is_ramped(model) and k == 1:
+        driven = s.slider[DRIVE_SERIES + 1]
+    s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
+    s.slider[F + k + 1] = f_rate * up
+    s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
+    s.slider[V_SERIES + k + 1] = acceleration * up
+
+
+@inlined
 def _last_force(model, s, order, impulse):
     """Put the last contact force into the velocities of the highest order."""
     width, n, q = lane_count(model), len(model.mode_amplitude0), splat(impulse)
@@ -307,8 +353,11 @@ def _last_force(model, s, order, impulse):
 
 
 @inlined
-def _set_event_function(s, order, direction):
-    """Set the event function of slip, and clear the order beyond the known ones."""
+def _end_slip(model, s, order, direction, e, impulse):
+    """Complete the highest order, set the event function, and clear the order beyond the known ones."""
+    width = lane_count(model)
+    _set_e(s, width, order * width, e)
+    _last_force(model, s, order, impulse)
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
     # remains of an earlier step in another phase
@@ -322,7 +371,6 @@ def slip_series(model, s, order, direction):
     Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the event function
     direction * f.
     """
-    width = lane_count(model)
     f0, psi = s.slider[F], s.slider[PSI_SERIES]
     u, v, dw_dtheta = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
@@ -332,22 +380,12 @@ def slip_series(model, s, order, direction):
     recoil = model.inverse_effective_mass + braking * dw_dtheta
     spring, damper = model.k_p / model.m, model.c_p / model.m
 
-    now, pending, by_e, by_z, by_z1 = _first_order(model, s, width, f0)
-    coriolis = total(by_e)
-    by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
-    # order 0: C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
-    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
+    acceleration, pending, by_f, by_f_rate, first = _begin_orders(model, s, f0)
     pull = spring * psi + damper * (drive(model, s) - f0)
     vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     P = (vertical + model.m * (acceleration + dw_dtheta * pull)) * inverse
     s.slider[P_SERIES] = P
     psi = (drive(model, s) - f0) * s.slider[UP]
-    e, carried, e_last, z_last = (
-        _e(s, width, width),
-        _kept(s, _CARRIED, width, 0),
-        _e(s, width, 0),
-        _z(s, width),
-    )
     by_u, by_v, by_pull, weight = inverse * model.k, inverse * model.c, inverse * model.m * dw_dtheta, inverse * model.m
     for k in range(1, order + 1):
         up = s.slider[UP + k - 1]
@@ -358,16 +396,9 @@ def slip_series(model, s, order, direction):
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
-        more, left, e, carried, e_last, z_last = _order(
-            model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last
-        )
-        part, pending = add(pending, more), left
-        for b in range(WIDTH, width, WIDTH):
-            more, left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
-            part, pending = add(part, more), add(pending, left)
+        pairs, single, pending, first = _next_order(model, s, k, f, f0, impulse, pending, first)
         by_speed = by_f + by_f_rate * s.slider[DOWN + k]
-        single = _axisymmetric(model, s, k, impulse)
-        acceleration = total(part) + (single + f * by_speed + impulse * model.damped_inverse_mass)
+        acceleration = pairs + (single + f * by_speed + impulse * model.damped_inverse_mass)
         pull = spring * psi - damper * f
         P = weight * acceleration + (by_u * u + by_v * v + by_pull * pull)
         psi = -f * s.slider[UP + k]
@@ -377,9 +408,7 @@ def slip_series(model, s, order, direction):
             pull += more_pull
             P += s.slider[LOAD_SERIES + 1] * inverse + by_pull * more_pull
         s.slider[P_SERIES + k] = P
-    _set_e(s, width, order * width, e)
-    _last_force(model, s, order, P * s.slider[UP + order - 1])
-    _set_event_function(s, order, direction)
+    _end_slip(model, s, order, direction, first[0], P * s.slider[UP + order - 1])
     return denominator
 
 
@@ -440,10 +469,8 @@ def stick_series(model, s, order):
     _last_force(model, s, order, impulse)
     s.slider[F + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
-    start, growth = (
-        model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s)),
-        model.r_0 * model.k_p * s.slider[PSI_SERIES + 1],
-    )
+    start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
+    growth = model.r_0 * model.k_p * s.slider[PSI_SERIES + 1]
     if is_ramped(model):
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
         growth += model.r_0 * model.c_p * s.slider[DRIVE_SERIES + 1]
@@ -459,37 +486,16 @@ def stick_series(model, s, order):
 @inlined
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
-    width, n = lane_count(model), len(model.mode_amplitude0)
-    f0, driven, weight = s.slider[F], drive(model, s), load_at(model, s) - model.k * model.u_0
-    pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (driven - f0)
-    e, carried, e_last, z_last = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    n, f0, weight = len(model.mode_amplitude0), s.slider[F], load_at(model, s) - model.k * model.u_0
+    pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (drive(model, s) - f0)
+    _, pending, _, _, first = _begin_orders(model, s, f0)
     for k in range(order + 1):
-        if k == 0:
-            for b in range(0, width, WIDTH):
-                _order_zero(model, s, width, b, f0)
-            e, carried = _e(s, width, width), _kept(s, _CARRIED, width, 0)
-            e_last, z_last = _e(s, width, 0), _z(s, width)
-        else:
-            pull, driven, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0, 0.0
-            if is_ramped(model):
-                driven, weight = s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
-                pull += model.c_p * driven
-            f = s.slider[F + k]
-            _, _, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, 0.0, e, carried, e_last, z_last)
-            for b in range(WIDTH, width, WIDTH):
-                _order_from_memory(model, s, width, b, k, f, f0, 0.0)
-        _axisymmetric(model, s, k, 0.0)
-        w = splat(0.0)
-        for b in range(0, width, WIDTH):
-            w = fma(_row(model, AMPLITUDE_ROW, b), _z(s, k * width + b), w)
-        gap = s.slider[U_SERIES + k] - total(w)
+        if k > 0:
+            pull, weight = _spring(model, s, k), s.slider[LOAD_SERIES + k] if is_ramped(model) else 0.0
+            _, _, pending, first = _next_order(model, s, k, s.slider[F + k], f0, 0.0, pending, first)
+        gap = s.slider[U_SERIES + k] - _modal_sum(model, s, AMPLITUDE_ROW, k)
         for j in range(n):
             gap -= model.mode_amplitude0[j] * s.y[k * n + j]
         s.slider[SWITCH + k], s.slider[P_SERIES + k] = gap, 0.0
-        up = s.slider[UP + k]
-        s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
-        s.slider[F + k + 1] = pull / model.m * up
-        s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
-        s.slider[V_SERIES + k + 1] = (
-            -(weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]) / model.m * up
-        )
+        weight = weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
+        _move_slider(model, s, k, pull / model.m, -weight / model.m)
