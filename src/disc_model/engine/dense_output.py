@@ -1,24 +1,8 @@
 """State and contact force at a point of the dense output."""
 
+from . import layout
 from .compile import inlined
-from .layout import (
-    DRIVE,
-    DRIVE_SERIES,
-    LOAD,
-    LOAD_SERIES,
-    PHASE,
-    PSI,
-    SEPARATION,
-    SPEED,
-    STICK,
-    U_VELOCITY,
-    E,
-    U,
-    is_compliant,
-    is_normal,
-    is_ramped,
-    ramp_of,
-)
+from .layout import DRIVE_SERIES, LOAD_SERIES, E, is_compliant, is_normal, is_ramped, ramp_of
 from .polynomial import value, value_by_halves
 from .series import lane_count
 from .simd import WIDTH, fma, load, splat, store
@@ -56,14 +40,15 @@ def state_at(model, s, order, x, phase, state):
     """
     _modes_at(model, s, order, x, state)
     psi, f = value_by_halves(s.psi, 0, 1, order, x), value_by_halves(s.f, 0, 1, order, x)
-    if is_compliant(model) or phase == SEPARATION:
-        state.x[U], state.x[U_VELOCITY] = value_by_halves(s.u, 0, 1, order, x), value_by_halves(s.v, 0, 1, order, x)
-    state.x[PHASE] = phase
-    state.x[PSI] = psi
-    state.x[SPEED] = 0.0 if phase == STICK else f
+    if is_compliant(model) or phase == layout.SEPARATION:
+        state.x[layout.U] = value_by_halves(s.u, 0, 1, order, x)
+        state.x[layout.U_VELOCITY] = value_by_halves(s.v, 0, 1, order, x)
+    state.x[layout.PHASE] = phase
+    state.x[layout.PSI] = psi
+    state.x[layout.SPEED] = 0.0 if phase == layout.STICK else f
     if is_ramped(model):
-        state.x[DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
-        state.x[LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
+        state.x[layout.DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
+        state.x[layout.LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
 
 
 @inlined
@@ -80,10 +65,10 @@ def force_at(model, s, order, x, phase, state):
     """Contact force at x, where ``move_to`` has put ``state``."""
     if order == CLOSED_FORM:
         return stick_force(model, state)
-    if phase == SEPARATION:
+    if phase == layout.SEPARATION:
         return 0.0
     P = value(s.P, 0, order - 1, x)
-    return force_in_stick(model, state, P) if is_normal(model) and phase == STICK else P
+    return force_in_stick(model, state, P) if is_normal(model) and phase == layout.STICK else P
 
 
 @inlined
@@ -94,10 +79,8 @@ def load_state(model, s, state):
         store(s.e, b, load(state.e, b))
     for j in range(len(state.y)):
         s.y[j], s.g[j] = state.y[j], state.g[j]
-    s.psi[0] = state.x[PSI]
-    s.f[0] = state.x[SPEED]
-    s.u[0] = state.x[U]
-    s.v[0] = state.x[U_VELOCITY]
+    s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.SPEED]
+    s.u[0], s.v[0] = state.x[layout.U], state.x[layout.U_VELOCITY]
     if is_ramped(model):
-        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[DRIVE], ramp_of(model.ramp, 2) * model.unit
-        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[LOAD], ramp_of(model.ramp, 3) * model.unit
+        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], ramp_of(model.ramp, 2) * model.unit
+        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], ramp_of(model.ramp, 3) * model.unit

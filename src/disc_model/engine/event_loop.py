@@ -19,6 +19,8 @@ from .stick_propagator import LONGEST_STICK, closed_form_length
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
+# By the causes of ``transitions``; at rest the slider may also reverse.
+KIND_OF = (-1, STICK_TO_SLIP, STICK_TO_SLIP, SLIP_TO_STICK, LOSS_OF_CONTACT, REATTACHMENT)
 
 # Counters, shape (N_COUNTERS,).
 STEPS, EVENTS, SEPARATIONS, IN_A_ROW, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COUNTERS = range(8)
@@ -71,18 +73,6 @@ def _record(model, state, kind, buffers):
 
 
 @inlined
-def _kind(state, cause):
-    """Kind of the event of a cause, from the state after it."""
-    if cause == transitions.GAP_CLOSED:
-        return REATTACHMENT
-    if cause == transitions.CONTACT_LOST:
-        return LOSS_OF_CONTACT
-    if cause == transitions.AT_REST:
-        return SLIP_TO_STICK if state.x[layout.PHASE] == layout.STICK else SLIP_REVERSAL
-    return STICK_TO_SLIP
-
-
-@inlined
 def _apply_event(model, state, cause, at_once, buffers):
     """Carry out the event and record its events; ``at_once``: the phase had no duration.  Returns its exit code."""
     came_from, before, velocity, dw_dtheta = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
@@ -95,9 +85,11 @@ def _apply_event(model, state, cause, at_once, buffers):
         audit_impact(model, before, model.m * (state.x[layout.U_VELOCITY] - velocity), dw_dtheta, state, buffers.audit)
     if outcome == NO_SOLUTION:
         return outcome
-    kind = _kind(state, cause)
-    lost = state.x[layout.PHASE] == layout.SEPARATION and kind != LOSS_OF_CONTACT
-    if not (kind == SLIP_REVERSAL and state.x[layout.DIRECTION] == came_from) and not (kind == SLIP_REVERSAL and lost):
+    phase, kind = state.x[layout.PHASE], KIND_OF[cause]
+    if cause == transitions.AT_REST and phase != layout.STICK:
+        kind = SLIP_REVERSAL
+    lost = phase == layout.SEPARATION and kind != LOSS_OF_CONTACT
+    if kind != SLIP_REVERSAL or not (lost or state.x[layout.DIRECTION] == came_from):
         _record(model, state, kind, buffers)
     if lost:
         _record(model, state, LOSS_OF_CONTACT, buffers)
@@ -106,9 +98,7 @@ def _apply_event(model, state, cause, at_once, buffers):
 
 @inlined
 def _move(model, s, state, probe, order, x_end, audit_every, buffers):
-    """Advance the state and the clock over a step, or over stick in closed form (order ``CLOSED_FORM``), with audits
-    and samples.
-    """
+    """Advance state and clock over a step, or over stick in closed form (``CLOSED_FORM``), with audits and samples."""
     x, phase, counters = state.x, state.x[layout.PHASE], buffers.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
@@ -116,17 +106,9 @@ def _move(model, s, state, probe, order, x_end, audit_every, buffers):
         counters[FROM_AUDIT] = 0
         audit_step(model, s, order, x_end, phase, x[layout.DIRECTION], probe, buffers.audit)
     if len(buffers.samplers) > 0:
+        kept, filled = buffers.sample_rows, counters[SAMPLE_ROWS]
         counters[SAMPLE_ROWS] = sample_step(
-            model,
-            s,
-            order,
-            state,
-            x_end,
-            buffers.samplers,
-            buffers.sampled,
-            probe,
-            buffers.sample_rows,
-            counters[SAMPLE_ROWS],
+            model, s, order, state, x_end, buffers.samplers, buffers.sampled, probe, kept, filled
         )
     move_to(model, s, order, x_end, phase, state)
     x[layout.KNOWN], x[layout.FORCE], x[layout.PROPAGATED] = 0.0, 0.0, 1.0 if x_end < LONGEST_STICK else 0.0

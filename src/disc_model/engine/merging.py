@@ -21,8 +21,7 @@ from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLif
 
 from .cache import stored_helpers
 
-# Passes for constructs that no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed
-# tuples.
+# Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed tuples.
 NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
 
 

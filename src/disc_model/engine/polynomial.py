@@ -15,8 +15,7 @@ from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.
 _SETTLED = 4e-16
-# It also ends at a step whose cube is rounding, if the curvature over it is this small: the next step would be its
-# cube.
+# It also ends at a step whose cube, the next step, is rounding, if the curvature over it is this small.
 _SMALL, _STRAIGHT = 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
 

@@ -6,25 +6,12 @@ time, J the Jacobian of the jump and v the rates before and after,
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
 """
 
-from . import laws
+from . import laws, tangent
 from .compile import helper, inlined, kernel
 from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
 from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK, is_compliant
 from .simd import WIDTH, fma, load, mul, splat, store, sub, total
-from .tangent import (
-    D_COMPLIANCE,
-    D_K,
-    F_ROW,
-    LOAD,
-    N_SCALARS,
-    PSI_ROW,
-    U_ROW,
-    V_ROW,
-    n_inputs,
-    n_rows_of,
-    point_change,
-    slider_row,
-)
+from .tangent import N_SCALARS, n_inputs, n_rows_of, point_change, slider_row
 from .transitions import disc_point, event_function, instant
 
 
@@ -51,18 +38,18 @@ def rates(model, state, out):
         out[(2 * width + j) * WIDTH] = state.g[j]
         rate = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
         out[(2 * width + n0 + j) * WIDTH] = rate - model.mode_amplitude0[j] * V
-    out[slider_row(model, PSI_ROW) * WIDTH] = model.Omega - f
-    out[slider_row(model, F_ROW) * WIDTH] = rate_f
+    out[slider_row(model, tangent.PSI_ROW) * WIDTH] = model.Omega - f
+    out[slider_row(model, tangent.F_ROW) * WIDTH] = rate_f
     u, v = (i.u, i.u_velocity) if is_compliant(model) or phase == SEPARATION else (i.w, i.w_velocity)
-    out[slider_row(model, U_ROW) * WIDTH] = v
-    out[slider_row(model, V_ROW) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
+    out[slider_row(model, tangent.U_ROW) * WIDTH] = v
+    out[slider_row(model, tangent.V_ROW) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
 
 
 @inlined
 def _free_change(model, state, x, at, q, parameters, changes):
     """Change of A, ``transitions.Instant.free`` (lanes)."""
     width, n0, f = len(model.mode_amplitude), len(model.mode_amplitude0), state.x[SPEED]
-    df, acceleration = load(x, at + slider_row(model, F_ROW) * WIDTH), splat(0.0)
+    df, acceleration = load(x, at + slider_row(model, tangent.F_ROW) * WIDTH), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
             i, l = j + HALF, model.shift[j]
@@ -95,14 +82,14 @@ def _put_changes(model, state, t, x, c, changes):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
     _, _, dw_dtheta = disc_point(model, state)
     dw, dv, d_slope = point_change(model, x, at, state.x[SPEED], dw_dtheta)
-    store(t.change, PSI * WIDTH, load(x, slider + PSI_ROW * WIDTH))
-    store(t.change, F * WIDTH, load(x, slider + F_ROW * WIDTH))
+    store(t.change, PSI * WIDTH, load(x, slider + tangent.PSI_ROW * WIDTH))
+    store(t.change, F * WIDTH, load(x, slider + tangent.F_ROW * WIDTH))
     store(t.change, W * WIDTH, dw)
     store(t.change, W_VELOCITY * WIDTH, dv)
     store(t.change, DW_DTHETA * WIDTH, d_slope)
     store(t.change, FREE * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
-    store(t.change, U * WIDTH, load(x, slider + U_ROW * WIDTH))
-    store(t.change, U_VELOCITY * WIDTH, load(x, slider + V_ROW * WIDTH))
+    store(t.change, U * WIDTH, load(x, slider + tangent.U_ROW * WIDTH))
+    store(t.change, U_VELOCITY * WIDTH, load(x, slider + tangent.V_ROW * WIDTH))
 
 
 @inlined
@@ -121,9 +108,9 @@ def _set_derivative(model, i, t, row, entry, value):
     The columns' change of N contains that of -k u_0, and their change of the compliance is relative.
     """
     derivative = value.imag / laws.TINY
-    if entry == D_K:
-        derivative += model.u_0 * t.gradient[row * N_ENTRIES + LOAD]
-    elif entry == D_COMPLIANCE:
+    if entry == tangent.D_K:
+        derivative += model.u_0 * t.gradient[row * N_ENTRIES + tangent.LOAD]
+    elif entry == tangent.D_COMPLIANCE:
         derivative *= i.compliance
     t.gradient[row * N_ENTRIES + entry] = derivative
 
@@ -147,10 +134,9 @@ def event_change(model, state, t, x, c, changes):
 @helper
 def event_times(model, state, t, cause):
     """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate."""
-    C = t.columns
     event_gradient(model, state, t, cause)
     rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
-    for c in range(0, C, WIDTH):
+    for c in range(0, t.columns, WIDTH):
         store(t.tau, c, mul(splat(-1.0 / rate), event_change(model, state, t, t.now, c, c >= t.plain)))
     return rate
 
@@ -158,9 +144,8 @@ def event_times(model, state, t, cause):
 @helper
 def shift(model, t, rates_at, sign):
     """t.now += sign * rates * tau."""
-    C = t.columns
     R = n_rows_of(model)
-    for c in range(0, C, WIDTH):
+    for c in range(0, t.columns, WIDTH):
         tau = load(t.tau, c)
         for r in range(R):
             at = c * R + r * WIDTH
@@ -179,7 +164,7 @@ def impact_change(model, state, t):
     for c in range(0, t.columns, WIDTH):
         _put_changes(model, state, t, t.now, c, c >= t.plain)
         block, dp = c * n_rows_of(model), _change(t, 0)
-        store(t.now, block + slider_row(model, F_ROW) * WIDTH, _change(t, 1))
+        store(t.now, block + slider_row(model, tangent.F_ROW) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
             store(t.now, at, sub(load(t.now, at), mul(splat(model.mode_amplitude[j]), dp)))
@@ -190,21 +175,13 @@ def impact_change(model, state, t):
 
 @helper
 def slider_rows(model, state, t):
-    """Rows u, u' as the disc's: rigid contact."""
-    if is_compliant(model):
-        return
-    C = t.columns
+    """Rows of the slider that follow from the others in contact: u, u' if it is rigid, and df = 0 in stick, exactly."""
     _, _, B = disc_point(model, state)
-    for c in range(0, C, WIDTH):
+    for c in range(0, t.columns, WIDTH):
         block = c * n_rows_of(model)
-        du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
-        store(t.now, block + slider_row(model, U_ROW) * WIDTH, du)
-        store(t.now, block + slider_row(model, V_ROW) * WIDTH, dv)
-
-
-@helper
-def rest(model, t):
-    """df = 0 in stick, exactly."""
-    C = t.columns
-    for c in range(0, C, WIDTH):
-        store(t.now, c * n_rows_of(model) + slider_row(model, F_ROW) * WIDTH, splat(0.0))
+        if not is_compliant(model):
+            du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
+            store(t.now, block + slider_row(model, tangent.U_ROW) * WIDTH, du)
+            store(t.now, block + slider_row(model, tangent.V_ROW) * WIDTH, dv)
+        if state.x[PHASE] == STICK:
+            store(t.now, block + slider_row(model, tangent.F_ROW) * WIDTH, splat(0.0))

@@ -4,33 +4,16 @@ import math
 
 import numpy as np
 
-from . import transitions
+from . import layout, transitions
 from .compile import inlined
 from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
-from .layout import (
-    DIRECTION,
-    DRIVE,
-    KNOWN,
-    LOAD,
-    PHASE,
-    SEPARATION,
-    SLIP,
-    STICK,
-    TIME,
-    TIME_LOW,
-    E,
-    is_compliant,
-    is_normal,
-    is_ramped,
-    ramp_of,
-)
+from .layout import is_compliant, is_normal, is_ramped, ramp_of
 from .polynomial import NO_ROOT, first_root, set_powers
 from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
 from .simd import WIDTH, absolute, largest, load, maximum, splat
 
-# Longest step, in radians of the fastest motion: in longer ones the terms of the series cancel more digits than they
-# add.
+# Longest step, in radians of the fastest motion: in longer ones the series' terms cancel more digits than they add.
 LONGEST_STEP = 8.0
 TYPICAL_STEP = 3.0
 
@@ -40,7 +23,7 @@ def _size(model, s, k):
     """Largest modulus among the modal velocities of order k."""
     width, n, biggest = lane_count(model), len(model.mode_amplitude0), splat(0.0)
     for j in range(k * width, (k + 1) * width, WIDTH):
-        biggest = maximum(biggest, absolute(load(s.modes, E * width + j)))
+        biggest = maximum(biggest, absolute(load(s.modes, layout.E * width + j)))
     size = largest(biggest)
     for j in range(k * n, (k + 1) * n):
         size = max(size, abs(s.g[j]))
@@ -92,7 +75,7 @@ def step_size(model, s, order, tolerance, phase):
     as if the step were ``TYPICAL_STEP``, which saves a root.
     """
     # time is measured by the fastest motion in compliant contact, which does not exist out of contact
-    calm = model.free_unit if is_compliant(model) and phase == SEPARATION else 1.0
+    calm = model.free_unit if is_compliant(model) and phase == layout.SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
     last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
     usual_speed, share = model.speed_scale, 1.0
@@ -101,12 +84,12 @@ def step_size(model, s, order, tolerance, phase):
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
-    if is_compliant(model) or phase == SEPARATION:
+    if is_compliant(model) or phase == layout.SEPARATION:
         error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
-    if phase != SEPARATION:
+    if phase != layout.SEPARATION:
         last_force = _last_force(s.P, order)
         force = _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1]))
-        if is_normal(model) and phase == STICK:
+        if is_normal(model) and phase == layout.STICK:
             # the release functions, unlike P, contain the slope's acceleration
             last_force = max(last_force, _last_force(s.switch, order), _last_force(s.switch2, order))
         error += _relative(last_force, force)
@@ -145,11 +128,11 @@ def _expand_stick(compliance, normal, model, s, order):
 def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
     load_state(model, s, state)
-    phase = state.x[PHASE]
-    if phase == SLIP:
-        denominator = _expand_slip(model.compliance, model.normal, model, s, order, state.x[DIRECTION])
+    phase = state.x[layout.PHASE]
+    if phase == layout.SLIP:
+        denominator = _expand_slip(model.compliance, model.normal, model, s, order, state.x[layout.DIRECTION])
         return denominator / transitions.usual_denominator(model)
-    if phase == STICK:
+    if phase == layout.STICK:
         _expand_stick(model.compliance, model.normal, model, s, order)
     else:
         separation_series(model, s, order)
@@ -169,19 +152,20 @@ def _sooner(s, c, known, n, x_end, cause, later):
 @inlined
 def first_event(model, s, state, order, x_end):
     """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
-    phase, known, known_force = state.x[PHASE], int(state.x[KNOWN]), 0
+    phase, known, known_force = state.x[layout.PHASE], int(state.x[layout.KNOWN]), 0
     if is_compliant(model):
         known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
     set_powers(s.powers, x_end)
-    if phase == SEPARATION:
+    if phase == layout.SEPARATION:
         return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
-    if phase == SLIP:
+    if phase == layout.SLIP:
         x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:
             x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
         return x_end, cause
     cause, known_release = transitions.NOTHING, known_force
-    if not model.bonded and transitions.never_pulled(model, state):
+    never_pulled = model.k_p * model.Omega == 0.0 and transitions.inplane_force_per_radius(model, state) == 0.0
+    if not model.bonded and never_pulled:
         # P = 0 and the friction limit coincide, and it is contact that ends
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
         if not is_normal(model):
@@ -189,8 +173,7 @@ def first_event(model, s, state, order, x_end):
         # the slope of the disc may pull: here P is no factor of the release functions
         known_release = 0
     x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, transitions.RELEASE_FORWARD, cause)
-    # under the vertical force the pull only grows; the slope of a disc that bends can turn it, and so can a drive that
-    # slows down, by its damper
+    # under the vertical force the pull only grows; a bent disc's slope can turn it, or the damper of a slowing drive
     if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
         x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, transitions.RELEASE_BACKWARD, cause)
     if not model.bonded and (model.mu_s == 0.0 or (is_compliant(model) and is_normal(model))):
@@ -202,11 +185,11 @@ def first_event(model, s, state, order, x_end):
 @inlined
 def advance_time(x, dt):
     """Add to the time by a compensated sum: TIME + TIME_LOW has twice the digits."""
-    dt += x[TIME_LOW]
-    new = x[TIME] + dt
-    kept = new - x[TIME]
-    x[TIME_LOW] = (x[TIME] - (new - kept)) + (dt - kept)
-    x[TIME] = new
+    dt += x[layout.TIME_LOW]
+    new = x[layout.TIME] + dt
+    kept = new - x[layout.TIME]
+    x[layout.TIME_LOW] = (x[layout.TIME] - (new - kept)) + (dt - kept)
+    x[layout.TIME] = new
 
 
 @inlined
@@ -214,6 +197,6 @@ def set_course(model, state):
     """Set Omega and N to those of the state's time, on a ramp."""
     if is_ramped(model):
         x = state.x
-        since = (x[TIME] - ramp_of(model.ramp, 0)) + x[TIME_LOW]
-        x[DRIVE] = model.Omega + ramp_of(model.ramp, 2) * since
-        x[LOAD] = model.N + ramp_of(model.ramp, 3) * since
+        since = (x[layout.TIME] - ramp_of(model.ramp, 0)) + x[layout.TIME_LOW]
+        x[layout.DRIVE] = model.Omega + ramp_of(model.ramp, 2) * since
+        x[layout.LOAD] = model.N + ramp_of(model.ramp, 3) * since

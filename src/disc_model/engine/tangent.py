@@ -38,7 +38,6 @@ class Tangent(NamedTuple):
     series: np.ndarray  # [block][order][row][8]
     force: np.ndarray  # [block][order][8] of P (R under the normal force)
     dw_dtheta: np.ndarray  # [block][order][8] of B
-    base_dw_dtheta: np.ndarray  # [order], B of the motion
     now: np.ndarray  # [block][row][8]
     parameters: np.ndarray  # [block][row][8], changes of parameters
     before: np.ndarray  # [row][8], rates before an event in the first lane
@@ -47,6 +46,7 @@ class Tangent(NamedTuple):
     gradient: np.ndarray  # [2][entry], derivatives of laws
     tau: np.ndarray  # [column], change of an event's time
     log: np.ndarray
+    base_dw_dtheta: np.ndarray  # [order], B of the motion
     columns: int
     plain: int  # columns before this one carry no change of a parameter
 
@@ -65,16 +65,12 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of parameters."""
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
-    rows, parameters = n_rows(model), N_SCALARS + 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0)
-    order_size = (order + 2) * columns
-    series, force, dw_dtheta, now, changes, before, after, change, gradient, tau, log, base_dw_dtheta = aligned_pieces(
-        order_size * rows, order_size, order_size, rows * columns, parameters * columns,
+    rows, order_size = n_rows(model), (order + 2) * columns
+    arrays = aligned_pieces(
+        order_size * rows, order_size, order_size, rows * columns, (N_SCALARS + rows - N_SLIDER_ROWS) * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
-    return Tangent(
-        series, force, dw_dtheta, base_dw_dtheta,
-        now, changes, before, after, change, gradient, tau, log, columns, plain,
-    )  # fmt: skip
+    return Tangent(*arrays, columns, plain)
 
 
 @inlined
@@ -111,17 +107,6 @@ def _convolve(s, t, origin, R, k, j, width, f_row):
         p1, q1 = fma(df, spread(s.e, low), p1), fma(df, spread(s.e, low + HALF), q1)
         a, b, p, q, at, low = a - stride, b - stride, p - stride, q - stride, at + stride, low - width
     return add(a0, a1), add(b0, b1), add(p0, p1), add(q0, q1)
-
-
-@inlined
-def _motion_slope(model, s, t, order):
-    """B of the motion, all orders."""
-    width = len(model.mode_amplitude)
-    for k in range(order + 1):
-        dw_dtheta = 0.0
-        for j in range(width):
-            dw_dtheta += model.dw_dtheta[j] * s.z[k * width + j]
-        t.base_dw_dtheta[k] = dw_dtheta
 
 
 @inlined
@@ -304,10 +289,14 @@ def _apply_force(model, s, t, block, k, R, P):
 @helper
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
-    R, orders = n_rows_of(model), len(t.base_dw_dtheta)
+    R, orders, width = n_rows_of(model), len(t.base_dw_dtheta), len(model.mode_amplitude)
     psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
     u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
-    _motion_slope(model, s, t, order)
+    for k in range(order + 1):
+        dw_dtheta = 0.0
+        for j in range(width):
+            dw_dtheta += model.dw_dtheta[j] * s.z[k * width + j]
+        t.base_dw_dtheta[k] = dw_dtheta
     B0 = t.base_dw_dtheta[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass + friction * B0)
@@ -330,28 +319,26 @@ def tangent_series(model, s, t, order, phase, direction):
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
             P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
+            if phase == SLIP and not is_compliant(model):
+                free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
             if phase == SEPARATION:
-                rate_f, acceleration = mul(pull, lightness), sub(P, mul(vertical, lightness))
+                rate_f = mul(pull, lightness)
             elif other_law and phase == SLIP:
-                if not is_compliant(model):
-                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                 mu, denominator = direction * model.mu_k, slip_denominator(model, model.m, direction, B0)
                 P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
-                if is_compliant(model):
-                    acceleration = mul(lightness, sub(V, vertical))
-                else:
-                    acceleration = fma(splat(B0), rate_f, sub(free, mul(splat(model.inverse_effective_mass), V)))
             elif is_compliant(model):
                 P = V = _compliant_change(model, s, t, block, k, R, 0.0)
-                acceleration = mul(lightness, sub(V, vertical))
             else:
                 if phase == SLIP:
-                    free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
                     vertical = fma(splat(B0), pull, vertical)
                 P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
-                acceleration = sub(free, mul(splat(model.inverse_effective_mass), P))
                 if phase == SLIP:
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
+            if is_compliant(model) or phase == SEPARATION:
+                acceleration = mul(lightness, sub(V, vertical))
+            else:
+                acceleration = sub(free, mul(splat(model.inverse_effective_mass), V))
+                if phase == SLIP:
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
             _apply_force(model, s, t, block, k, R, V)

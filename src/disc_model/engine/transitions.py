@@ -1,28 +1,10 @@
 """Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
 
-from . import laws
+from . import laws, layout
 from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION
 from .laws import Instant
-from .layout import (
-    DIRECTION,
-    FORCE,
-    KNOWN,
-    PHASE,
-    PROPAGATED,
-    PSI,
-    SEPARATION,
-    SLIP,
-    SPEED,
-    STICK,
-    U_VELOCITY,
-    U,
-    compliance_of,
-    drive_now,
-    is_compliant,
-    is_normal,
-    load_now,
-)
+from .layout import compliance_of, drive_now, is_compliant, is_normal, load_now
 from .simd import WIDTH, absolute, add, load, mul, splat, total
 
 # Causes of the end of a step.
@@ -41,7 +23,7 @@ TOUCHING = 4
 @inlined
 def disc_point(model, state):
     """u, u' and the slope B = dw/dtheta of the disc under the slider."""
-    f = state.x[SPEED]
+    f = state.x[layout.SPEED]
     u, v, dw_dtheta = 0.0, 0.0, 0.0
     for j in range(len(model.shift)):
         u += model.mode_amplitude[j] * state.z[j]
@@ -57,15 +39,15 @@ def disc_point(model, state):
 def slider_motion(model, state):
     """u, u' of the slider, which in rigid contact are the disc's; slope B of the disc under it."""
     u, v, dw_dtheta = disc_point(model, state)
-    if is_compliant(model) or state.x[PHASE] == SEPARATION:
-        u, v = state.x[U], state.x[U_VELOCITY]
+    if is_compliant(model) or state.x[layout.PHASE] == layout.SEPARATION:
+        u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     return u, v, dw_dtheta
 
 
 @inlined
 def _free_acceleration(model, state):
     """A: u'' of the disc under the slider without P and f'; size of its terms."""
-    f, acceleration, size = state.x[SPEED], 0.0, 0.0
+    f, acceleration, size = state.x[layout.SPEED], 0.0, 0.0
     for j in range(len(model.shift)):
         a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
         # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
@@ -85,7 +67,8 @@ def instant(model, state):
     x, (w, velocity, dw_dtheta), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
     return Instant(
         load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
-        compliance_of(model.compliance), x[PSI], x[SPEED], w, velocity, dw_dtheta, free, x[U], x[U_VELOCITY],
+        compliance_of(model.compliance), x[layout.PSI], x[layout.SPEED], w, velocity, dw_dtheta, free,
+        x[layout.U], x[layout.U_VELOCITY],
     ), size  # fmt: skip
 
 
@@ -97,18 +80,12 @@ def inplane_force_per_radius(model, state):
 
 
 @inlined
-def never_pulled(model, state):
-    """Whether the drive does not pull at the slider in stick, now or later."""
-    return model.k_p * model.Omega == 0.0 and inplane_force_per_radius(model, state) == 0.0
-
-
-@inlined
 def _deflection_size(model, state):
     """Size of w - u on a compliant contact: of the modes' parts of w, which may nearly cancel."""
     sizes = splat(0.0)
     for b in range(0, len(model.mode_amplitude), WIDTH):
         sizes = add(sizes, absolute(mul(load(model.mode_amplitude, b), load(state.z, b))))
-    size = total(sizes) + abs(state.x[U])
+    size = total(sizes) + abs(state.x[layout.U])
     for j in range(len(model.mode_amplitude0)):
         size += abs(model.mode_amplitude0[j] * state.y[j])
     return size
@@ -160,12 +137,12 @@ def slip_force(model, state, direction):
 def impact(model, state):
     """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
     i, _ = instant(model, state)
-    p, state.x[SPEED] = laws.impact(model, i)
+    p, state.x[layout.SPEED] = laws.impact(model, i)
     for j in range(len(model.shift)):
         state.e[j] -= model.mode_amplitude[j] * p
     for j in range(len(model.mode_amplitude0)):
         state.g[j] -= model.mode_amplitude0[j] * p
-    state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
+    state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
     return p
 
 
@@ -185,28 +162,24 @@ def event_function(model, i, cause, slipping):
 
 
 @inlined
+def _begin(state, phase, direction, known, force):
+    """Begin a phase; known: multiplicity of the event function's root there; force: of the contact."""
+    x = state.x
+    x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN] = phase, direction, known
+    x[layout.FORCE], x[layout.PROPAGATED] = force, 0.0
+
+
+@inlined
 def _enter_separation(model, state, P, noise):
     """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0.
 
     The gap of a compliant contact starts as t, or is already open.
     """
-    if is_compliant(model):
-        state.x[KNOWN] = 0 if noise < -P else 1
-    else:
-        state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
-        state.x[KNOWN] = 2 if noise < -P else 3
-    state.x[PHASE] = SEPARATION
-    state.x[DIRECTION] = 0.0
-    state.x[FORCE] = 0.0
-
-
-@inlined
-def _enter_stick(state, P):
-    state.x[PHASE] = STICK
-    state.x[DIRECTION] = 0.0
-    state.x[KNOWN] = 0
-    state.x[PROPAGATED] = 0.0
-    state.x[FORCE] = P
+    known = 0 if noise < -P else 1
+    if not is_compliant(model):
+        state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
+        known += 2
+    _begin(state, layout.SEPARATION, 0.0, known, 0.0)
 
 
 @helper
@@ -218,11 +191,8 @@ def enter_slip(model, state, direction):
     if P < 0.0 and not model.bonded:
         _enter_separation(model, state, P, noise)
         return CONSISTENT
-    state.x[PHASE] = SLIP
-    state.x[DIRECTION] = direction
-    state.x[FORCE] = P
-    state.x[KNOWN] = 0
-    if state.x[SPEED] == 0.0:
+    known = 0
+    if state.x[layout.SPEED] == 0.0:
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
         # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
         resistance = bound = model.mu_k
@@ -232,7 +202,8 @@ def enter_slip(model, state, direction):
             bound += abs(dw_dtheta) / model.r_0
         F, friction = inplane_force_per_radius(model, state), resistance * P / model.r_0
         rounding = ROUNDING * abs(F) + bound * noise / model.r_0
-        state.x[KNOWN] = 2 if direction * F - friction <= rounding else 1
+        known = 2 if direction * F - friction <= rounding else 1
+    _begin(state, layout.SLIP, direction, known, P)
     return CONSISTENT
 
 
@@ -243,17 +214,17 @@ def release(model, state, direction, at_once):
     at_once: stick had no duration, so that the spring may pull harder than friction can hold.
     """
     outcome = enter_slip(model, state, direction)
-    if state.x[PHASE] == SLIP and model.mu_s == model.mu_k and not at_once:
+    if state.x[layout.PHASE] == layout.SLIP and model.mu_s == model.mu_k and not at_once:
         # friction does not jump: f' = 0, despite the error of the event's time
-        state.x[KNOWN] = 2
+        state.x[layout.KNOWN] = 2
     return outcome
 
 
 @helper
 def lose_contact(model, state):
     """Loss of contact: P has reached zero, or was negative from the start."""
-    if state.x[PHASE] == SLIP:
-        P, _, noise = slip_force(model, state, state.x[DIRECTION])
+    if state.x[layout.PHASE] == layout.SLIP:
+        P, _, noise = slip_force(model, state, state.x[layout.DIRECTION])
     else:
         i, size = instant(model, state)
         P, noise = laws.stick_numerator(model, i), _rounding(model, state, i, size)
@@ -264,12 +235,12 @@ def lose_contact(model, state):
 @helper
 def stop_slip(model, state):
     """Stop: f has reached zero. Stick if friction holds the spring, else slip to the side of the spring's pull."""
-    state.x[SPEED] = 0.0
+    state.x[layout.SPEED] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
     pull, press = laws.stick_loads(model, i, P)
     if abs(pull) < model.mu_s * press:
-        _enter_stick(state, force_in_stick(model, state, P))
+        _begin(state, layout.STICK, 0.0, 0, force_in_stick(model, state, P))
         return CONSISTENT
     # contact may hold although P in stick is negative: in slip the spring presses the slider on with B F
     return enter_slip(model, state, -1.0 if pull < 0.0 else 1.0)
@@ -278,18 +249,15 @@ def stop_slip(model, state):
 @inlined
 def _begin_contact(model, state):
     """Begin a compliant contact: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
-    x = state.x
-    f, F = x[SPEED], inplane_force_per_radius(model, state)
+    f, F = state.x[layout.SPEED], inplane_force_per_radius(model, state)
     if f == 0.0 and F == 0.0:
-        _enter_stick(state, 0.0)
-        x[KNOWN] = TOUCHING
+        _begin(state, layout.STICK, 0.0, TOUCHING, 0.0)
         return CONSISTENT
     direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
     _, denominator, _ = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN:
         return NO_SOLUTION
-    x[PHASE], x[DIRECTION], x[FORCE] = SLIP, direction, 0.0
-    x[KNOWN] = TOUCHING + (1 if f == 0.0 else 0)
+    _begin(state, layout.SLIP, direction, TOUCHING + (1 if f == 0.0 else 0), 0.0)
     return CONSISTENT
 
 
@@ -299,7 +267,7 @@ def reattach(model, state):
     if is_compliant(model):
         return _begin_contact(model, state)
     impact(model, state)
-    f = state.x[SPEED]
+    f = state.x[layout.SPEED]
     if f == 0.0:
         return stop_slip(model, state)
     return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)

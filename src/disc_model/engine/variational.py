@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import transitions
 from .compile import helper, inlined, kernel
 from .dense_output import state_at
 from .exit_codes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
@@ -11,23 +12,10 @@ from .laws import PSI as ANGLE
 from .laws import TINY, stepped
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant
 from .packing import packed
-from .saltation import event_change, event_gradient, event_times, impact_change, rates, rest, shift, slider_rows
+from .saltation import event_change, event_gradient, event_times, impact_change, rates, shift, slider_rows
 from .simd import WIDTH, mul, splat, store
 from .stepping import advance_time, expand, first_event, step_size
 from .tangent import PSI_ROW, n_rows_of, slider_row, tangent_at, tangent_series
-from .transitions import (
-    AT_REST,
-    GAP_CLOSED,
-    MAX_EVENTS_IN_A_ROW,
-    NOTHING,
-    PAINLEVE_MARGIN,
-    RELEASE_BACKWARD,
-    RELEASE_FORWARD,
-    change_phase,
-    event_function,
-    instant,
-    stick_force,
-)
 
 # Counts of an integration, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -51,7 +39,7 @@ class IntegrationLimits(NamedTuple):
 class Section(NamedTuple):
     """Points of the section "stick is about to be released forwards", n coordinates each, and the map's Jacobian."""
 
-    rows: np.ndarray  # (n,), where each coordinate stands in a column: see ``coordinate``
+    rows: np.ndarray  # (n,), where each coordinate stands in a column
     scale: np.ndarray  # (n,), coordinate over the state's entry
     end: np.ndarray  # (n,)
     jacobian: np.ndarray  # (n, columns)
@@ -60,11 +48,11 @@ class Section(NamedTuple):
 @helper
 def _step(model, s, state, order, tolerance, left):
     """Expand and find the first event within ``left`` time units: (length, cause); nan or -1 is failure."""
-    if expand(model, s, state, order) <= PAINLEVE_MARGIN:
-        return -1.0, NOTHING
+    if expand(model, s, state, order) <= transitions.PAINLEVE_MARGIN:
+        return -1.0, transitions.NOTHING
     x_end = step_size(model, s, order, tolerance, state.x[PHASE])
     if not x_end > 0.0:
-        return np.nan, NOTHING
+        return np.nan, transitions.NOTHING
     return first_event(model, s, state, order, min(x_end, left))
 
 
@@ -72,11 +60,11 @@ def _step(model, s, state, order, tolerance, left):
 def _count(state, cause, log):
     """Count an event that was carried out."""
     phase = state.x[PHASE]
-    if cause == RELEASE_FORWARD:
+    if cause == transitions.RELEASE_FORWARD:
         log[RELEASES] += 1.0
-    elif cause == RELEASE_BACKWARD:
+    elif cause == transitions.RELEASE_BACKWARD:
         log[BACK_RELEASES] += 1.0
-    elif cause == AT_REST and phase == SLIP:
+    elif cause == transitions.AT_REST and phase == SLIP:
         log[REVERSALS] += 1.0
     if phase == SEPARATION:
         log[SEPARATIONS] += 1.0
@@ -89,9 +77,7 @@ def _integrate(model, s, state, t, course):
     """See ``integrate``."""
     order, tangent = course.order, course.tangent
     x, log = state.x, t.log
-    in_a_row = 0
-    start = x[TIME]
-    found = 0
+    in_a_row, found, start = 0, 0, x[TIME]
     while True:
         phase, direction = x[PHASE], x[DIRECTION]
         left = (course.t_max - (x[TIME] - start)) / model.unit
@@ -107,31 +93,30 @@ def _integrate(model, s, state, t, course):
         log[DURATION] += x_end * model.unit
         log[STICK_TIME + int(phase)] += x_end * model.unit
         log[N_STEPS] += 1.0
-        if cause == NOTHING:
+        if cause == transitions.NOTHING:
             x[KNOWN] = 0.0
             if x_end >= left:
                 return TIME_OVER
             continue
         in_a_row = in_a_row + 1 if x[TIME] == before else 0
-        if in_a_row > MAX_EVENTS_IN_A_ROW:
+        if in_a_row > transitions.MAX_EVENTS_IN_A_ROW:
             return STALLED
-        last = False
-        if cause == RELEASE_FORWARD:
+        if cause == transitions.RELEASE_FORWARD:
             found += 1
-            last = found == course.releases
-        if cause == AT_REST:
+        last = cause == transitions.RELEASE_FORWARD and found == course.releases
+        if cause == transitions.AT_REST:
             x[SPEED] = 0.0
         if tangent:
             rates(model, state, t.before)
             event_times(model, state, t, cause)
             shift(model, t, t.before, 1.0)
-            if cause == GAP_CLOSED and not is_compliant(model):
+            if cause == transitions.GAP_CLOSED and not is_compliant(model):
                 impact_change(model, state, t)
         if last:
             log[RELEASES] += 1.0
             return RETURNED
         x[KNOWN] = 0.0
-        if change_phase(model, state, cause, x_end == 0.0) == NO_SOLUTION:
+        if transitions.change_phase(model, state, cause, x_end == 0.0) == NO_SOLUTION:
             return NO_SOLUTION
         _count(state, cause, log)
         if tangent:
@@ -141,8 +126,6 @@ def _integrate(model, s, state, t, course):
             shift(model, t, t.after, -1.0)
             if x[PHASE] != SEPARATION:
                 slider_rows(model, state, t)
-            if x[PHASE] == STICK:
-                rest(model, t)
         if x[PHASE] == SEPARATION and not course.may_separate:
             return LOST_CONTACT
         if x_end >= left:
@@ -150,57 +133,46 @@ def _integrate(model, s, state, t, course):
 
 
 @inlined
-def coordinate(model, state, row):
-    """The entry of a state at ``row`` of a column."""
+def _entry_at(model, state, row):
+    """Array and index of the entry of a state that stands at ``row`` of a column."""
     slider = row - slider_row(model, PSI_ROW)
-    return state.disc[row] if slider < 0 else state.x[PSI + slider]
-
-
-@inlined
-def _place(model, state, row, value):
-    """Set ``coordinate``."""
-    slider = row - slider_row(model, PSI_ROW)
-    if slider < 0:
-        state.disc[row] = value
-    else:
-        state.x[PSI + slider] = value
+    return (state.disc, row) if slider < 0 else (state.x, PSI + slider)
 
 
 @kernel
 def release_angle(model, state):
     """psi at a forward release; the event function is linear in it."""
-    i, _ = instant(model, state)
-    margin = event_function(model, stepped(i, ANGLE), RELEASE_FORWARD, False)
+    i, _ = transitions.instant(model, state)
+    margin = transitions.event_function(model, stepped(i, ANGLE), transitions.RELEASE_FORWARD, False)
     return i.psi - margin.real / (margin.imag / TINY)
 
 
 @helper
 def _leave_section(model, s, state, t, course, section, start):
-    """Put ``state`` and, if requested, the columns just after the release at ``start``.  Returns CONSISTENT or an exit
-    code.
-    """
+    """Put state and, if requested, columns just after the release at ``start``.  Returns CONSISTENT or an exit code."""
     rows, scale, R = section.rows, section.scale, n_rows_of(model)
     t.log[:] = 0.0
     state.x[:] = 0.0
     for i in range(len(rows)):
-        _place(model, state, rows[i], start[i] / scale[i])
+        entries, at = _entry_at(model, state, rows[i])
+        entries[at] = start[i] / scale[i]
     state.x[PHASE] = STICK
-    if not stick_force(model, state) > 0.0:
+    if not transitions.stick_force(model, state) > 0.0:
         return OFF_SECTION
     state.x[PSI] = release_angle(model, state)
     if course.tangent:
         t.now[:] = 0.0
         for i in range(len(rows)):
             t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
-        event_gradient(model, state, t, RELEASE_FORWARD)
+        event_gradient(model, state, t, transitions.RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[ANGLE])
         for c in range(0, t.columns, WIDTH):
             dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
             store(t.now, c * R + slider_row(model, PSI_ROW) * WIDTH, dpsi)
-    if change_phase(model, state, RELEASE_FORWARD, False) == NO_SOLUTION:
+    if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself belongs to the integration that ended here
-    _count(state, NOTHING, t.log)
+    _count(state, transitions.NOTHING, t.log)
     if state.x[PHASE] == SEPARATION and not course.may_separate:
         return LOST_CONTACT
     if course.tangent:
@@ -217,7 +189,8 @@ def _flight(model, s, state, t, course, section, start, from_section):
             return outcome
     outcome = _integrate(model, s, state, t, course)
     for i in range(len(section.rows)):
-        section.end[i] = coordinate(model, state, section.rows[i]) * section.scale[i]
+        entries, place = _entry_at(model, state, section.rows[i])
+        section.end[i] = entries[place] * section.scale[i]
         if course.tangent:
             for c in range(t.columns):
                 at = ((c // WIDTH) * n_rows_of(model) + section.rows[i]) * WIDTH + c % WIDTH
