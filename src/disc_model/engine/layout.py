@@ -299,7 +299,7 @@ def build_series(model: Model, order: int) -> Series:
     np.divide(_FROM_1, model.unit, out=rows[DOWN // ROWS])
     z, e = modes[: E * width], modes[E * width : SCRATCH * width]
     views = rows[: SLOPE_SERIES // ROWS]
-    return Series(modes, slider, z, e, y, g, *views, roots.reshape(ROOT_ROWS, -1), amplitudes)
+    return Series._make((modes, slider, z, e, y, g, *views, roots.reshape(ROOT_ROWS, -1), amplitudes))
 
 
 def build_state(model: Model) -> EngineState:

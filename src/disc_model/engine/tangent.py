@@ -70,7 +70,7 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
         order_size * rows, order_size, order_size, rows * columns, (N_SCALARS + rows - N_SLIDER_ROWS) * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
-    return Tangent(*arrays, columns, plain)
+    return Tangent._make((*arrays, columns, plain))
 
 
 @inlined
