@@ -34,8 +34,7 @@ class Indices(NamedTuple):
 def sobol_indices(outputs: Array) -> tuple[Array, Array]:
     """First-order and total indices.
 
-    The formulas are those of `scipy.stats.sobol_indices`. That function requires a power of two of samples, which is
-    lost when rows are left out.
+    The formulas are those of `scipy.stats.sobol_indices`, which needs a power of two of samples: rows left out lose it.
 
     Parameters
     ----------
@@ -65,18 +64,12 @@ def sobol_intervals(outputs: Array, seed: int = 0) -> Indices:
     rng = np.random.default_rng(seed)
     chosen = rng.integers(n, size=(RESAMPLES, n))
     parts = [sobol_indices(outputs[chosen[i : i + AT_ONCE]]) for i in range(0, RESAMPLES, AT_ONCE)]
-    ends = []
+    tail, ends = (1 - CONFIDENCE) / 2, []
     for found, own in zip(map(np.concatenate, zip(*parts, strict=True)), sobol_indices(outputs), strict=True):
-        tail = (1 - CONFIDENCE) / 2
-        ends += [own, *_percentiles(found, (tail, 1 - tail))]
+        varies = np.isfinite(found).any()  # resamples in which the outputs do not vary are left out
+        interval = np.nanquantile(found, (tail, 1 - tail), axis=0) if varies else np.full((2, d), np.nan)
+        ends += [own, *interval]
     return Indices(*ends)
-
-
-def _percentiles(found: Array, shares: tuple[float, float]) -> Array:
-    """Percentiles of each column of resamples, without resamples in which the outputs do not vary."""
-    if not np.isfinite(found).any():
-        return np.full((2, found.shape[1]), np.nan)
-    return np.asarray(np.nanquantile(found, shares, axis=0), dtype=float)
 
 
 class Share(NamedTuple):

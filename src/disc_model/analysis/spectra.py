@@ -1,5 +1,6 @@
 """Spectra: lines of a stationary signal, their identification, and spectra that change with time."""
 
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -35,15 +36,8 @@ class Combination(NamedTuple):
     deviation: float
 
     def __str__(self) -> str:
-        parts = [_multiple(self.n, "f_s"), _multiple(self.m, "f_Ω")]
-        shown = [part for part in parts if part]
-        return " + ".join(shown).replace("+ -", "− ") or "0"
-
-
-def _multiple(count: int, symbol: str) -> str:
-    if count == 0:
-        return ""
-    return f"{'-' if count < 0 else ''}{'' if abs(count) == 1 else f'{abs(count)} '}{symbol}"
+        parts = [f"{order} {symbol}" for order, symbol in ((self.n, "f_s"), (self.m, "f_Ω")) if order]
+        return re.sub(r"\b1 ", "", " + ".join(parts)).replace("+ -", "− ") or "0"
 
 
 class TimeFrequency(NamedTuple):
@@ -191,9 +185,8 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
 
     Notes
     -----
-    Only windows that lie within the samples are kept: the result begins half a window after the first sample and ends
-    half a window before the last. A sine of amplitude 1 has power 1/2. Raises ValueError if the samples are shorter
-    than the window.
+    Only windows within the samples are kept: the result begins half a window after the first sample and ends half a
+    window before the last. A sine of amplitude 1 has power 1/2. Raises ValueError if the samples are shorter.
     """
     rate = rate_of(time, values)
     length, step = round(window * rate), max(1, round(hop * rate))

@@ -19,6 +19,7 @@ import os
 import secrets
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -135,22 +136,16 @@ def _write(tree: xr.DataTree, name: str) -> None:
     All groups are defined before an array is written. `DataTree.to_netcdf` writes each array as soon as it is defined,
     and for each one the library goes through all of the file's metadata: eight times the time for 70 cases.
     """
-    arrays = _Arrays()
+    arrays: list[tuple[Any, Any]] = []
+    collector = SimpleNamespace(add=lambda source, target: arrays.append((source, target)))
     with Dataset(name, "w") as root:
         for node in tree.subtree:
             group = node.to_dataset(inherit=node is tree)
             store = NetCDF4DataStore(root if node is tree else root.createGroup(node.relative_to(tree)))
             encoding = {str(name): _encode(variable) for name, variable in group.variables.items()}
-            group.dump_to_store(store, encoding=encoding, writer=arrays)
+            group.dump_to_store(store, encoding=encoding, writer=collector)
         for source, target in arrays:
             target[...] = source
-
-
-class _Arrays(list[tuple[Any, Any]]):
-    """Collects arrays with their places in a file."""
-
-    def add(self, source: Any, target: Any) -> None:
-        self.append((source, target))
 
 
 def load(path: str | Path) -> xr.DataTree:
@@ -367,28 +362,22 @@ def events(case: xr.DataTree) -> xr.Dataset:
 
 def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
     """A window of single samples, at least `at_least` of them; raises `Missing` if it holds ranges."""
-    found = group(case, name)
-    if _are_ranges(found):
-        raise Missing(f"recorded {name} as ranges, not as samples: its window has an envelope")
-    return _of_length(found, at_least, f"samples in {name}")
+    return _window(case, name, at_least, envelope=False)
 
 
 def ranges(case: xr.DataTree, name: str, at_least: int = 1) -> xr.Dataset:
     """A window of ranges, each variable as ``_min`` and ``_max``, with at least `at_least` bins."""
+    return _window(case, name, at_least, envelope=True)
+
+
+def _window(case: xr.DataTree, name: str, at_least: int, envelope: bool) -> xr.Dataset:
     found = group(case, name)
-    if not _are_ranges(found):
-        raise Missing(f"recorded {name} as samples, not as ranges: its window needs an envelope")
-    return _of_length(found, at_least, f"bins in {name}")
-
-
-def _are_ranges(window: xr.Dataset) -> bool:
-    return any(str(key).endswith("_min") for key in window)
-
-
-def _of_length(window: xr.Dataset, at_least: int, what: str) -> xr.Dataset:
-    if window.sizes["time"] < at_least:
-        raise Missing(f"has {window.sizes['time']} {what}, at least {at_least} are needed")
-    return window
+    if any(str(key).endswith("_min") for key in found) != envelope:
+        instead = "samples, not as ranges: its window needs" if envelope else "ranges, not as samples: its window has"
+        raise Missing(f"recorded {name} as {instead} an envelope")
+    if (length := found.sizes["time"]) < at_least:
+        raise Missing(f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed")
+    return found
 
 
 # ----------------------------------------------------------------------------------------------------

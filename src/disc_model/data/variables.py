@@ -126,12 +126,7 @@ SCALARS = {
     "energy_residual_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
     "audited_steps": Variable("1", "number of steps whose energy balance was audited"),
 }
-COUNTS = {
-    "steps": "steps",
-    "n_events": "events",
-    "n_separations": "separations",
-    "audited_steps": "audited_steps",
-}
+COUNTS = {"steps": "steps", "n_events": "events", "n_separations": "separations", "audited_steps": "audited_steps"}
 """Whole numbers among the scalars, and their names in `Result.statistics`."""
 BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
