@@ -9,7 +9,7 @@ import grimp
 import pytest
 
 from disc_model.data.provenance import PACKAGE, source_files
-from disc_model.data.sources import BESIDES, KINDS
+from disc_model.data.sources import KINDS
 from disc_model.figures.kinds import KINDS as FIGURES
 from disc_model.figures.kinds import OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE
@@ -21,6 +21,28 @@ GRAPH = grimp.build_graph("disc_model", exclude_type_checking_imports=True)
 DATA = {".yaml", ".toml", ".json", ".html", ".css", ".js", ".mplstyle"}
 """Endings of files that are read and not imported."""
 PAPER = PACKAGE / "config" / "paper.yaml"
+BESIDES = {
+    "": "names only",
+    "bytecode": "says what made a result",
+    "data.provenance": "says what made a result",
+    "data.sources": "says what made a result",
+    "explorer": "a name only",
+    "figures": "names only",
+    "figures.grids": "a name only",
+    "figures.kinds": "says what a file may ask for",
+    "figures.paper": "a name only",
+    "figures.paper.catalogue": "says what a file may ask for",
+    "kernels": "decides when kernels are compiled",
+    "plausibility": "warns",
+    "mode_choice": "a kind of its own, where it is asked",
+    "progress": "shows progress",
+    "renamed": "words of messages only",
+    "simulation.quicklook": "draws for a reader",
+    "studies.grids": "a name only",
+    "studies.document": "a batch's text holds the values of all options",
+    "studies.grids.quantities": "a name only",
+}
+"""Modules that are imported but do not affect results, with the reason."""
 ROOTS = {
     "case": ["simulation.api"],
     "modes_by_motion": ["mode_choice"],

@@ -1,7 +1,7 @@
 """Sources on which each kind of result depends.
 
 A kind is named after the rule that makes it, or after the quantity; further kinds hold common sources.  If a list
-differs from the imports, `tests/data/test_sources.py` fails: a new import must be added here, or under `BESIDES`.
+differs from the imports, `tests/data/test_sources.py` fails: a new import must be added here, or to its `BESIDES`.
 """
 
 from typing import NamedTuple
@@ -17,29 +17,6 @@ class Kind(NamedTuple):
     sources: str
     version: int = 1
 
-
-BESIDES = {
-    "": "names only",
-    "bytecode": "says what made a result",
-    "data.provenance": "says what made a result",
-    "data.sources": "says what made a result",
-    "explorer": "a name only",
-    "figures": "names only",
-    "figures.grids": "a name only",
-    "figures.kinds": "says what a file may ask for",
-    "figures.paper": "a name only",
-    "figures.paper.catalogue": "says what a file may ask for",
-    "kernels": "decides when kernels are compiled",
-    "plausibility": "warns",
-    "mode_choice": "a kind of its own, where it is asked",
-    "progress": "shows progress",
-    "renamed": "words of messages only",
-    "simulation.quicklook": "draws for a reader",
-    "studies.grids": "a name only",
-    "studies.document": "a batch's text holds the values of all options",
-    "studies.grids.quantities": "a name only",
-}
-"""Modules that are imported but do not affect results, with the reason."""
 
 _GRID = "benchmarks.grid benchmarks/variables.toml"
 _BENCHMARK = (
