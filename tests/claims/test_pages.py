@@ -8,12 +8,24 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims.ledger import COLUMNS
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
 from disc_model.claims.pages import ledger, table_page
 from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2, table_2_or_why
 
+COLUMNS = [
+    "id",
+    "location",
+    "claim",
+    "paper_value",
+    "ours",
+    "tolerance",
+    "reason",
+    "verdict",
+    "remark",
+    "apart",
+    "robust",
+]
 F_S, OMEGA = 67.63, 15.1
 DRIVE = OMEGA / (2 * np.pi)
 

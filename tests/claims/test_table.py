@@ -13,7 +13,7 @@ import yaml
 
 from disc_model import Parameters
 from disc_model.claims import SCANS, measures
-from disc_model.claims.ledger import CLAIMS, COLUMNS, check_claims, views
+from disc_model.claims.ledger import CLAIMS, check_claims, views
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import (
     FAILS,
@@ -33,6 +33,7 @@ from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import Missing, events_dataset
 from disc_model.simulation.api import run_case
 from disc_model.studies.study import parse_study
+from tests.claims.test_pages import COLUMNS
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:
@@ -56,7 +57,7 @@ def table() -> pd.DataFrame:
 
 @pytest.mark.compiled
 def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
-    assert [*table.reset_index().columns] == list(COLUMNS)
+    assert [*table.reset_index().columns] == COLUMNS
     assert list(table.index) == [claim.id for claim in CLAIMS]
     assert table.index.is_unique
 
@@ -219,15 +220,15 @@ def test_separation_durations_count_whole_separations() -> None:
         (3.25, "reattachment", "slip"),
         (4.0, "separation", "separation"),
     )
-    durations, still_open = measures.separation_durations(case)
+    durations, still_open = case.separation_durations()
     np.testing.assert_array_equal(durations, [0.5, 0.25])
     assert still_open == 1.0
-    assert measures.rate_of(case, "separation") == pytest.approx(3 / 5)
+    assert case.rate_of("separation") == pytest.approx(3 / 5)
 
 
 def test_phase_share() -> None:
     case = case_with((1.0, "slip_to_stick", "stick"), (2.0, "stick_to_slip", "slip"))
-    assert measures.phase_share(case, "stick") == pytest.approx(0.25)
+    assert case.phase_share("stick") == pytest.approx(0.25)
 
 
 def test_growth_is_that_of_the_cycle() -> None:

@@ -276,13 +276,13 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
     """Motions that repeat after 45 and 180 releases used to be called irregular."""
     cases = views(made_up.made_up(some("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k")))
     repeated = np.tile(0.05 + 0.03 * np.random.default_rng(1).random(45), 40)
-    monkeypatch.setattr(measures, "intervals", lambda case, *_: repeated)
+    monkeypatch.setattr(CaseView, "intervals", lambda case, *_: repeated)
     found = {claim: BY_NAME[claim].evaluate(cases) for claim in ("F05", "F07", "F22", "F28", "A2")}
     assert [each.verdict for each in found.values()] == [FAILS] * 4 + [REMARK]  # intricate, though it repeats
     assert "repeats after 45 releases = " in found["F07"].ours
     assert "no property of the system" not in found["F07"].remark
     shorter = np.tile(repeated[:44], 40)
-    monkeypatch.setattr(measures, "intervals", lambda case, *_: shorter if case.name == "F07k" else repeated)
+    monkeypatch.setattr(CaseView, "intervals", lambda case, *_: shorter if case.name == "F07k" else repeated)
     phrase = BY_NAME["F07"].evaluate(cases)
     assert phrase.verdict == FAILS
     assert "with k 0.1 % larger it repeats after 44 releases" in phrase.remark
@@ -293,7 +293,7 @@ def test_between_regular_and_chaotic_nothing_is_decided(
     claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
-    monkeypatch.setattr(measures, "intervals", lambda case, *_: 0.1 + 0.01 * np.random.default_rng(1).random(400))
+    monkeypatch.setattr(CaseView, "intervals", lambda case, *_: 0.1 + 0.01 * np.random.default_rng(1).random(400))
     assert judged(claim, told).verdict == UNDECIDED
 
 
@@ -323,8 +323,8 @@ def test_a_time_has_the_digits_that_repeats_agree_in(told: xr.DataTree) -> None:
         ("381.6, 387.2 s, or none: that depends on the tolerance", 381.59, np.nan, 387.16),
     ):
         roots = [told["F02"].to_dataset().assign(first_separation=time) for time in times]
-        cases = (CaseView("X", xr.DataTree(root)) for root in roots)
-        assert measures.first_separation(*cases) == f"first separation at {phrase}"
+        case, *repeats = (CaseView("X", xr.DataTree(root)) for root in roots)
+        assert case.first_separation(*repeats) == f"first separation at {phrase}"
 
 
 def test_another_start_may_lead_to_another_motion(told: xr.DataTree) -> None:
@@ -361,11 +361,11 @@ def test_a_jump_that_modes_may_move_is_looked_for(faster: float, two: float, ver
     [
         ("F11", lambda case: case.samples("zoom"), "did not record zoom"),
         ("F11", lambda case: case.range_of("P", 300, 310), "no history from 300 to 310"),
-        ("F11", lambda case: measures.slope(case, "P", 300, 310), "no history from 300 to 310"),
-        ("F13", lambda case: measures.signal(case, "spectrum_a", 20, 30), "no samples in spectrum_a from 20 to 30"),
-        ("S43Ninf", lambda case: measures.phase_share(case, "stick"), "events of case S43Ninf cover is 0"),
-        ("F11", measures.separation_durations, "no whole separation"),
-        ("S43Ninf", measures.intervals, "fewer than 20 stick-slip cycles"),
+        ("F11", lambda case: case.slope("P", 300, 310), "no history from 300 to 310"),
+        ("F13", lambda case: case.signal("spectrum_a", 20, 30), "no samples in spectrum_a from 20 to 30"),
+        ("S43Ninf", lambda case: case.phase_share("stick"), "events of case S43Ninf cover is 0"),
+        ("F11", CaseView.separation_durations, "no whole separation"),
+        ("S43Ninf", CaseView.intervals, "fewer than 20 stick-slip cycles"),
     ],
 )  # fmt: skip
 def test_evidence_that_is_not_there_is_named(

@@ -1,8 +1,7 @@
 """The paper's claims, as data and checks against the computed results.
 
 Each claim states in our own words what the paper says, where it says it, and what counts as agreement and why. Its
-check computes all reported numbers from the merged cases, grid studies or the disc's modes. `ledger.check_claims` makes
-the table.
+check computes all numbers from merged cases, grid studies or the disc's modes. `ledger.check_claims` makes the table.
 """
 
 SCANS = ("basins", "bifurcation_Omega", "bonded", "critical_speed", "hysteresis", "map_E", "map_c_p", "map_k")

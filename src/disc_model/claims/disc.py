@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 from scipy.integrate import fixed_quad
 
-from disc_model.claims.measures import phase_share, rate_of
 from disc_model.claims.model import Answer
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
@@ -37,7 +36,7 @@ def truncation(*evidence: Any, seconds: float, share: float) -> Answer:
     first = [case["first_separation"] for case in cases]
     coupled = [coupled_natural_frequencies(BASE.replace(n_diameters=n))[0] for n in (4, 8)]
     nine, *others = (
-        (rate_of(case, "separation"), phase_share(case, "separation"), phase_share(case, "stick"))
+        (case.rate_of("separation"), case.phase_share("separation"), case.phase_share("stick"))
         for case in (cases[0], *cases[3:])
     )
     more, *circles = [bool(np.allclose(found, nine, rtol=share)) for found in others]

@@ -15,26 +15,13 @@ from disc_model.data.variables import values_text
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
-COLUMNS = (
-    "id",
-    "location",
-    "claim",
-    "paper_value",
-    "ours",
-    "tolerance",
-    "reason",
-    "verdict",
-    "remark",
-    "apart",
-    "robust",
-)
 SECTIONS = (disc, section41, section42, section43, section44)
 CLAIMS = claims(checks_of(*SECTIONS), *(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
 """All claims, in the order of the files."""
 
 
 def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> pd.DataFrame:
-    """Check every claim: a row per claim, columns `COLUMNS`.
+    """Check every claim: a row per claim.
 
     Parameters
     ----------
@@ -45,9 +32,21 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     rows = []
     for claim in CLAIMS:
         (found, turned), texts = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.texts
-        told = (claim.id, texts.location, texts.claim, claim.paper, found.ours, claim.tolerance, texts.reason)
-        rows.append((*told, found.verdict, found.remark, texts.apart, turned))
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+        row = {
+            "id": claim.id,
+            "location": texts.location,
+            "claim": texts.claim,
+            "paper_value": claim.fill(texts.paper),
+            "ours": found.ours,
+            "tolerance": claim.fill(texts.tolerance),
+            "reason": texts.reason,
+            "verdict": found.verdict,
+            "remark": found.remark,
+            "apart": texts.apart,
+            "robust": turned,
+        }
+        rows.append(row)
+    return pd.DataFrame(rows)
 
 
 def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
@@ -127,7 +126,9 @@ def _modes() -> pd.DataFrame:
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
-    table = {"Case": [case.name for case in cases], "Parameters": [_parameters(case) for case in cases]}
+    ignored = [", separation ignored" if case.bonded else "" for case in cases]
+    given = [values_text(dict(case.parameters)) + text for case, text in zip(cases, ignored, strict=True)]
+    table = {"Case": [case.name for case in cases], "Parameters": given}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
     table |= {
         f"Growth{which} (1/s)": [
@@ -154,10 +155,6 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
             "Found with Eq. (17)": kept["ours_new"],
         }
     )
-
-
-def _parameters(case: CaseView) -> str:
-    return values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "")
 
 
 def _first(case: CaseView) -> str:

@@ -24,17 +24,11 @@ from disc_model.parameters import Parameters
 if TYPE_CHECKING:
     from disc_model.stability.cycle import FloquetResult
 
-
 Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
-
-
 STRETCHES, STRETCH = 3, 20.0
 """A motion is steady if its ranges of contact force and disc hardly change: over the last three stretches of 20 s they
-differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails.
-"""
-
-
+differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails."""
 EARLY = (1.0, 1.0 + STRETCH)
 """The first 20 s without the first second, s."""
 
@@ -101,7 +95,7 @@ class CaseView:
     @property
     def first(self) -> str:
         """Time of the first separation, in words."""
-        return first_separation(self)
+        return self.first_separation()
 
     @property
     def growth(self) -> str:
@@ -117,7 +111,7 @@ class CaseView:
     @property
     def motion(self) -> str:
         """Class of the in-plane motion within the stored events, in words."""
-        return late_motion(self)[1]
+        return self.late_motion()[1]
 
     @property
     def early(self) -> Range:
@@ -127,7 +121,7 @@ class CaseView:
     @property
     def late(self) -> Range:
         """Range of the contact force over the last 20 s, N."""
-        return late_range(self, "P")
+        return self.late_range("P")
 
     @property
     def events(self) -> xr.Dataset:
@@ -174,6 +168,137 @@ class CaseView:
         except Missing as reason:
             raise Missing(f"case {self.name} {reason}") from None
 
+    def first_separation(self, *repeats: CaseView) -> str:
+        """Time of the first separation in words: to 0.01 s, or between round numbers if repetitions differ."""
+        times = [each["first_separation"] for each in (self, *repeats)]
+        if math.isnan(times[0]):
+            return f"no separation in {self['time_reached']:g} s"
+        spread = float(np.ptp(times))
+        if math.isnan(spread):
+            found = ", ".join(f"{time:.1f}" for time in sorted(times) if not math.isnan(time))
+            return f"first separation at {found} s, or none: that depends on the tolerance"
+        if spread < 0.005:
+            return f"first separation at {times[0]:.2f} s"
+        order = math.floor(math.log10(spread))
+        digits, unit = max(0, -order), 10.0**order
+        low, high = unit * math.floor(min(times) / unit), unit * math.ceil(max(times) / unit)
+        return f"first separation at {low:.{digits}f} to {high:.{digits}f} s: that depends on the tolerance"
+
+    def late_range(self, name: str) -> Range:
+        """Range over the last 20 s of the run."""
+        end = self["time_reached"]
+        return self.range_of(name, end - STRETCH, end)
+
+    def switches(self, kind: str) -> xr.Dataset:
+        """The stored events of one kind."""
+        events = self.events
+        return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
+
+    def times_of(self, kind: str) -> Array:
+        """Times of the stored events of one kind, s."""
+        return np.asarray(self.switches(kind)["time"])
+
+    def intervals(self, kind: str = "stick_to_slip") -> Array:
+        """Times between successive releases, or separations, among the stored events, s; raises `Missing`."""
+        found = np.diff(self.times_of(kind))
+        if found.size < FEWEST:
+            what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
+            raise Missing(f"case {self.name} keeps fewer than {FEWEST} {what}")
+        return found
+
+    def rate_of(self, kind: str) -> float:
+        """Rate of one kind of event within the stored events, 1/s."""
+        start, stop = self.kept_span()
+        return self.times_of(kind).size / (stop - start)
+
+    def kept_span(self) -> Range:
+        """Span of time for which a case stores its events, s."""
+        attrs = self.events.attrs
+        return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"]))
+
+    def separation_durations(self) -> tuple[Array, float]:
+        """Durations of the separations that begin and end within the stored events, s; and of one that lasts, or 0."""
+        apart, together = self.times_of("separation"), self.times_of("reattachment")
+        ends = np.searchsorted(together, apart, side="right")
+        whole = ends < together.size
+        if not whole.any():
+            raise Missing(f"case {self.name} keeps no whole separation")
+        return together[ends[whole]] - apart[whole], 0.0 if whole.all() else self.kept_span().high - float(apart[-1])
+
+    def phase_share(self, phase: str) -> float:
+        """Fraction of time spent in a phase, within the stored events."""
+        events = self.events
+        lasting = np.diff(np.append(events["time"].values, self.kept_span().high))
+        spent = lasting[events["phase"].values == PHASES.index(phase)]
+        return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
+
+    def late_motion(self, closes: float = CLOSES) -> tuple[Motion, str]:
+        """Class of the in-plane motion within the stored events, also in words.
+
+        closes : s, see `disc_model.analysis.classify.motion_of`
+        """
+        times = self.intervals()
+        motion = classify_intervals(tuple(times), closes)
+        if not motion.period:
+            test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
+            rate = f"{1 / times.mean():.1f} releases/s"
+            return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
+        length = float(times[: motion.period].sum())
+        apart = round(self.rate_of("separation") * length)
+        releases = counted(motion.period, "release")
+        after = f"{releases} = {apart} separations" if apart else releases
+        seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
+        return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
+
+    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> tuple[Array, Array]:
+        """Times of the samples of a window between two times, and a variable there; raises `Missing` without any."""
+        found = self.samples(window).sel(time=slice(start, stop))
+        if found.sizes["time"] < 100:
+            raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
+        return found["time"].values, found[name].values
+
+    def lines(self, window: str, start: float, stop: float, name: str = "w_point", **options: float) -> list[Line]:
+        """Lines of a variable between two times, as by `disc_model.analysis.spectra`; raises `Missing` without any."""
+        time, values = self.signal(window, start, stop, name)
+        found = spectra.lines(time, values, **options)
+        if not found:
+            raise Missing(f"case {self.name} has no line in the spectrum of {window}")
+        return found
+
+    def strongest(self, samples: tuple[Array, Array], near: float, within: float) -> Line:
+        """The strongest line of the disc's point within `within` Hz of a frequency; raises `Absent`."""
+        try:
+            return spectra.strongest(*samples, near, within)
+        except ValueError as error:
+            raise Absent(f"case {self.name}: {error} in w_point") from None
+
+    def sections(self, first: float, end: float) -> list[Section]:
+        """Sections before a time, and in the later half of the time from there to an end."""
+        samples = self.samples("poincare")
+        time, psi, stick = samples["time"].values, samples["psi"].values, samples["phase"].values == STICK
+        stages = time < first, (time > (first + end) / 2) & (time <= end)
+        if min(int(inside.sum()) for inside in stages) < FEWEST:
+            raise Missing(
+                f"case {self.name} has no section of {FEWEST} points before or long after its first separation"
+            )
+        return [Section(float(np.ptp(psi[inside])), float(stick[inside].mean())) for inside in stages]
+
+    def late_section(self, last: int) -> Array:
+        """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
+        samples = self.samples("poincare").isel(time=slice(-last, None))
+        return np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values])
+
+    def slope(self, name: str, start: float, stop: float) -> float:
+        """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
+        history = self.ranges("history")
+        part = history.sel(time=slice(start, stop))
+        if part.sizes["time"] < 4:
+            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
+        width = part[f"{name}_max"].values - part[f"{name}_min"].values
+        if not width.min() > 0:
+            raise Missing(f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s")
+        return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
+
 
 def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
     """One row for each case, under the key ``case`` for sentences."""
@@ -188,29 +313,22 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 
-def _without_gaps(speeds: Array, depth: float) -> Array:
-    """Speeds with nan, which counts as infinite, replaced by one that is higher than all by more than ``depth``."""
-    return np.where(np.isnan(speeds), np.nanmax(speeds, initial=0.0) + 2 * depth, speeds)
-
-
-def dips(speeds: Array, depth: float) -> list[int]:
-    """Indices of minima with a rise of ``depth`` or more on both sides; nan counts as infinite."""
-    return [*map(int, find_peaks(-_without_gaps(speeds, depth), prominence=depth)[0])]
-
-
 def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]]:
     """Whether the lowest speed with separation, over preload, falls and rises by ``depth`` or more; where it turns.
 
     ``again`` are later preloads, perhaps the last, to which it falls after rising up to the preload ``top``.
     """
     loads, speeds = study["N"].values, study["critical_speed"].values
-    first = min(dips(speeds, depth), default=len(speeds))
-    later = [i for i in dips(np.append(speeds, np.nan), depth) if i > first]
-    steps = np.sign(np.diff(_without_gaps(speeds, depth)))
+    infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
+    known = np.where(np.isnan(speeds), infinite, speeds)
+    dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
+    first = min(dips, default=len(speeds))
+    later = [i for i in also_last if i > first]
+    steps = np.sign(np.diff(known))
     turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
     rows = [{"N": loads[i], "speed": or_none(speeds[i], ".1f")} for i in turns]
     top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
-    return first < len(speeds), {"speeds": rows, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
+    return bool(dips.size), {"speeds": rows, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -220,66 +338,10 @@ def ratio(part: float, whole: float, what: str) -> float:
     return part / whole
 
 
-def first_separation(case: CaseView, *repeats: CaseView) -> str:
-    """Time of the first separation in words: to 0.01 s, or between round numbers if repetitions differ."""
-    times = [each["first_separation"] for each in (case, *repeats)]
-    if math.isnan(times[0]):
-        return f"no separation in {case['time_reached']:g} s"
-    spread = float(np.ptp(times))
-    if math.isnan(spread):
-        found = ", ".join(f"{time:.1f}" for time in sorted(times) if not math.isnan(time))
-        return f"first separation at {found} s, or none: that depends on the tolerance"
-    if spread < 0.005:
-        return f"first separation at {times[0]:.2f} s"
-    order = math.floor(math.log10(spread))
-    digits, unit = max(0, -order), 10.0**order
-    low, high = unit * math.floor(min(times) / unit), unit * math.ceil(max(times) / unit)
-    return f"first separation at {low:.{digits}f} to {high:.{digits}f} s: that depends on the tolerance"
-
-
-def switches(case: CaseView, kind: str) -> xr.Dataset:
-    """The stored events of one kind."""
-    events = case.events
-    return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
-
-
-def times_of(case: CaseView, kind: str) -> Array:
-    """Times of the stored events of one kind, s."""
-    return np.asarray(switches(case, kind)["time"])
-
-
-def intervals(case: CaseView, kind: str = "stick_to_slip") -> Array:
-    """Times between successive releases, or separations, among the stored events, s; raises `Missing` if too few."""
-    found = np.diff(times_of(case, kind))
-    if found.size < FEWEST:
-        what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
-        raise Missing(f"case {case.name} keeps fewer than {FEWEST} {what}")
-    return found
-
-
 @lru_cache(maxsize=256)
 def classify_intervals(intervals: tuple[float, ...], closes: float = CLOSES) -> Motion:
     """Class of a motion by its intervals, s; computed once, though claims are judged again with other thresholds."""
     return motion_of(np.array(intervals), closes)
-
-
-def late_motion(case: CaseView, closes: float = CLOSES) -> tuple[Motion, str]:
-    """Class of the in-plane motion within the stored events, also in words.
-
-    closes : s, see `disc_model.analysis.classify.motion_of`
-    """
-    times = intervals(case)
-    motion = classify_intervals(tuple(times), closes)
-    if not motion.period:
-        test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
-        rate = f"{1 / times.mean():.1f} releases/s"
-        return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
-    length = float(times[: motion.period].sum())
-    apart = round(rate_of(case, "separation") * length)
-    releases = counted(motion.period, "release")
-    after = f"{releases} = {apart} separations" if apart else releases
-    seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
-    return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
 
 def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | None = None) -> tuple[bool | None, str]:
@@ -298,12 +360,14 @@ def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | 
 def another_motion(*cases: CaseView) -> list[str]:
     """Cases that stick although another start leads to a motion with the same parameters that does not; it is told."""
     begun = {case.parameters: case for case in cases if not case.from_rest and case.separates}
-    both = [(case, begun[case.parameters]) for case in cases if case.from_rest and case.parameters in begun]
-    return [
-        f"at {case.place} {_by_separations(other)}"
-        for case, other in both
-        if stick_disappears(phase_share(case, "stick"), phase_share(other, "stick"))
-    ]
+    found = []
+    for case in cases:
+        other = begun.get(case.parameters) if case.from_rest else None
+        if other is not None and stick_disappears(case.phase_share("stick"), other.phase_share("stick")):
+            motion = classify_intervals(tuple(other.intervals("separation")))
+            how = f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
+            found.append(f"at {case.place} {how}")
+    return found
 
 
 def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
@@ -330,12 +394,6 @@ def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
     """Change of a periodic motion where a spring is 0.1 % stiffer; empty if its period stays."""
     text = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
     return [{"with": text}] if motion.period not in (0, other.period) else []
-
-
-def _by_separations(case: CaseView) -> str:
-    """Class of a motion without stick, by the intervals between its separations."""
-    motion = classify_intervals(tuple(intervals(case, "separation")))
-    return f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
 
 
 def counted(count: int, name: str) -> str:
@@ -366,72 +424,9 @@ def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> s
     return without if math.isnan(value) else f"{value:{spec}}{unit}"
 
 
-def rate_of(case: CaseView, kind: str) -> float:
-    """Rate of one kind of event within the stored events, 1/s."""
-    start, stop = kept_span(case)
-    return times_of(case, kind).size / (stop - start)
-
-
-def kept_span(case: CaseView) -> Range:
-    """Span of time for which a case stores its events, s."""
-    attrs = case.events.attrs
-    return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), case["time_reached"]))
-
-
-def separation_durations(case: CaseView) -> tuple[Array, float]:
-    """Durations of the separations that begin and end within the stored events, s; and of one that lasts, or 0."""
-    apart, together = times_of(case, "separation"), times_of(case, "reattachment")
-    ends = np.searchsorted(together, apart, side="right")
-    whole = ends < together.size
-    if not whole.any():
-        raise Missing(f"case {case.name} keeps no whole separation")
-    return together[ends[whole]] - apart[whole], 0.0 if whole.all() else kept_span(case).high - float(apart[-1])
-
-
-def phase_share(case: CaseView, phase: str) -> float:
-    """Fraction of time spent in a phase, within the stored events."""
-    events = case.events
-    lasting = np.diff(np.append(events["time"].values, kept_span(case).high))
-    inside = events["phase"].values == PHASES.index(phase)
-    return ratio(float(lasting[inside].sum()), float(lasting.sum()), f"the time that events of case {case.name} cover")
-
-
-def late_range(case: CaseView, name: str) -> Range:
-    """Range over the last 20 s of the run."""
-    end = case["time_reached"]
-    return case.range_of(name, end - STRETCH, end)
-
-
-def signal(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> tuple[Array, Array]:
-    """Times of the samples of a window between two times, and a variable there; raises `Missing` without any."""
-    found = case.samples(window).sel(time=slice(start, stop))
-    if found.sizes["time"] < 100:
-        raise Missing(f"case {case.name} has no samples in {window} from {start:g} to {stop:g} s")
-    return found["time"].values, found[name].values
-
-
-def lines(
-    case: CaseView, window: str, start: float, stop: float, name: str = "w_point", **options: float
-) -> list[Line]:
-    """Lines of a variable between two times, see `disc_model.analysis.spectra.lines`; raises `Missing` without any."""
-    time, values = signal(case, window, start, stop, name)
-    found = spectra.lines(time, values, **options)
-    if not found:
-        raise Missing(f"case {case.name} has no line in the spectrum of {window}")
-    return found
-
-
 def loudest(found: Iterable[Line], count: int) -> list[Line]:
     """The strongest lines, at most `count`, the strongest first."""
     return sorted(found, key=lambda line: -line.amplitude)[:count]
-
-
-def strongest(case: CaseView, samples: tuple[Array, Array], near: float, within: float) -> Line:
-    """The strongest line of the disc's point within `within` Hz of a frequency; raises `Absent`."""
-    try:
-        return spectra.strongest(*samples, near, within)
-    except ValueError as error:
-        raise Absent(f"case {case.name}: {error} in w_point") from None
 
 
 class Section(NamedTuple):
@@ -443,34 +438,6 @@ class Section(NamedTuple):
     def changed(self, then: Section, share: float) -> list[int]:
         """Changes of both: -1 or 1 for a fall or rise by more than a fraction of the value, else 0."""
         return [int(np.sign(b - a)) if abs(b - a) > share * a else 0 for a, b in zip(self, then, strict=True)]
-
-
-def sections(case: CaseView, first: float, end: float) -> list[Section]:
-    """Sections before a time, and in the later half of the time from there to an end."""
-    samples = case.samples("poincare")
-    time, psi, stick = samples["time"].values, samples["psi"].values, samples["phase"].values == PHASES.index("stick")
-    stages = time < first, (time > (first + end) / 2) & (time <= end)
-    if min(int(inside.sum()) for inside in stages) < FEWEST:
-        raise Missing(f"case {case.name} has no section of {FEWEST} points before or long after its first separation")
-    return [Section(float(np.ptp(psi[inside])), float(stick[inside].mean())) for inside in stages]
-
-
-def late_section(case: CaseView, last: int) -> Array:
-    """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
-    samples = case.samples("poincare").isel(time=slice(-last, None))
-    return np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values])
-
-
-def slope(case: CaseView, name: str, start: float, stop: float) -> float:
-    """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
-    history = case.ranges("history")
-    part = history.sel(time=slice(start, stop))
-    if part.sizes["time"] < 4:
-        raise Missing(f"case {case.name} has no history from {start:g} to {stop:g} s")
-    width = part[f"{name}_max"].values - part[f"{name}_min"].values
-    if not width.min() > 0:
-        raise Missing(f"case {case.name} has no vibration in {name} from {start:g} to {stop:g} s")
-    return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
 
 
 @cache

@@ -152,13 +152,9 @@ class Claim:
     texts: Text
     check: Callable[..., Answer]
 
-    @property
-    def paper(self) -> str:
-        return Sentences({}, self.numbers).fill(self.texts.paper)
-
-    @property
-    def tolerance(self) -> str:
-        return Sentences({}, self.numbers).fill(self.texts.tolerance)
+    def fill(self, sentence: str) -> str:
+        """A sentence with the claim's numbers, such as the paper's value or the tolerance."""
+        return Sentences({}, self.numbers).fill(sentence)
 
     @property
     def numbers(self) -> dict[str, Any]:
@@ -242,8 +238,7 @@ class Claim:
     def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
         """The bounds, halved or doubled, or the parameters, changed, that change the verdict; "stable" without any.
 
-        For ratios between 0.5 and 2, the distance from 1 is halved or doubled. For parts of a whole, the ratio to the
-        rest is.
+        Of ratios between 0.5 and 2 the distance from 1 is halved or doubled, of parts of a whole the ratio to the rest.
         """
         if not (self.texts.bounds or self.texts.computed) or verdict.startswith(NOT_COMPUTED):
             return ""

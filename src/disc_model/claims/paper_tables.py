@@ -73,12 +73,12 @@ def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) ->
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """The strongest line near each frequency of Table 2."""
-    window = measures.signal(case, "spectrum_a", 0, 10)
+    window = case.signal("spectrum_a", 0, 10)
     within = [SEARCHED if paper > 10 else SEARCHED / 4 for paper in LISTED]
-    return [measures.strongest(case, window, *near) for near in zip(LISTED, within, strict=True)]
+    return [case.strongest(window, *near) for near in zip(LISTED, within, strict=True)]
 
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
     """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
-    (line,) = measures.loudest(measures.lines(case, window, start, stop, "psi", above=20.0), 1)
+    (line,) = measures.loudest(case.lines(window, start, stop, "psi", above=20.0), 1)
     return line.frequency

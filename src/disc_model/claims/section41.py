@@ -1,6 +1,6 @@
 """Claims of Section 4.1: separation occurs, and ignoring it changes the motion."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -33,12 +33,12 @@ def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
     count = int(np.sum(np.diff(apart.astype(int)) == 1))
     force = float(np.abs(window["P"].values[apart]).max(initial=0.0))
     span = float(window["time"][-1] - window["time"][0])
-    rate = measures.rate_of(case, "separation")
+    rate = case.rate_of("separation")
     return Answer(count >= fewest and force == 0.0, count=count, ms=span * 1e3, rate=rate, force=force)
 
 
 def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
-    lost = measures.switches(case, "separation")
+    lost = case.switches("separation")
     velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
     upward = float(np.mean(velocity > 0))
     numbers = {"count": velocity.size, "velocity": velocity.mean(), "mm": 1e3 * height.mean()}
@@ -48,8 +48,8 @@ def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
 def separations_are_short(*cases: CaseView, part: float) -> Answer:
     found = []
     for case in cases:
-        durations, still_open = measures.separation_durations(case)
-        longest, period = max(durations.max(), still_open), 1 / measures.rate_of(case, "separation")
+        durations, still_open = case.separation_durations()
+        longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
         found.append({"case": case, "ms": 1e3 * longest, "period": 1e3 * period, "percent": 100 * longest / period})
     return Answer(max(row["percent"] for row in found) < 100 * part, longest=found)
 
@@ -58,7 +58,7 @@ def separations_end(*cases: CaseView, factor: float) -> Answer:
     """Whether no separation lasts much longer than the longest one that has ended."""
     lasting, count = [], 0
     for case in cases:
-        durations, still_open = measures.separation_durations(case)
+        durations, still_open = case.separation_durations()
         count += durations.size
         if still_open > factor * durations.max():
             lasting.append({"case": case, "ms": 1e3 * still_open})
@@ -66,7 +66,7 @@ def separations_end(*cases: CaseView, factor: float) -> Answer:
 
 
 def releases_regularly(case: CaseView, *, within: float) -> Answer:
-    intervals = measures.intervals(case)
+    intervals = case.intervals()
     spread = irregularity(intervals)
     return Answer(spread <= within, interval=1e3 * intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
@@ -76,8 +76,8 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
 
     ``other`` has the same parameters and another start, ``near`` the same start and a spring 0.1 % stiffer.
     """
-    motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
-    length = measures.intervals(case)[: motion.period].sum() if motion.period else 0.0
+    motion, beside = (each.late_motion(closes)[0] for each in (case, near))
+    length = case.intervals()[: motion.period].sum() if motion.period else 0.0
     return Answer(
         *is_kind(Outcome.QUASI_PERIODIC, motion, near=beside),
         longer=length > shown,
@@ -89,18 +89,18 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
 
 
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
-    stick, (motion, _) = measures.phase_share(case, "stick"), measures.late_motion(case)
+    stick, (motion, _) = case.phase_share("stick"), case.late_motion()
     return Answer(stick > share, percent=100 * stick, modulated=not motion.period)
 
 
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
-    shares = [measures.phase_share(case, "stick") for case in cases]
+    shares = [case.phase_share("stick") for case in cases]
     rows = [{"case": case, "percent": 100 * stick} for case, stick in zip(cases, shares, strict=True)]
     return Answer(min(shares) > share, sticks=rows)
 
 
 def stick_is_gone(case: CaseView, *, share: float) -> Answer:
-    whole, late = case["time_stick"] / case["time_reached"], measures.phase_share(case, "stick")
+    whole, late = case["time_stick"] / case["time_reached"], case.phase_share("stick")
     return Answer(stick_disappears(whole, late, share), whole=100 * whole, late=100 * late)
 
 
@@ -119,8 +119,8 @@ def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
         windows = [case.samples(f"field{i}") for i in range(2 * case.parameters.n_diameters + 1)]
         theta = np.array([window.attrs["theta"] for window in windows])
         found.append(energy.powers(case.parameters, case["u_0"], theta, windows))
-    (pushes, pulls), gained = (found[0].pushes, found[0].pulls), found[1].pushes
-    return Answer(pulls > 0, pushes=pushes, pulls=pulls, gained=gained, takes=pulls <= 0)
+    kept, held = found
+    return Answer(kept.pulls > 0, pushes=kept.pushes, pulls=kept.pulls, gained=held.pushes, takes=kept.pulls <= 0)
 
 
 def excites_less(*cases: CaseView, part: float) -> Answer:
@@ -129,7 +129,7 @@ def excites_less(*cases: CaseView, part: float) -> Answer:
     for free, bonded in pairs(cases):
         held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
         kept = energy.course(bonded.parameters, bonded["time_reached"])
-        there, cycle = energy.at_width(kept, held.width), float(measures.intervals(free, "separation").mean())
+        there, cycle = energy.at_width(kept, held.width), float(free.intervals("separation").mean())
         withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
         mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
         mJ |= {"damped": held.damped, "impacts": held.impacts}
@@ -142,7 +142,7 @@ def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
     """Late ranges of the disc by pair: with separation, without it, and their ratio."""
     rows = []
     for case, ignored in pairs(cases):
-        free, bonded = (measures.late_range(each, "w_point").width for each in (case, ignored))
+        free, bonded = (each.late_range("w_point").width for each in (case, ignored))
         ratio = measures.ratio(free, bonded, f"the range of the disc in case {ignored.name}")
         rows.append({"case": case, "free": 1e3 * free, "bonded": 1e3 * bonded, "ratio": ratio})
     return rows
@@ -172,14 +172,14 @@ def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
     found: list[dict[str, Any]] = []
     filling, more, points = [], [], int(last)
     for free, bonded in pairs(cases):
-        sections = [measures.late_section(case, points) for case in (free, bonded)]
+        sections = [case.late_section(points) for case in (free, bonded)]
         larger = np.maximum(*(np.ptp(section, axis=0) for section in sections))
         ours, full = map(distinct_points, sections)
         common, common_full = (distinct_points(section, larger) for section in sections)
         counts = {"points": ours, "full": full, "common": common, "common_full": common_full}
         found.append({"case": free, **counts})
         more += [ours >= factor * full, common >= factor * common_full] if free.from_rest else []
-        if full > FULL * distinct_points(measures.late_section(bonded, points // 2)):
+        if full > FULL * distinct_points(bonded.late_section(points // 2)):
             filling.append(bonded.name)
     published, another = _by_start(found)
     holds = None if filling or len({*more}) > 1 else more[0]
@@ -196,8 +196,8 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     found, changes, own = [], [], []
     for case, bonded in pairs(published):
         first, end = case["first_separation"], min(case["time_reached"], bonded["time_reached"])
-        before, after = measures.sections(case, first, end)
-        _, control = measures.sections(bonded, first, end)
+        before, after = case.sections(first, end)
+        _, control = bonded.sections(first, end)
         changed, ignored = before.changed(after, share), before.changed(control, share)
         changes.append(any(changed))
         own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
@@ -209,31 +209,26 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
 
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
-    rows = _with_stick([case for case in cases if case.from_rest])
-    return Answer(
-        any(row["ratio"] * factor <= 1 and _sticks_otherwise(row, factor) for row in rows),
-        pairs=rows,
-        another=measures.another_motion(*cases),
-    )
+    rows = _with_stick([case for case in cases if case.from_rest], factor)
+    both = any(row["narrower"] and row["otherwise"] for row in rows)
+    return Answer(both, pairs=rows, another=measures.another_motion(*cases))
 
 
-def _with_stick(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
-    """`_ranges`, with the late shares of stick in %, with separation and without it."""
+def _with_stick(cases: Sequence[CaseView], factor: float) -> list[dict[str, Any]]:
+    """`_ranges`, with the late shares of stick in %, and whether range and share of stick differ by a factor."""
     rows = _ranges(cases)
     for row, pair in zip(rows, pairs(cases), strict=True):
-        row["stick"], row["without"] = (100 * measures.phase_share(each, "stick") for each in pair)
+        shares = [100 * each.phase_share("stick") for each in pair]
+        row["stick"], row["without"] = shares
+        row["narrower"], row["otherwise"] = row["ratio"] * factor <= 1, max(shares) >= factor * min(shares)
     return rows
-
-
-def _sticks_otherwise(row: Mapping[str, float], factor: float) -> bool:
-    return max(row["stick"], row["without"]) >= factor * min(row["stick"], row["without"])
 
 
 def often_very_different(*cases: CaseView, factor: float, part: float) -> Answer:
     """Whether the fraction of stick or the range of the disc differs in that part of the pairs; it decides 'often'."""
-    rows = _with_stick(cases)
-    differ = [row["ratio"] * factor <= 1 or _sticks_otherwise(row, factor) for row in rows]
-    return Answer(sum(differ) >= part * len(rows), pairs=rows, count=sum(differ), of=len(rows))
+    rows = _with_stick(cases, factor)
+    count = sum(row["narrower"] or row["otherwise"] for row in rows)
+    return Answer(count >= part * len(rows), pairs=rows, count=count, of=len(rows))
 
 
 def should_be_considered(*cases: CaseView) -> Answer:
@@ -243,7 +238,7 @@ def should_be_considered(*cases: CaseView) -> Answer:
 
 def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
     """Whether the orbit returns to itself at each release."""
-    psi = measures.switches(case, "stick_to_slip")["psi"].values
+    psi = case.switches("stick_to_slip")["psi"].values
     if psi.size < 20:
         raise Missing(f"case {case.name} keeps fewer than 20 releases")
     apart = min(closure(psi, n) for n in range(1, 9))
@@ -254,8 +249,8 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
 
 def is_intricate(case: CaseView, other: CaseView, *near: CaseView, most: float) -> Answer:
     """Whether the in-plane motion has no short period; ``other`` and ``near`` as in `is_quasi_periodic`."""
-    motion, _ = measures.late_motion(case)
-    nearby = [row for each in near for row in measures.nearby(motion, measures.late_motion(each)[0])]
+    motion, _ = case.late_motion()
+    nearby = [row for each in near for row in measures.nearby(motion, each.late_motion()[0])]
     another = measures.another_motion(case, other)
     return Answer(not 0 < motion.period <= most, periodic=motion.period > 0, nearby=nearby, another=another)
 
@@ -264,7 +259,7 @@ def slip_condition(*cases: CaseView) -> Answer:
     """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
     true, ends = 0, 0
     for case in cases:
-        stops = measures.switches(case, "slip_to_stick")
+        stops = case.switches("slip_to_stick")
         pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
         true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
         ends += stops.sizes["event"]

@@ -27,17 +27,17 @@ def only_one_separates(*cases: CaseView, which: float) -> Answer:
 
 
 def disc_does_not_grow(case: CaseView, *, part: float) -> Answer:
-    early, late = case.range_of("w_point", *measures.EARLY).width, measures.late_range(case, "w_point").width
+    early, late = case.range_of("w_point", *measures.EARLY).width, case.late_range("w_point").width
     return Answer(late <= (1 + part) * early, early=1e3 * early, late=1e3 * late)
 
 
 def larger_range(*cases: CaseView, factor: float) -> Answer:
-    below, above = (measures.late_range(case, "w_point").width for case in cases)
+    below, above = (case.late_range("w_point").width for case in cases)
     return Answer(above > factor * below, below=1e3 * below, above=1e3 * above)
 
 
 def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer:
-    periodic, too = (measures.late_motion(each, closes)[0].period > 0 for each in (case, bonded))
+    periodic, too = (each.late_motion(closes)[0].period > 0 for each in (case, bonded))
     return Answer(periodic, too=too)
 
 
@@ -53,7 +53,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:
-    rows = [{"case": case, "motion": measures.late_motion(case)[0]} for case in cases]
+    rows = [{"case": case, "motion": case.late_motion()[0]} for case in cases]
     below, above = (case.late.width for case in cases)
     return Answer(above > factor * below, motions=rows)
 
@@ -80,9 +80,8 @@ def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: 
     begins, horizon = measures.extent(lowest[found]), float(study["horizon"])
     below = [] if sweeps is None else _lasts_below(study["critical_speed"], sweeps, within)
     dwell = 0.0 if sweeps is None else stated_in(sweeps, "options")["dwell"]
-    some, count = found.sum(), found.size
-    values = {"begins": begins, "some": some, "count": count, "horizon": horizon, "top": top}
-    return Answer(True, loads=rows, below=below, dwell=dwell, **values)
+    counts = {"some": found.sum(), "count": found.size}
+    return Answer(True, loads=rows, begins=begins, horizon=horizon, top=top, below=below, dwell=dwell, **counts)
 
 
 def _lasts_below(critical: xr.DataArray, sweeps: xr.Dataset, within: float) -> list[dict[str, float]]:

@@ -27,8 +27,6 @@ STIFFENED = {
 """Parameters of disc and springs with units and values: those of the paper, and others between them."""
 SPEEDS = (7.5, 8.75, 10, 12.6, 15, 20, 30, 50)
 """Speeds at which twice the disc's damping is tested, rad/s."""
-MIDDLE = [False, True, False]
-"""What holds of three cases if only of the middle one."""
 GREW = 1.02
 """Least factor by which a grown range is wider: sampling causes far less."""
 
@@ -70,8 +68,8 @@ def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
 
 def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
     """Whether the case only sticks, which is damped; and whether the largest preload with releases is not stable."""
-    released = large.separates or _grew(large) or not growth_or_nan(large.parameters) < 0
-    return Answer(stuck["time_slip"] == 0 and not stuck.separates, released=released)
+    stable = _stays_calm(large) and growth_or_nan(large.parameters) < 0
+    return Answer(stuck["time_slip"] == 0 and not stuck.separates, released=not stable)
 
 
 def stick_longer(*cases: CaseView) -> Answer:
@@ -82,17 +80,17 @@ def stick_longer(*cases: CaseView) -> Answer:
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float, wait: float) -> Answer:
     scan = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
-    lower = [speed for speed, t in scan.items() if t <= horizon and speed < printed - within]
-    latest = [speed for speed, t in scan.items() if not math.isnan(t)]
-    # horizons at which no clearly lower speed separates
-    first = min((t for speed, t in scan.items() if speed < printed - within and not math.isnan(t)), default=math.inf)
+    apart = {speed: time for speed, time in scan.items() if not math.isnan(time)}
+    slower = {speed: time for speed, time in apart.items() if speed < printed - within}
+    lower = [speed for speed, time in slower.items() if time <= horizon]
+    first = min(slower.values(), default=math.inf)  # at shorter horizons no clearly lower speed separates
     some = scan[printed] < first < math.inf
     holds = scan[printed] <= horizon and not lower
     return Answer(
         None if some and not holds else holds,
         "wait",
         speeds=[{"Omega": speed, "time": measures.or_none(scan[speed], ".0f", " s")} for speed in sorted(scan)],
-        latest=min(latest, default=math.nan),
+        latest=min(apart, default=math.nan),
         lower=[{"horizon": horizon, "least": min(lower)}] if lower else [],
         exactly=[{"low": scan[printed], "high": first}] if some else [],
     )
@@ -109,32 +107,26 @@ def damping_stabilises(case: CaseView, **damper: float) -> Answer:
     )
 
 
-def _grew(case: CaseView, factor: float = GREW) -> bool:
-    """Whether the contact force has a wider range at the end than at first."""
-    return factor * case.early.width < case.late.width
+def _stays_calm(case: CaseView, factor: float = GREW) -> bool:
+    """Whether contact is kept, and the contact force has no wider range at the end than at first."""
+    return not case.separates and not factor * case.early.width < case.late.width
 
 
 def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
-    intervals = measures.intervals(case)
-    spread = irregularity(intervals)
-    return Answer(
-        not case.separates and case.late.width < part * case["N"] and not _grew(case) and spread <= within,
-        rate=1 / intervals.mean(),
-        spread=spread,
-    )
+    intervals = case.intervals()
+    spread, small = irregularity(intervals), case.late.width < part * case["N"]
+    return Answer(small and _stays_calm(case) and spread <= within, rate=1 / intervals.mean(), spread=spread)
 
 
-def only_between(
-    small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
-) -> Answer:
+def only_between(*cases: CaseView, factor: float) -> Answer:
     """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
-    *unstable, largest_too = [case.separates or _grew(case, factor) for case in (small, middle, large, largest)]
-    beyond = [{"case": again[0], "first": measures.first_separation(*again)}, {"case": largest, "first": largest.first}]
-    holds, too = unstable == MIDDLE, largest_too or again[0].separates
-    return Answer(
-        None if holds and too else holds, "beyond", loads=measures.rows((small, middle, large)), beyond=beyond
-    )
+    largest, again, *repeats = cases[3:]
+    *stable, largest_too = [_stays_calm(case, factor) for case in cases[:4]]
+    first = again.first_separation(*repeats)
+    beyond = [{"case": again, "first": first}, {"case": largest, "first": largest.first}]
+    holds, decides = stable == [True, False, True], largest_too and not again.separates
+    return Answer(None if holds and not decides else holds, "beyond", loads=measures.rows(cases[:3]), beyond=beyond)
 
 
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
@@ -144,27 +136,27 @@ def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
         min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
         for group in ((undamped, slow[0]), damped)
     ]
-    found = [{"case": case, "first": measures.first_separation(case, *again)} for case, *again in runs]
+    found = [{"case": case, "first": case.first_separation(*again)} for case, *again in runs]
     return Answer(lowest[0] < lowest[1], runs=found)
 
 
 def disc_damping(*cases: CaseView, factor: float) -> Answer:
     rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
     texts = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
-    stable = [not case.separates and not _grew(case, factor) for case in cases]
+    stable = [_stays_calm(case, factor) for case in cases]
     holds = all(stable) if len({*stable}) == 1 else None
     return Answer(holds, "speed", rates=texts)
 
 
 def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answer:
-    periodic = measures.late_motion(case, closes)[0].period > 0
+    periodic = case.late_motion(closes)[0].period > 0
     return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p", 0.0, case["c_p"]))
 
 
 def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
     """Whether the disc's motion repeats and, as an unstable one would, departs from itself at a growing rate."""
-    motion, text = measures.late_motion(case)
-    released = measures.switches(case, "stick_to_slip")
+    motion, text = case.late_motion()
+    released = case.switches("stick_to_slip")
     period = max(motion.period, 1)
     units = {"u": abs(case["u_0"]), "u_velocity": abs(case["u_0"]) * case["Omega"]}
     scaled = np.array([released[name] / unit for name, unit in units.items()])
@@ -176,7 +168,7 @@ def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
         "attracts",
         text=text.removeprefix("periodic: "),
         apart=apart,
-        points=distinct_points(measures.late_section(case, 150)),
+        points=distinct_points(case.late_section(150)),
     )
 
 
@@ -189,7 +181,7 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
 
 
 def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
-    motion = measures.late_motion(case, closes)[0]
+    motion = case.late_motion(closes)[0]
     irregular = motion.kind is Outcome.IRREGULAR
     return Answer(None, "irregular") if irregular else Answer(*is_kind(Outcome.QUASI_PERIODIC, motion))
 
@@ -209,7 +201,7 @@ def stiff_enough(case: CaseView) -> Answer:
     """Whether the stiffness of a case makes motion stable at all points of a grid; undecided if at some of them."""
     points = _grid(case.parameters)
     others = [p for p in points if not _growth(p) < 0]
-    calm = not case.separates and not _grew(case)
+    calm = _stays_calm(case)
     return Answer(
         None if calm and 0 < len(others) < len(points) else calm and not others,
         "some",
@@ -234,7 +226,7 @@ def _grid(p: Parameters) -> list[Parameters]:
 
 
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
-    motion, beside = (measures.late_motion(each, closes)[0] for each in (case, near))
+    motion, beside = (each.late_motion(closes)[0] for each in (case, near))
     repeats, nearby = motion.period > 0, measures.nearby(motion, beside)
     return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates, beside), repeats=repeats, nearby=nearby)
 
@@ -243,8 +235,8 @@ def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     faster = growth_or_nan(base.parameters) > growth_or_nan(soft.parameters)
     rates, _ = _stiffened(base.parameters, "k_p")
-    changes = np.count_nonzero(np.diff(np.sign(rates[np.isfinite(rates)])))
-    return Answer(sooner and faster and not stiff.separates and not _grew(stiff), between=changes > 1 and changes)
+    changes = np.count_nonzero(np.diff(np.sign(rates)))
+    return Answer(sooner and faster and _stays_calm(stiff), between=changes > 1 and changes)
 
 
 def lowest_position(case: CaseView, *, bound: float) -> Answer:
@@ -255,7 +247,7 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
         raise Missing("no separation in the window of case F23")
     found = separation_location(time, height, starts, bound)
     # by its events: samples come late, and the velocity of a light slider changes fast
-    lost = measures.switches(case, "separation")
+    lost = case.switches("separation")
     if not lost.sizes["event"]:
         raise Missing("case F23 keeps no separation")
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
@@ -281,7 +273,7 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
 def always_upward(*cases: CaseView, share: float) -> Answer:
     shares = {}
     for case in cases:
-        velocity = measures.switches(case, "separation")["u_velocity"].values
+        velocity = case.switches("separation")["u_velocity"].values
         if case.separates and not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         if velocity.size:
@@ -343,9 +335,10 @@ def not_monotonous(*evidence: Any) -> Answer:
     growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
     lowered = growing & (growth[:, -1] < growth[:, 0])
     rates, text = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
-    signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
+    signs = {*np.sign(np.diff(rates))}
+    by_preload = [case.separates for case in cases] == [False, True, False]
     return Answer(
-        [case.separates for case in cases] == MIDDLE and newly.any() and lowered.any() and {-1, 1} <= signs,
+        by_preload and newly.any() and lowered.any() and {-1, 1} <= signs,
         loads=measures.rows(cases),
         rates=text,
         newly=[f"{N:g}" for N in loads[newly]] or ["none"],
@@ -368,19 +361,18 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
 
 
 def stiffer_disc(*cases: CaseView) -> Answer:
-    by_speed = {speed: _stiffened(cases[0].parameters.replace(Omega=speed, E=BASE.E), "E") for speed in (11, 20)}
-    falls = [bool(np.all(np.diff(rates) < 0)) for rates, _ in by_speed.values()]
-    rates = [{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()]
-    return Answer(all(falls), discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=rates)
+    rates, said = _stiffened_at_speeds(cases[0], "E", 11, 20)
+    falls = all(each.size == 3 and np.all(np.diff(each) < 0) for each in rates)
+    return Answer(falls, discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=said)
 
 
 def stiffer_spring(case: CaseView) -> Answer:
-    rates, said = _stiffened_at_speeds(case, "k")
+    rates, said = _stiffened_at_speeds(case, "k", 20, 50)
     return Answer(all(np.all(np.diff(each) < 0) for each in rates), rates=said)
 
 
 def stiffer_inplane(case: CaseView) -> Answer:
-    rates, said = _stiffened_at_speeds(case, "k_p")
+    rates, said = _stiffened_at_speeds(case, "k_p", 20, 50)
     rises = all(np.all(np.diff(each[: np.argmax(each) + 1]) > 0) for each in rates)
     return Answer(rises, rates=said)
 
@@ -411,7 +403,7 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
     cycle = measures.cycle_of(case.parameters)
     leading = cycle.multipliers[0]
     start, stop = (float(case.samples("early")["time"][i]) for i in (0, -1))
-    found = measures.lines(case, "early", start, stop, "psi", above=1.0, below=200.0, floor=floor)
+    found = case.lines("early", start, stop, "psi", above=1.0, below=200.0, floor=floor)
     (strongest,) = measures.loudest(found, 1)
     turn = abs(float(np.angle(leading))) / (2 * np.pi)
     expected = np.array([turn, 1 - turn, 1 + turn]) * strongest.frequency
@@ -442,7 +434,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    shares = {case.place: measures.phase_share(case, "stick") for case in cases if case.from_rest}
+    shares = {case.place: case.phase_share("stick") for case in cases if case.from_rest}
     texts = [f"N = {place}: {100 * stick:.1f} %" for place, stick in shares.items()]
     return Answer(min(shares.values()) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
 
@@ -474,22 +466,22 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
         f"{measures.place(points[i].N, points[i].Omega)}: {without[i]:+.4f} to {rate[i]:+.4f}/s"
         for i in np.flatnonzero(higher)
     ]
-    found: dict[str, Any] = {name: int(at.sum()) for name, at in (counts | remarks).items()}
-    for name in remarks:  # a row if there are any
-        found[name] = [{"count": found[name], "where": "; ".join(places)}] if found[name] else []
+    found: dict[str, Any] = {name: int(at.sum()) for name, at in counts.items()}
+    for name, at in remarks.items():  # a row if there are any
+        found[name] = [{"count": at.sum(), "where": "; ".join(places)}] if at.any() else []
     return found | {"points": len(points), "value": much, "places": places}
 
 
-def _stiffened_at_speeds(case: CaseView, name: str) -> tuple[list[Array], list[dict[str, Any]]]:
-    """Growth rates of `_stiffened` at 20 and at 50 rad/s where there is a cycle, also in words."""
-    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), name) for speed in (20, 50)}
+def _stiffened_at_speeds(case: CaseView, name: str, *speeds: float) -> tuple[list[Array], list[dict[str, Any]]]:
+    """Growth rates of `_stiffened` at some speeds in rad/s, also in words."""
+    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), name) for speed in speeds}
     said = [{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()]
-    return [rates[np.isfinite(rates)] for rates, _ in by_speed.values()], said
+    return [rates for rates, _ in by_speed.values()], said
 
 
 def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:
-    """Growth rates for the values of `STIFFENED`, 1/s, also in words."""
+    """Growth rates for the values of `STIFFENED`, 1/s, where there is a cycle; those of all values in words."""
     unit, symbol, values = STIFFENED[name]
     rates = np.array([growth_or_nan(p.replace(**{name: unit * value})) for value in values])
     text = ", ".join(map(rate_text, rates))
-    return rates, f"{text} per second for {', '.join(map(str, values))} {symbol}"
+    return rates[np.isfinite(rates)], f"{text} per second for {', '.join(map(str, values))} {symbol}"

@@ -1,6 +1,7 @@
 """Claims of Section 4.4: frequencies of the disc and of the slider, and how they change with time."""
 
 import math
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ STILL = 3e-4
 
 def lines(case: CaseView, *, bound: float) -> Answer:
     found, table = table_2_lines(case), table_2(case)
-    window = measures.signal(case, *EARLY)
+    window = case.signal(*EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
     chance = max(spectra.chance(*window, line, SEARCHED) for line in found)
     floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
@@ -39,7 +40,6 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         lines=[f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples()],
         rate=stick_slip_rate(case),
         chance=max(chance, 1e-99),
-        combinations=True,
         some=[] if named == len(found) else [{"named": named, "count": len(found)}],
         others=others,
     )
@@ -47,9 +47,9 @@ def lines(case: CaseView, *, bound: float) -> Answer:
 
 def drive(case: CaseView, *, level: float) -> Answer:
     drive = case["Omega"] / (2 * np.pi)
-    (every,) = measures.loudest(measures.lines(case, *EARLY, above=0.5 * drive), 1)
-    window = measures.signal(case, *EARLY)
-    found = [measures.strongest(case, window, n * drive, 0.4 * drive) for n in (1, 2, 3)]
+    (every,) = measures.loudest(case.lines(*EARLY, above=0.5 * drive), 1)
+    window = case.signal(*EARLY)
+    found = [case.strongest(window, n * drive, 0.4 * drive) for n in (1, 2, 3)]
     levels = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
     near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
     strongest = every.amplitude <= found[0].amplitude * (1 + 1e-9)
@@ -62,7 +62,7 @@ def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away, near = [], [], [], []
     for case in cases:
-        found = sorted(measures.loudest(measures.lines(case, *EARLY, above=100, below=300, apart=1.0), 6))
+        found = sorted(measures.loudest(case.lines(*EARLY, above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in found]
         away += [_from_natural(case, line) for line in found]
@@ -83,7 +83,7 @@ def follow(*cases: CaseView, within: float) -> Answer:
 
 def inplane_pair(case: CaseView, *, within: float) -> Answer:
     rate, drive = stick_slip_rate(case), case["Omega"] / (2 * np.pi)
-    found = measures.loudest(measures.lines(case, *EARLY, above=40, below=100, apart=1.0), 2)
+    found = measures.loudest(case.lines(*EARLY, above=40, below=100, apart=1.0), 2)
     pair, split = sorted(line.frequency for line in found), [rate - drive, rate + drive]
     return Answer(len(pair) == 2 and np.allclose(pair, split, atol=within, rtol=0), rate=rate, pair=pair, split=split)
 
@@ -119,7 +119,7 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
     """
     found, alone = [], []
     for pair in zip(cases[::2], cases[1::2], strict=True):
-        rates = [1 / float(measures.intervals(case, "separation").mean()) for case in pair]
+        rates = [1 / float(case.intervals("separation").mean()) for case in pair]
         modes = [_natural(case)[0] for case in pair]
         rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
         found.append({"case": pair[0], "rate": rates[0], "mode": modes[0], "follows": rise / of_mode})
@@ -140,14 +140,14 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
 
 def _level(case: CaseView, frequency: float) -> float:
     """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    found, amplitude = spectra.amplitude_spectrum(*measures.signal(case, "late", 0.0, np.inf))
+    found, amplitude = spectra.amplitude_spectrum(*case.signal("late", 0.0, np.inf))
     near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
     return measures.ratio(near, every, f"the spectrum of case {case.name}")
 
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate = stick_slip_rate(case)
-    found = measures.lines(case, *EARLY, above=LOW, below=HIGH, floor=1e-3)
+    found = case.lines(*EARLY, above=LOW, below=HIGH, floor=1e-3)
     power = sum(line.amplitude**2 for line in found)
     made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
     percent = 100 * sum(line.amplitude**2 for line in made) / power
@@ -156,13 +156,14 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
 
 def three_kinds(case: CaseView, *, factor: float) -> Answer:
     spans = (EARLY, LATER, LATE)
-    ranges = [float(np.ptp(measures.signal(case, *span)[1])) for span in spans]
+    ranges = [float(np.ptp(case.signal(*span)[1])) for span in spans]
     filled = [_fuzziness(case, *span) for span in spans]
-    rates = [measures.slope(case, "P", max(start, 1), stop) for _, start, stop in spans]
+    rates = [case.slope("P", max(start, 1), stop) for _, start, stop in spans]
     grown = [max(rate, STILL) for rate in rates]
+    kinds = zip(ranges, filled, grown, strict=True)
     differ = [
-        any(max(x[i], x[j]) >= factor * min(x[i], x[j]) for x in (ranges, filled, grown))
-        for i, j in ((0, 1), (1, 2), (0, 2))
+        any(max(pair) >= factor * min(pair) for pair in zip(one, other, strict=True))
+        for one, other in combinations(kinds, 2)
     ]
     rows = [
         {"start": start, "stop": stop, "mm": 1e3 * width, "percent": 100 * share, "rate": rate}
@@ -177,7 +178,7 @@ def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
     early, later = (
         sum(
             _from_combination(case, line, rate) > COMBINED
-            for line in measures.lines(case, *span, above=LOW, below=300.0, floor=floor)
+            for line in case.lines(*span, above=LOW, below=300.0, floor=floor)
         )
         for span in (EARLY, LATER)
     )
@@ -201,9 +202,7 @@ def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
     rows, found = [], []
     for case in pair:
         before, after = _fuzziness(case, *LATER), _fuzziness(case, *LATE)
-        first, second = (
-            measures.lines(case, "spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
-        )
+        first, second = (case.lines("spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110)))
         drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
         found.append(after < part * before and drift < within)
         rows.append({"case": case, "before": 100 * before, "after": 100 * after, "drift": drift})
@@ -237,7 +236,7 @@ def multiples(case: CaseView, *, bound: float) -> Answer:
         worst=max(after),
         others=sum(off > bound for off in before),
         before=len(before),
-        releases=measures.rate_of(case, "stick_to_slip") / rate,
+        releases=case.rate_of("stick_to_slip") / rate,
     )
 
 
@@ -246,14 +245,14 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
     if not 20 <= first <= end - 20:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
     starts = np.arange(5.0, first - 5, 2.5)
-    rates = np.array([measures.slope(case, "w_point", t, t + 5) for t in starts])
+    rates = np.array([case.slope("w_point", t, t + 5) for t in starts])
     peak = int(np.argmax(rates))
     slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
-    last = measures.slope(case, "w_point", first - 3, first)
-    after, ignored = (measures.slope(each, "w_point", each["time_reached"] - 20, np.inf) for each in (case, bonded))
+    last = case.slope("w_point", first - 3, first)
+    after, ignored = (each.slope("w_point", each["time_reached"] - 20, np.inf) for each in (case, bonded))
     here, there = (abs(rate) < rest * sharp for rate in (after, ignored))
     stages = sharp > max(factor * slow, least) and last < sharp
-    free, kept = (1e3 * measures.late_range(each, "w_point").width for each in (case, bonded))
+    free, kept = (1e3 * each.late_range("w_point").width for each in (case, bonded))
     numbers = {"slow": slow, "sharp": sharp, "at": starts[peak] + 2.5, "last": last, "after": after}
     return Answer(*_beside(stages and here, stages and there), free=free, kept=kept, **numbers)
 
@@ -261,9 +260,7 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
 def natural_lines(case: CaseView, *, share: float, near: float) -> Answer:
     span = ("spectrum_d", 143.0, 153.0)
     drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
-    found, every = (
-        measures.loudest(measures.lines(case, *span, above=above, floor=1e-3), 4) for above in (LOW, 0.5 * drive)
-    )
+    found, every = (measures.loudest(case.lines(*span, above=above, floor=1e-3), 4) for above in (LOW, 0.5 * drive))
     ours, counted = (_natural_share(case, lines, rate, near) for lines in (found, every))
     return Answer(
         None if counted <= share < ours else ours > share,
@@ -286,7 +283,7 @@ def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Ans
         low, high = (_power_share(case, *span) for span in spans)
         found.append(after > before / part and high > max(factor * low, floor))
         rows.append({"case": case, "before": before, "after": after, "high_before": low, "high_after": high})
-    return Answer(*_beside(*found), stretches=rows, high=HIGH)
+    return Answer(*_beside(*found), stretches=rows)
 
 
 def no_high_line(case: CaseView, *, share: float) -> Answer:
@@ -300,8 +297,7 @@ def no_high_line(case: CaseView, *, share: float) -> Answer:
 def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
     """Whether weak lines of one stretch are missing in the next."""
     first, second = (
-        measures.lines(case, "spectrum_d", *span, above=LOW, below=600, floor=floor)
-        for span in ((465, 470), (470, 475))
+        case.lines("spectrum_d", *span, above=LOW, below=600, floor=floor) for span in ((465, 470), (470, 475))
     )
     weak = [line for line in first if line.amplitude < 0.1 * max(each.amplitude for each in first)]
     moved = [line for line in weak if min(abs(line.frequency - other.frequency) for other in second) > apart]
@@ -311,11 +307,11 @@ def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> A
 def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
     """Whether the spectrum is erratic; undecided if the number of frequencies depends on the resolution of lines."""
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)
-    found = measures.lines(case, "spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
+    found = case.lines("spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
     every, coarse = (_further(found, rate, case["Omega"] / (2 * np.pi), width) for width in (apart, 2 * apart))
     further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
-    motion, _ = measures.late_motion(case)
+    motion, _ = case.late_motion()
     second = further[1].amplitude / further[0].amplitude if len(further) > 1 else 1.0
     holds, why = is_kind(Outcome.IRREGULAR, motion, len(further) >= several)
     depends = holds and len(fewer) < several
@@ -336,7 +332,7 @@ def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Ans
 
 def _lines_of_psi(case: CaseView, window: str, start: float, stop: float) -> list[spectra.Line]:
     """Lines of psi above a hundredth of the strongest, by ascending frequency."""
-    return measures.lines(case, window, start, stop, "psi", above=LOW, below=HIGH, floor=1e-2)
+    return case.lines(window, start, stop, "psi", above=LOW, below=HIGH, floor=1e-2)
 
 
 def _off_multiples(lines: list[spectra.Line], rate: float) -> list[float]:
@@ -386,10 +382,10 @@ def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str
 
     Only stretches of equal length, with equal resolution, can be compared.
     """
-    return spectra.coverage(*measures.signal(case, window, start, stop, name), LOW, 300.0, floor=1e-4)
+    return spectra.coverage(*case.signal(window, start, stop, name), LOW, 300.0, floor=1e-4)
 
 
 def _power_share(case: CaseView, window: str, start: float, stop: float, above: float = HIGH) -> float:
     """Ratio of the power above a frequency in Hz to that above `LOW`."""
-    measures.lines(case, window, start, stop, above=LOW)  # raises Missing without any line
-    return spectra.power_share(*measures.signal(case, window, start, stop), above, LOW)
+    case.lines(window, start, stop, above=LOW)  # raises Missing without any line
+    return spectra.power_share(*case.signal(window, start, stop), above, LOW)

@@ -1,8 +1,7 @@
 """Model sensitivity: the paper's main conclusions, each judged under four models of disc and contact.
 
-Each model changes one more thing, so that the last has all changes.  All conclusions are judged from the merged cases
-and grid studies of config/survival.yaml. Evidence that does not decide gives undecided, missing evidence gives not
-computed.
+Each model changes one more thing, so that the last has all changes. All conclusions are judged from the merged cases
+and grids of config/survival.yaml: undecided if the evidence does not decide, not computed if it is missing.
 """
 
 import math
@@ -18,13 +17,11 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures, section42
-from disc_model.claims.measures import STRETCH, STRETCHES, CaseView, rate_text
+from disc_model.claims.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
 from disc_model.claims.model import Answer, checks_of, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, stated_in
-
-Array = NDArray[np.float64]
 
 # ----------------------------------------------------------------------------------------------------
 # The models and the data of each
@@ -207,10 +204,8 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
         settled = fourth <= (1 + wider) * third
-        if min(third, fourth) >= max(other):
-            smaller.append(False)
-        else:
-            smaller.append(True if settled and max(third, fourth) < min(other) else None)
+        below = settled and max(third, fourth) < min(other)
+        smaller.append(False if min(third, fourth) >= max(other) else below or None)
         rows.append({"case": free, "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
     return Answer(*_all_cases(smaller), cases=rows)
 
@@ -218,7 +213,7 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
 def stick_vanishes(found: Evidence, *, share: float) -> Answer:
     stays, rows = [], []
     for case in found.separating():
-        late = measures.phase_share(case, "stick")
+        late = case.phase_share("stick")
         if not stick_disappears(case["time_stick"] / case["time_reached"], late, share):
             stays.append(case.place)
         rows.append({"case": case, "percent": 100 * late})
@@ -277,7 +272,7 @@ def not_periodic(found: Evidence) -> Answer:
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
     """Class of a motion by the intervals between its releases, or separations; also in words."""
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
-        intervals = np.diff(measures.times_of(case, kind))
+        intervals = np.diff(case.times_of(kind))
         if intervals.size >= 2 * FEWEST:
             motion = measures.classify_intervals(tuple(intervals))
             if motion.period:
@@ -325,6 +320,8 @@ def page_of(table: pd.DataFrame) -> Comparison:
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        rule = texts["rule"].format(text=one.texts.claim, tolerance=one.tolerance, reason=one.texts.reason)
+        rule = texts["rule"].format(
+            text=one.texts.claim, tolerance=one.fill(one.texts.tolerance), reason=one.texts.reason
+        )
         sections.append((one.id, rule, shown))
     return Comparison(texts["title"], tuple(sections))
