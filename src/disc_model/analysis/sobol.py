@@ -34,7 +34,8 @@ class Indices(NamedTuple):
 def sobol_indices(outputs: Array) -> tuple[Array, Array]:
     """First-order and total indices.
 
-    The formulas are those of `scipy.stats.sobol_indices`, which needs a power of two of samples: rows left out lose it.
+    The formulas are those of `scipy.stats.sobol_indices`. That function requires a power of two of samples, which is
+    lost when rows are left out.
 
     Parameters
     ----------

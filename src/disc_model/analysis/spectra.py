@@ -37,7 +37,8 @@ class Combination(NamedTuple):
 
     def __str__(self) -> str:
         parts = [f"{order} {symbol}" for order, symbol in ((self.n, "f_s"), (self.m, "f_Ω")) if order]
-        return re.sub(r"\b1 ", "", " + ".join(parts)).replace("+ -", "− ") or "0"
+        plain = re.sub(r"\b1 ", "", " + ".join(parts))  # f_s for 1 f_s
+        return plain.replace("+ -", "− ") or "0"
 
 
 class TimeFrequency(NamedTuple):

@@ -126,8 +126,7 @@ def _modes() -> pd.DataFrame:
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     pairs = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
-    ignored = [", separation ignored" if case.bonded else "" for case in cases]
-    given = [values_text(dict(case.parameters)) + text for case, text in zip(cases, ignored, strict=True)]
+    given = [values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "") for case in cases]
     table = {"Case": [case.name for case in cases], "Parameters": given}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
     table |= {

@@ -320,8 +320,7 @@ def page_of(table: pd.DataFrame) -> Comparison:
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        rule = texts["rule"].format(
-            text=one.texts.claim, tolerance=one.fill(one.texts.tolerance), reason=one.texts.reason
-        )
+        said = one.texts
+        rule = texts["rule"].format(text=said.claim, tolerance=one.fill(said.tolerance), reason=said.reason)
         sections.append((one.id, rule, shown))
     return Comparison(texts["title"], tuple(sections))
