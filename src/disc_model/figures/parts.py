@@ -57,21 +57,10 @@ ONSET, END = SEPARATED, BLUE
 """Speeds at which separation begins, and at which it ends."""
 PAPER = "#F0E442"
 """Colour of the paper's results, always with a black edge: no other mark and no map has it."""
-PAPER_SAYS: dict[str, Any] = {
-    "marker": "*",
-    "color": PAPER,
-    "markeredgecolor": BLACK,
-    "markeredgewidth": 0.6,
-    "markersize": 9,
-}
-"""Look of a number of the paper among curves."""
 
 BORDERS: dict[str, dict[str, Any]] = {
-    kind: {"color": BLACK, "linewidth": 1.0, "linestyle": dashes, "label": label}
-    for kind, label, dashes in (
-        ("neutral", "cycle loses stability", "-"),
-        ("fold", "stable cycle ends (fold)", (0, (1.2, 0.8))),
-    )
+    "neutral": {"color": BLACK, "linewidth": 1.0, "linestyle": "-", "label": "cycle loses stability"},
+    "fold": {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1.2, 0.8)), "label": "stable cycle ends (fold)"},
 }
 """Looks and labels of the lines of all stability charts; the dashes are so short that corners of cells stay visible."""
 
@@ -158,12 +147,10 @@ GIVEN = "given"
 """Word instead of a normalization for modes from a table."""
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", GIVEN: "modes of a table"}
 """Title of a panel by normalization."""
-FORCES = {"vertical": "vertical contact force", "normal": "normal contact force"}
-"""Title of a panel by the direction of the contact force."""
-MODELS = {"normal": FORCES["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
-"""Words for models other than the paper's."""
-WORDS = {**MODES, **FORCES}
+WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
 """Words of parameters in panel titles, those of the paper first."""
+MODELS = {"normal": WORDS["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
+"""Words for models other than the paper's."""
 
 
 def halo(width: float = 1.5) -> list[AbstractPathEffect]:
@@ -189,10 +176,11 @@ def flags_of(variable: xr.DataArray) -> list[str]:
 
 def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
     """A variable of a grid study at values of those dimensions that it has; dimensions of one value are dropped."""
-    own = {dim: value for dim, value in at.items() if dim in study[name].dims}
-    words = {dim: value for dim, value in own.items() if isinstance(value, str)}
-    numbers = {dim: value for dim, value in own.items() if not isinstance(value, str)}
-    return study[name].sel(words).sel(numbers, method="nearest").squeeze()
+    found = study[name]
+    for dim, value in at.items():
+        if dim in found.dims:
+            found = found.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
+    return found.squeeze()
 
 
 def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray | None:
@@ -205,10 +193,7 @@ def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray |
 
 def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
     """Points where a `picked` variable has no value, by the word of their status."""
-    gone = found.isnull()
-    if not gone.any() or "status" not in study:
-        return {"no value": gone} if gone.any() else {}
-    status = picked(study, "status", at)
+    gone, status = found.isnull(), picked(study, "status", at)
     words = status.copy(data=flag_names(status))
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
     names.pop(EXCLUDED, None)
@@ -216,23 +201,10 @@ def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) 
     return {name: there for name, there in each.items() if there.any()}
 
 
-def fixed(study: xr.Dataset, modes_in_panels: bool = False) -> str:
-    """Values that did not vary in a study of a grid: N, Omega, and those that differ from Table 1."""
-    values = json.loads(study.attrs.get("base", "{}"))
-    # 0 stands for N or Omega if the quantity varies it by itself
-    idle = {name for name in ("N", "Omega") if not values.get(name)}
-    phrase = what_case({name: x for name, x in values.items() if name not in {*study.coords, *idle}}, modes_in_panels)
-    modes = [] if modes_in_panels or "normalization" not in study.coords else normalizations(study)
-    return ", ".join(filter(None, [phrase, MODES[modes[0]] if len(modes) == 1 else ""]))
-
-
-def what_case(values: Mapping[str, Any], modes_in_panels: bool = False) -> str:
-    """Values of parameters for titles: N, Omega, and those that differ from Table 1.
-
-    modes_in_panels : whether the normalization is said elsewhere
-    """
+def what_case(values: Mapping[str, Any]) -> str:
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
-    if values.get("normalization") == "orthonormal" and not modes_in_panels:
+    if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
     numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)})
     return ", ".join(filter(None, [numbers, *words]))
@@ -240,13 +212,21 @@ def what_case(values: Mapping[str, Any], modes_in_panels: bool = False) -> str:
 
 def head(figure: Figure, study: xr.Dataset, plot: Plot) -> None:
     """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary."""
-    values = []
+    texts = []
     if isinstance(plot, General):
         shown = picked(study, plot.variable, plot.at)
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
-        values = [coordinate_text(shown, name) for name in alone if name in shown.coords]
-    values.append(fixed(study, modes_in_panels=isinstance(plot, StabilityMap | GrowthMap)))
-    entitle(figure, plot, study.attrs.get("title", ""), ", ".join(filter(None, values)))
+        texts = [coordinate_text(shown, name) for name in alone if name in shown.coords]
+    base = json.loads(study.attrs.get("base", "{}"))
+    modes = normalizations(study) if "normalization" in study.coords else []
+    if isinstance(plot, StabilityMap | GrowthMap):  # above their panels
+        base.pop("normalization", None)
+        modes = []
+    # 0 stands for N or Omega if the quantity varies it by itself
+    varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
+    texts.append(what_case({name: value for name, value in base.items() if name not in varied}))
+    texts += [MODES[modes[0]]] if len(modes) == 1 else []
+    entitle(figure, plot, study.attrs.get("title", ""), ", ".join(filter(None, texts)))
 
 
 def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
@@ -306,10 +286,6 @@ def spaced_by_factor(values: np.ndarray) -> bool:
     return bool(np.allclose(steps, steps[0], rtol=1e-6))
 
 
-COLOURS = {"P": FORCE, "w": DISC, "w_point": DISC, "w_point_velocity": DISC}
-"""Colours of sampled variables; all others belong to the slider."""
-
-
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """Axis label of a sampled variable, the factor from SI to its unit, and its colour.
 
@@ -317,7 +293,7 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """
     at = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
-    return label, factor, COLOURS.get(name, SLIDER)
+    return label, factor, FORCE if name == "P" else DISC if name.startswith("w") else SLIDER
 
 
 def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
