@@ -17,19 +17,11 @@ from disc_model.figures.kinds import Campbell
 from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SLIDER, panels
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
-"""Colours of the disc's modes by nodal diameters, distinct in grey print; from six on they repeat. None is that of a
-phase.
-"""
-RISES = ("rises", "destabilises")
-"""Effects of a crossing that are numbered."""
+"""Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
 LEAST = 0.01
 """Least growth rate of a numbered peak, 1/s."""
 HIGH = 0.5
 """Growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s."""
-GAP = 3
-"""Least number of successive speeds without a cycle that form a numbered gap: at fewer, Newton's method may have
-failed.
-"""
 DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 3.5, "markeredgewidth": 0.5}
 RING = DOT | {"markersize": 2.2, "markerfacecolor": "white"}
 """Looks of a numbered crossing, and of any."""
@@ -54,7 +46,9 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
     _crossings(top, study, met)
     bottom.set_xlabel(parts.axis_of("Omega")[0])
     below.set_axis_off()
-    phrase = "\n".join([_HEADING if met else _NOTHING, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
+    heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
+    nothing = "the cycle's growth rate has no peak at a crossing"
+    phrase = "\n".join([heading if met else nothing, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
     below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
     figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
     return figure
@@ -72,17 +66,13 @@ class Noted(NamedTuple):
     phrase: str
 
 
-_HEADING = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
-_NOTHING = "the cycle's growth rate has no peak at a crossing"
-
-
 def noted(study: xr.Dataset) -> list[Noted]:
     """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates rise, and
     elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one.
     """
     rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
     speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
-    rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), RISES))
+    rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))
     peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
     for first, after in parts.stretches(np.nan_to_num(rate) > HIGH):
         at = first + int(np.argmax(rate[first:after]))
@@ -95,7 +85,8 @@ def noted(study: xr.Dataset) -> list[Noted]:
         places.setdefault((at, int(np.nanargmax(by_mode[at]))), []).extend(crossings)
     least = LEAST * (1 - 1e-9)
     found = [_rise(study, *place, sorted({*own})) for place, own in places.items() if by_mode[place] >= least]
-    wide = [(low, high) for low, high, count in gaps(study) if count >= GAP]
+    # at fewer speeds, Newton's method may have failed
+    wide = [(low, high) for low, high, count in gaps(study) if count >= 3]
     found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
     return sorted(found)
 
@@ -120,7 +111,6 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
         yield float(edges[first]), float(edges[last]), last - first
 
 
-_HALO = parts.halo()
 _TURN = r"$f_\Omega$"
 
 
@@ -179,7 +169,7 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
             if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
                 continue  # no room
             named = leaves
-            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=_HALO)
+            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=parts.halo())
 
 
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:

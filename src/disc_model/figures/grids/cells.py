@@ -32,10 +32,9 @@ class Look(NamedTuple):
     hatch: str = ""
 
 
-HATCH = 8 * "/"
-"""Hatch so dense that a cell of a fiftieth of a panel has two lines."""
-UNRESOLVED = Look("unresolved", "none", HATCH)
-"""Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells."""
+UNRESOLVED = Look("unresolved", "none", 8 * "/")
+"""Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells. A cell of
+a fiftieth of a panel has two lines of their hatch."""
 OUTCOME_LOOKS = {
     "quiet": Look("quiet", "#f3f6f8"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
@@ -60,16 +59,10 @@ CYCLE_LOOKS = {
 }
 """Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
 may be another cycle's."""
-WITHOUT = {
-    "ok": "no_cycle",
-    "no_cycle": "no_cycle",
-    "separates": "separates",
-    "no_stick_slip": "steady_sliding",
-    "at_rest": "at_rest",
-}
-"""Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`."""
+WITHOUT = {word: word for word in ("no_cycle", "separates", "at_rest", EXCLUDED)}
+WITHOUT |= {"ok": "no_cycle", "no_stick_slip": "steady_sliding"}
+"""Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`; others have failed."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
-"""Looks of cells of outcomes."""
 GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
 """Weights of red, green and blue in grey print, and the lightness below which a hatch is white."""
 
@@ -144,15 +137,13 @@ def outcome_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
     return set(words.flat)
 
 
-def patch(look: Look) -> Patch:
-    """Legend entry of a look."""
-    edge = BLACK if look.hatch else GREY
-    return Patch(facecolor=look.face, edgecolor=edge, hatch=look.hatch, linewidth=0.4, label=look.label)
-
-
 def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
     """Legend entries of the looks that are among words."""
-    return [patch(look) for name, look in looks.items() if name in words]
+    return [
+        Patch(fc=look.face, ec=BLACK if look.hatch else GREY, hatch=look.hatch, linewidth=0.4, label=look.label)
+        for name, look in looks.items()
+        if name in words
+    ]
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -162,8 +153,6 @@ GREATEST = 0.3
 """Growth rate at which the colours end, 1/s, unless most rates are larger."""
 LINEAR = 1 / 30
 """Fraction of the scale's end up to which the colours are nearly linear."""
-UNLIKE = 0.1
-"""Least distance of an isolated cell from each neighbour, as a fraction of the colour scale."""
 
 
 def growth_norm(rates: Array) -> AsinhNorm:
@@ -190,8 +179,8 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
         hatched = np.where(isolated(data, x, y), "alone", np.where((rates < 0).filled(False), "stable", ""))
         fill(ax, sides, hatched, CYCLE_LOOKS, mesh.to_rgba(rates))
         used |= {*without.flat, *hatched.flat}
-    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
-    bar.set_label("Growth rate of the\nstick-slip cycle (1/s)")
+    label = "Growth rate of the\nstick-slip cycle (1/s)"
+    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30, label=label)
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
     bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
     bar.minorticks_off()
@@ -219,7 +208,6 @@ def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
     if "status" in data:
         status = words_of(data, "status", x, y)
         words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
-        words[status == EXCLUDED] = EXCLUDED
     if "sliding_growth_rate" in data:
         # growing steady sliding is no lasting motion
         grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
@@ -233,6 +221,6 @@ def alone(rate: Array) -> NDArray[np.bool_]:
     place = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(place, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = np.abs(place[..., None, None] - around) < UNLIKE
+    like = np.abs(place[..., None, None] - around) < 0.1  # of the colour scale
     # each cell equals itself
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)

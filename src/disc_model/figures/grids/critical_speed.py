@@ -1,6 +1,5 @@
 """Charts over speed and preload: onset and end of separation, loss of stability of the cycle, and sweeps."""
 
-import json
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -20,17 +19,20 @@ from disc_model.figures import parts
 from disc_model.figures.grids.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
 from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PURPLE, SKY, panels
+from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PAPER, PURPLE, SKY, panels
 
 Array = NDArray[np.float64]
 
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
 LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
-"""Colour and marker of each horizon, the longest first; all have black edges, to be seen on any area."""
-STEEPEST = 0.2
-"""Change of an onset with the load, rad/s per N, beyond which two onsets belong to different ranges of speed."""
-WIDTH = 20.0
-"""Width of a bar measured at one load, N: well within the step of the sweeps."""
+"""Colour and marker of each horizon, the longest first."""
+EDGES: dict[str, Any] = {
+    "markersize": 2.4,
+    "markeredgecolor": BLACK,
+    "markeredgewidth": 0.5,
+    "path_effects": [withStroke(linewidth=1.3, foreground=BLACK)],
+}
+"""Black edges of their marks, to be seen on any area."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
@@ -54,11 +56,15 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
         curves = curves_of(overlays["curves"])
         shown = curves if cycle is None else parted(curves, cycle)[0]
         handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
-    horizons = [_horizon_of(study, cycle)] if isinstance(plot, Thresholds) else sorted(study["horizon"].values)[::-1]
+    horizons = sorted(study["horizon"].values)[::-1]
+    if isinstance(plot, Thresholds):  # one only: that of the map behind, if any, else the longest
+        behind = stated_in(cycle, "options")["horizon"] if cycle is not None and "outcome" in cycle else None
+        horizons = [behind] if behind in horizons else horizons[:1]
     _starts(axes[0], study, horizons)
     if plot.paper_points:
         load, speed = np.transpose([*plot.paper_points.values()])
-        axes[0].plot(speed, load, **parts.PAPER_SAYS, linestyle="", zorder=5, clip_on=False, label="paper")
+        edge: dict[str, Any] = {"markeredgecolor": BLACK, "markeredgewidth": 0.6}
+        axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
     titles = ["from the static start"]
     if sweep is not None:
         titles.append(_sweep(axes[1], sweep, study, horizons[0]))
@@ -111,29 +117,19 @@ def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
     loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
+    # a greater change with the load, in rad/s per N, leads to another range of speeds
+    links = [(i, one, two) for i, one, two in branches(speeds) if abs(one - two) < 0.2 * (loads[i + 1] - loads[i])]
     # a gap after each pair
-    steps = STEEPEST * np.diff(loads)
-    links = [(i, one, two) for i, one, two in branches(speeds) if abs(one - two) < steps[i]]
     pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in links]
     alone = [[(speed, load), (np.nan, np.nan)] for load, found in zip(loads, speeds, strict=True) for speed in found]
     ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
 
 
 def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
-    """Draw the longest horizon as a line, and shorter ones where their speed differs; open marks: separation ends
-    again.
-    """
+    """Draw the longest horizon as a line, shorter ones where their speed differs, and where separation ends again."""
     longest = speeds_of(study, horizons[0], "begins")
     for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
-        look: dict[str, Any] = {
-            "color": color,
-            "marker": marker,
-            "markersize": 2.4,
-            "markeredgecolor": BLACK,
-            "markeredgewidth": 0.5,
-            "path_effects": [withStroke(linewidth=1.3, foreground=BLACK)],
-            "zorder": 1.9 - 0.1 * i,
-        }  # below the curves
+        look = EDGES | {"color": color, "marker": marker, "zorder": 1.9 - 0.1 * i}  # below the curves
         if i == 0:
             _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
         elif later := [
@@ -147,14 +143,6 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     if sum(map(len, ends)):
         loads = np.repeat(study["N"].values, [found.size for found in ends])
         ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=3, label="end of separation")
-
-
-def _horizon_of(study: xr.Dataset, cycle: xr.Dataset | None) -> float:
-    """The horizon of a chart that shows only one: that of the map behind it, if any, else the longest, s."""
-    horizons = study["horizon"].values
-    if cycle is not None and "outcome" in cycle and (own := stated_in(cycle, "options")["horizon"]) in horizons:
-        return own
-    return float(horizons.max())
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -187,11 +175,8 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 2, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     parts.mark_failed(ax, N[lost], on="y")
-    options = json.loads(sweep.attrs.get("options", "{}"))
-    if not options:
-        return "sweeps of the speed"
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    return f"sweeps: {options['dwell']:g} s, then {step:g} rad/s further"
+    return f"sweeps: {stated_in(sweep, 'options')['dwell']:g} s, then {step:g} rad/s further"
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
@@ -217,10 +202,9 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     Both fractions exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line.
     """
     load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
-    both = (
-        (basins["basin_fraction_low"].sel(attractor_class="quiet") > 0) & (basins["separating_fraction_low"] > 0)
-    ).values
-    for i, (first, after) in enumerate(parts.stretches(both)):
+    quiet, separating = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
+    # well within the step of the sweeps, N
+    look: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
+    for i, (first, after) in enumerate(parts.stretches(((quiet > 0) & (separating > 0)).values)):
         label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
-        low, high = speeds[first], speeds[after - 1]
-        ax.barh(load, high - low, WIDTH, low, color=ORANGE, alpha=0.6, linewidth=0.8, edgecolor=ORANGE, label=label)
+        ax.barh(load, speeds[after - 1] - speeds[first], left=speeds[first], label=label, **look)

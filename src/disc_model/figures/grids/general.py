@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patch, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patches, scale_of
 from disc_model.figures.kinds import CurvePlot, General, HeatMap
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, panels
 
@@ -36,8 +36,7 @@ def _in_steps(colours: Sequence[Any]) -> dict[str, Any]:
 
 def _bar(figure: Figure, axes: Sequence[Axes], colours: ScalarMappable, label: str, names: Sequence[str] = ()) -> None:
     """Draw a scale of colours beside panels, with the names of its steps."""
-    bar = figure.colorbar(colours, ax=list(axes), pad=0.01, aspect=30)
-    bar.set_label(label)
+    bar = figure.colorbar(colours, ax=list(axes), pad=0.01, aspect=30, label=label)
     if names:
         bar.set_ticks(range(len(names)), labels=list(names))
         bar.minorticks_off()
@@ -75,7 +74,7 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
         if left_out is not None:
             for ax, (_, panel) in zip(axes, parts.slices(left_out, by), strict=False):
                 _cells(ax, panel.where(panel), plot, cmap=ListedColormap(["white"]))
-            handles.append(patch(CYCLE_LOOKS[EXCLUDED]))
+            handles += patches(CYCLE_LOOKS, {EXCLUDED})
         _bar(figure, axes, mesh, parts.label_of(found)[0], words)
         if not words and (gaps := parts.gaps(study, found, plot.at)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
@@ -138,8 +137,6 @@ def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
 # ----------------------------------------------------------------------------------------------------
 # Curves
 
-WIDEST = 25
-"""Greatest length of a name that fits beside the panel, letters."""
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
 MARKS = "os^Dv<>"
@@ -190,6 +187,7 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
         steps = ScalarMappable(**_in_steps(colours))
         _bar(figure, [ax], steps, label, [f"{value * factor:g}" for value in numbers.values])
     if ax.get_legend_handles_labels()[0]:
-        beside = by is not None and numbers is None and max(len(text) for text, _ in lines) < WIDEST
+        # names of more letters do not fit there
+        beside = by is not None and numbers is None and max(len(text) for text, _ in lines) < 25
         figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or by else 2)
     return figure

@@ -24,8 +24,6 @@ from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
 
-NEAR = 3.0
-"""Greatest distance of a named resonance, Hz."""
 OTHER: dict[str, Any] = {
     "color": GREY,
     "linewidth": 1.0,
@@ -62,15 +60,13 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
         if border.sum() < 2:
             continue
         x, y = (np.where(border, one[name].values, np.nan) for name in ("x", "y"))
-        near = kinds[i] == "fold" and abs(float(one["resonance_detuning"])) < NEAR
-        found.append(Curve(x, y, str(kinds[i]), _resonance(one) if near else ""))
+        label = ""
+        # a resonance farther away, in Hz, is not named
+        if kinds[i] == "fold" and abs(float(one["resonance_detuning"])) < 3.0:
+            near = Resonance(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Resonance)})
+            label = near.label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
+        found.append(Curve(x, y, str(kinds[i]), label))
     return found
-
-
-def _resonance(one: xr.Dataset) -> str:
-    """The label of a curve's resonance, with the symbol of the frequency of rotation."""
-    found = Resonance(**{field.name: one[f"resonance_{field.name}"].item() for field in fields(Resonance)})
-    return found.label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
@@ -88,7 +84,10 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
     other: list[Curve] = []
     for curve in curves:
         there = np.isfinite(curve.Omega)
-        i, j = (_nearest(rate[name].values, getattr(curve, name)) for name in ("N", "Omega"))
+        i, j = (
+            np.abs(rate[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
+            for name in ("N", "Omega")
+        )
         own = _closed(there & beside[curve.kind][i, j]) & there
         for found, stretch in ((shown, own), (other, there & ~own)):
             if stretch.any():
@@ -97,11 +96,6 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
                 Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
                 found.append(replace(curve, Omega=Omega, N=N, label=curve.label if found is shown else ""))
     return shown, other
-
-
-def _nearest(grid: Array, values: Array) -> NDArray[np.int64]:
-    """Index of the nearest value of the grid to each value, 0 for nan."""
-    return np.argmin(np.abs(grid[None, :] - np.nan_to_num(values)[:, None]), axis=1)
 
 
 def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -124,8 +118,7 @@ def crossings(curve: Curve, load: float) -> Array:
 def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: Sequence[xr.Dataset]) -> list[Line2D]:
     """Draw the curves of each panel, numbered if they have a label; returns legend entries of lines and numbers.
 
-    Numbers ascend with speed, and equal labels share one. A number stands beyond the upper end, where it covers no
-    line.
+    Numbers ascend with speed, equal labels share one, and they stand beyond the upper end, where they cover no line.
 
     data : the curves' datasets, with the number of places at which continuation failed
     """
@@ -159,21 +152,18 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
     figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
-    data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
-    shown: list[list[Curve]] = []
-    other: list[Curve] = []
     grids = [parts.of(study, norm) for norm in norms]
     gaps = growth_panels(figure, axes, grids, "Omega", "N")
-    for i, (ax, grid) in enumerate(zip(axes, grids, strict=True)):
+    data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
+    curves = [curves_of(one) for one in data] or [[] for _ in norms]
+    shown, others = zip(*map(parted, curves, grids), strict=True)
+    for ax, grid, other in zip(axes, grids, others, strict=True):
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
-        own, others_here = parted(curves_of(data[i]) if data else [], grid)
-        shown.append(own)
-        other += others_here
-        for curve in others_here:
+        for curve in other:
             ax.plot(curve.Omega, curve.N, **OTHER)
     parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=12)
     axes[0].set_ylabel(LOAD)
-    handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if other else [])]
+    handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if any(others) else [])]
     handles += patches(CYCLE_LOOKS, gaps)
     if handles:
         figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)

@@ -21,33 +21,27 @@ from disc_model.figures.parts import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED
 # ----------------------------------------------------------------------------------------------------
 # Bifurcation diagrams, with the largest Lyapunov exponents below
 
-SWITCHES = {"stick": "at release of stick", "separation": "at loss of contact"}
-"""Names of samples at events, by the phase that ends or begins there."""
 DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
 MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}
 """Looks of samples, and those other than dots by phase: in grey print, green and vermilion are alike."""
 EXPONENTS = (BLACK, parts.BLUE, parts.BROWN, GREY)
 """Colours of the exponents, the largest first; none is that of a phase."""
-HEIGHTS = {"samples": 2.4, "period": 0.9, "lyapunov": 1.4}
-"""Heights of the panels, inch."""
 ERRORS = 4
 """Half-width of the band about an exponent, in standard errors."""
-BREAK = 0.05
-"""Change of an exponent, 1/s, at which another motion begins and a line is broken."""
 
 
 def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
-    """Draw samples against a parameter: stick and other phases in different colours, grey where the motion was not
-    steady yet.
+    """Draw samples against a parameter, coloured by phase, grey where the motion was not steady yet.
 
     A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
     events.  The further study ``lyapunov``, if given, has a panel below.
     """
     study = study.transpose(plot.x, "sample", ...)
     options = json.loads(study.attrs.get("options", "{}"))
-    names = SWITCHES if options.get("section") == "event" else {}
+    events = {"stick": "at release of stick", "separation": "at loss of contact"}
+    names = events if options.get("section") == "event" else {}
     below = ["period"] * ("period_events" in study) + ["lyapunov"] * ("lyapunov" in overlays)
-    heights = [HEIGHTS[name] for name in ("samples", *below)]
+    heights = [2.4, *({"period": 0.9, "lyapunov": 1.4}[name] for name in below)]
     figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
     ax = axes[0]
     xlabel, factor = parts.axis_of(plot.x)
@@ -117,22 +111,21 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     error = lyapunov["exponent_error"].where(known).transpose("exponent_number", name)
     along = exponent[name].values * parts.axis_of(name)[1]
     ax.axhline(0, color=GREY, linewidth=0.8)
-    look = {"linestyle": "", "marker": "o", "markerfacecolor": "none", "markersize": 4, "markeredgewidth": 0.6}
-    ring: dict[str, Any] = {"color": GREY, **look}
+    ring: dict[str, Any] = {"color": GREY, "markerfacecolor": "none", "markersize": 4, "markeredgewidth": 0.6}
     unsure = False
     for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
-        shown = parts.broken(along, exponent[i].values, BREAK)
+        shown = parts.broken(along, exponent[i].values, 0.05)  # 1/s, beyond which another motion begins
         ax.plot(*shown, ".-", color=color, markersize=3, linewidth=0.8, label=label)
         band = ERRORS * np.interp(shown[0], along, error[i].values)
         ax.fill_between(shown[0], shown[1] - band, shown[1] + band, color=color, alpha=0.15, linewidth=0)
         if "converged" in lyapunov:
             moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
-            ax.plot(along[moving], exponent[i][moving], label="_nolegend_", **ring | {"color": color})
+            ax.plot(along[moving], exponent[i][moving], "o", label="_nolegend_", **ring | {"color": color})
             unsure |= bool(moving.any())
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
     if unsure:
-        ax.plot([], [], label="not converged", **ring)
+        ax.plot([], [], "o", label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
     others = ",\nwithout the\ntrivial one" if "trivial_exponent" in lyapunov else ""
     ax.set_ylabel(f"Lyapunov\nexponents{others} (1/s)")
@@ -142,10 +135,6 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
 # ----------------------------------------------------------------------------------------------------
 # Continuation diagrams: the range of motion on all cycles, and where a sweep jumps
 
-JUMP = 10.0
-"""Factor by which the range changes between two values of a sweep at a jump."""
-STEP = 2.5
-"""Factor between two points of a branch that no line joins: the branch may bend between them."""
 LOWEST = 1e-3
 """Least range that is distinguished from rest, mm."""
 THIN = 0.7
@@ -193,7 +182,8 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
 def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str) -> None:
     there = np.isfinite(x)
     x, y, stable = x[there], y[there], stable[there]
-    along, height = parts.broken(x, np.log(y), np.log(STEP))
+    # over larger factors the branch may bend
+    along, height = parts.broken(x, np.log(y), np.log(2.5))
     ax.plot(along, np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in parts.stretches(stable[:-1] & stable[1:]):
@@ -201,20 +191,18 @@ def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: s
 
 
 def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: str) -> None:
-    """Draw the marks of a sweep, and an arrow at each jump."""
+    """Draw the marks of a sweep, and an arrow at each jump, by a factor of ten or more."""
     shown = np.maximum(y, LOWEST)
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
         ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
-    for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(JUMP)):
+    for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(10)):
         ax.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops={"arrowstyle": "->", "color": GREY, "lw": 1.0})
 
 
 # ----------------------------------------------------------------------------------------------------
 # Onset of separation on the way up and its end on the way down, against the ramp rate of the speed
-
-BEYOND = "none up to the highest speed"
 
 
 def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
@@ -228,8 +216,8 @@ def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Ramp
     ax.plot(rates, end, "v-", color=parts.END, markersize=4, linewidth=0.8, label="end, falling ramp")
     late = rates[np.isnan(onset) & ~gone]
     if late.size:
-        top = np.full(late.size, options["high"])
-        ax.plot(late, top, "^", color=parts.ONSET, markersize=4, markerfacecolor="white", clip_on=False, label=BEYOND)
+        look: dict[str, Any] = {"color": parts.ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
+        ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
     if "curves" in overlays:
         _fold(ax, curves_of(overlays["curves"]), load, onset)
     parts.mark_failed(ax, rates[gone])
@@ -261,10 +249,7 @@ LOOKS = {
     "separating": OUTCOME_LOOKS["separation"]._replace(label="separating"),
     "quasi_periodic": Look("quasi-periodic", "#b5dcf2", 4 * "\\"),
     "irregular": Look("irregular", parts.BROWN, 4 * "/"),
-    "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
-    "at_rest": OUTCOME_LOOKS["at_rest"],
-    "undecided": OUTCOME_LOOKS["undecided"],
-    "failed": OUTCOME_LOOKS["failed"],
+    **{name: OUTCOME_LOOKS[name] for name in ("steady_sliding", "at_rest", "undecided", "failed")},
 }
 """Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
 LARGEST = 36.0

@@ -17,9 +17,6 @@ from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
 BINS = 3
 """Number of parts, with equal numbers of draws, of a parameter's distribution."""
 
-WHOLE: dict[str, Any] = {"color": BLACK, "linewidth": 0.7, "linestyle": (0, (3, 2))}
-"""Look of the probability at all values."""
-
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
     """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
@@ -68,7 +65,8 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
 
 def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     middle, share, error = probabilities(cell, name)
-    ax.axhline(float(cell["probability_unstable"]), label="all values", **WHOLE)
+    whole = float(cell["probability_unstable"])
+    ax.axhline(whole, label="all values", color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
     look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markersize": 2.5, "capsize": 1.5}
     half = np.minimum(1.96 * error, [share, 1 - share])
     ax.errorbar(middle, share, half, label="a third of the values, with its interval", **look)

@@ -22,7 +22,7 @@ from disc_model.figures import parts
 from disc_model.figures.grids import cells
 from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
 from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted, span
-from disc_model.figures.kinds import RegionMap, StabilityMap
+from disc_model.figures.kinds import Mark, RegionMap, StabilityMap
 from disc_model.figures.parts import BLACK, BORDERS, MODES, PAGE, PAPER, panels
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -36,12 +36,6 @@ MARKS: dict[str, dict[str, Any]] = {
     "failed": {"marker": "X", "facecolor": BLACK, "s": 12},
 }
 """The mark of each outcome."""
-LARGE = 55.0
-"""Area of the marks of the paper."""
-
-
-LINES: dict[str, Any] = {"linewidth": 0.5, "edgecolor": BLACK}
-"""Edges of the marks."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
@@ -56,25 +50,24 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
         outcome = cells.words_of(one, "outcome", plot.x, plot.y)
         for name, look in MARKS.items():
             if (there := outcome == name).any():
-                marks[name] = ax.scatter(x[there], y[there], zorder=3, clip_on=False, **LINES, **look)
+                marks[name] = ax.scatter(
+                    x[there], y[there], zorder=3, clip_on=False, linewidth=0.5, edgecolor=BLACK, **look
+                )
                 marks[name].set_label(OUTCOME_LOOKS[name].label)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
         growth = [parts.of(overlays["growth"], norm) for norm in norms]
         gaps = growth_panels(figure, axes, growth, plot.x, plot.y)
         for ax, one in zip(axes, growth, strict=True):
-            _neutral_line(ax, one, plot)
+            x, y = (one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
+            rate = one["growth_rate"].transpose(plot.y, plot.x).values
+            if (
+                min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate)
+            ):  # it is neutral
+                ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
         handles = [Line2D([], [], **BORDERS["neutral"]), *patches(CYCLE_LOOKS, gaps), *handles]
     _legend_above(figure, [*(marks[name] for name in MARKS if name in marks), *handles])
     return figure
-
-
-def _neutral_line(ax: Axes, growth: xr.Dataset, plot: StabilityMap) -> None:
-    """Draw the line on which the growth rate changes its sign."""
-    x, y = (growth[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
-    rate = growth["growth_rate"].transpose(plot.y, plot.x).values
-    if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
-        ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
 
 
 def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RegionMap) -> Figure:
@@ -165,30 +158,15 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
 
 
 def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
-    """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes."""
+    """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes.
+
+    Returns legend entries, one for each shape among the marks.
+    """
     set_scales(axes, study, plot)
     if parts.normalizations(study)[0] != "as_published":
         return []
-    for name in plot.marks:
-        _paper_mark(axes[0], plot, name)
-    return _paper_handles(plot)
-
-
-def _paper_mark(ax: Axes, plot: StabilityMap, name: str) -> None:
-    """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
-    mark = plot.marks[name]
-    at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
-    shape = MARKS[mark.paper_outcome]["marker"]
-    for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
-        ring: dict[str, Any] = {"facecolor": "none", "edgecolor": color, "linewidth": width}
-        ax.scatter(*at, LARGE, marker=shape, zorder=4, clip_on=False, **ring)
-    across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
-    offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
-    parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=parts.halo(2.0))
-
-
-def _paper_handles(plot: StabilityMap) -> list[Artist]:
-    """Legend entries, one for each shape among the marks."""
+    for name, mark in plot.marks.items():
+        _paper_mark(axes[0], plot, name, mark)
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
@@ -197,6 +175,18 @@ def _paper_handles(plot: StabilityMap) -> list[Artist]:
         for name, look in MARKS.items()
         if name in outcomes
     ]
+
+
+def _paper_mark(ax: Axes, plot: StabilityMap, name: str, mark: Mark) -> None:
+    """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
+    at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
+    shape = MARKS[mark.paper_outcome]["marker"]
+    for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
+        ring: dict[str, Any] = {"facecolor": "none", "edgecolor": color, "linewidth": width}
+        ax.scatter(*at, 55.0, marker=shape, zorder=4, clip_on=False, **ring)
+    across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
+    offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
+    parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=parts.halo(2.0))
 
 
 def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> None:
