@@ -7,11 +7,9 @@ from typing import Any, NamedTuple
 import yaml
 
 from disc_model.data.variables import angles_text, values_text
-from disc_model.figures.kinds import HIGHEST, OwnFigure, spectrum_faults
+from disc_model.figures.kinds import HIGHEST, OwnFigure, Recorded, spectrum_faults
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import CaseSpec, Poincare, Window
-
-Windows = Mapping[str, Mapping[str, Window | Poincare | None]]
+from disc_model.simulation.case import CaseSpec, Window
 
 
 class Entry(NamedTuple):
@@ -56,8 +54,6 @@ def _read() -> tuple[dict[str, str], dict[str, Entry]]:
 
 
 SECTIONS, CATALOGUE = _read()
-RANGES = ("history",)
-"""Windows that are drawn as ranges and need an envelope; all others are drawn as samples and must have none."""
 ZOOM = 0.2
 """Length of a closer look, s."""
 
@@ -82,7 +78,7 @@ def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, s
 
 def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
     """Reasons why a window cannot be drawn in a figure, each as the end of a sentence."""
-    if name in RANGES:
+    if name == "history":  # it is drawn as ranges, all others as samples
         if window.envelope is None:
             yield "needs an envelope"
         elif window.count < 2 * window.envelope:
@@ -108,7 +104,7 @@ def label(name: str) -> str:
     return f"{spaced}: {CATALOGUE[name].title}"
 
 
-def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | None = None) -> str:
+def caption(name: str, parameters: Mapping[str, Parameters], windows: Mapping[str, Recorded] | None = None) -> str:
     """A figure's caption with the parameters of its cases.
 
     Parameters
@@ -128,7 +124,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Windows | 
     return f"{text} {'; '.join(texts)}; everything else as in Table 1; {named}."
 
 
-def _numbers(entry: Entry, windows: Windows) -> dict[str, str]:
+def _numbers(entry: Entry, windows: Mapping[str, Recorded]) -> dict[str, str]:
     """Times and angles for captions, from the windows that the figure shows."""
     needed = [(case, name) for case, names in entry.needs.items() for name in names]
     shown = [(name, window) for case, name in needed if (window := windows.get(case, {}).get(name)) is not None]

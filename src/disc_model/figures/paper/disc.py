@@ -6,9 +6,8 @@ shapes determine the rest.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import cmcrameri.cm as cmc
 import numpy as np
@@ -36,12 +35,9 @@ RADII, ANGLES = 25, 181
 """Points across and around the disc at which it is drawn."""
 INSTANTS = 4
 """Number of instants, equally spaced from one loss of contact to the next."""
-STYLES = ("-", "--", "-.", ":")
-"""Styles of the lines at these instants."""
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(NamedTuple):
     """Motion of the disc and the slider in a stretch of time.
 
     Attributes
@@ -70,10 +66,6 @@ class Motion:
     def word(self, i: int) -> str:
         """The phase at sample i."""
         return PHASES[int(self.phase[i])]
-
-    def around(self, i: int, theta: Array) -> Array:
-        """The disc's displacement at sample i along the circle of radius r_0, mm, shape of theta."""
-        return 1e3 * self.deflection(i, np.array([self.parameters.r_0]), theta)[0]
 
 
 def motion_of(case: xr.DataTree) -> Motion:
@@ -112,8 +104,7 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
         for letter, ax, i in zip("abcd", discs, shown, strict=True):
             mesh = _disc(ax, motion, i, scale)
             ax.set_title(f"({letter}) {1e3 * (motion.time[i] - motion.time[shown[0]]):.1f} ms, {motion.word(i)}")
-        bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04)
-        bar.set_label("Deflection (mm)")
+        bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
         bar.outline.set_visible(False)
         _circle(circle, motion, shown)
     return figure
@@ -153,28 +144,24 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     angle = motion.slider[i]
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
     ax.plot(*place, "o", ms=5, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
-    _directions(ax, p)
+    # a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged
+    edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
+    ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
+    arc = np.radians(np.linspace(-60, 60, 30))
+    ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
+    start, end = [(middle * np.cos(angle), middle * np.sin(angle)) for angle in np.radians([60, 75])]
+    look = {"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK}
+    ax.annotate("", end, start, arrowprops=look)
     ax.set_aspect("equal")
     ax.axis("off")
     return mesh
 
 
-def _directions(ax: Axes, p: Parameters) -> None:
-    """Draw a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged."""
-    edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
-    ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
-    arc = np.radians(np.linspace(-60, 60, 30))
-    ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
-    ends = [(middle * np.cos(angle), middle * np.sin(angle)) for angle in np.radians([60, 75])]
-    ax.annotate(
-        "", ends[1], ends[0], arrowprops={"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK}
-    )
-
-
 def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
     """Draw the disc along the circle of radius r_0 at an instant, with the slider as a mark of a size in points."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
-    ax.plot(theta, motion.around(i, theta), color=DISC, **look)
+    along = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
+    ax.plot(theta, along, color=DISC, **look)
     angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
     ax.plot(angle, height, "s", ms=size, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
@@ -182,7 +169,7 @@ def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
 
 def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
     """Draw the circle of radius r_0 and the slider at some instants."""
-    for i, style in zip(shown, STYLES, strict=True):
+    for i, style in zip(shown, ("-", "--", "-.", ":"), strict=True):
         after = 1e3 * (motion.time[i] - motion.time[shown[0]])
         _around(ax, motion, i, 5, linestyle=style, label=f"disc, {after:.1f} ms")
     ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
@@ -190,10 +177,6 @@ def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
     ax.margins(y=0.08)
     ax.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
     ax.set_title("(e)", loc="left", x=-0.06)
-
-
-FILM, FILM_DPI, FRAME_RATE = (6.0, 2.5), 100, 12
-"""Size in inch, pixels an inch, and pictures a second."""
 
 
 def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
@@ -206,7 +189,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
     motion = motion_of(case)
     step = max(1, motion.time.size // frames)
     with styled():
-        figure = Figure(figsize=FILM)
+        figure = Figure(figsize=(6.0, 2.5))
         figure.set_layout_engine("none")  # panels keep their places in all frames
         disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
         scale = _scale(motion)
@@ -223,4 +206,4 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
 
         animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
         path.parent.mkdir(parents=True, exist_ok=True)
-        animation.save(path, writer=PillowWriter(fps=FRAME_RATE), dpi=FILM_DPI)
+        animation.save(path, writer=PillowWriter(fps=12), dpi=100)

@@ -112,10 +112,6 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
         ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
 
 
-MARGIN = 0.5
-"""Time shown before and after, as a fraction of the separation."""
-
-
 def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 3, slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
@@ -130,7 +126,7 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
         if not found:
             raise Missing("has no complete separation in zoom")
         start, stop = found[0]
-        margin = MARGIN * (stop - start)
+        margin = 0.5 * (stop - start)
         part = after(window.sel(time=slice(start - margin, stop + margin)), start)
         for ax in axes:
             shade(ax, [(0.0, (stop - start) * 1e3)])
@@ -143,19 +139,15 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     return figure
 
 
-SHOWN = 0.025
-"""Length of the stretch shown, s."""
-
-
 def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 23, slider and disc from static equilibrium; losses of contact are marked."""
     case = cases["F23"]
     figure, [ax] = panels(COLUMN, 2.5)
     with parts.blank_if_missing(ax):
         window, rest = dataset.samples(case, "zoom"), float(case["u_0"])
-        found = complete_separations(window)
-        start = found[0][0] - 0.1 * SHOWN if found else float(window["time"][0])
-        part = after(window.sel(time=slice(start, start + SHOWN)), start)
+        found, length = complete_separations(window), 0.025  # s
+        start = found[0][0] - 0.1 * length if found else float(window["time"][0])
+        part = after(window.sel(time=slice(start, start + length)), start)
         spans = separations(part)
         shade(ax, spans)
         displacements(ax, part, rest)

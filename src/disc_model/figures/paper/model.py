@@ -3,7 +3,7 @@
 The page docs/model.md shows the same drawing.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle, Rectangle
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from disc_model.figures.parts import BLACK, DISC, FORCE, PAGE, SLIDER
 from disc_model.parameters import Parameters
@@ -21,7 +21,6 @@ SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 """Lines that only guide the eye; the slider; the disc and its clamped middle."""
 SMALL = 8.0
 """Size of the text that is no symbol, in points."""
-BOXES = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
 OUTER = 1.2
 """Radius of the disc as drawn."""
 
@@ -36,7 +35,8 @@ def sketch(p: Parameters) -> Figure:
     """Draw the model with the radii of a case."""
     figure = Figure(figsize=(PAGE, 0.97 * PAGE))
     figure.set_layout_engine("none")  # the boxes are given
-    axes = [figure.add_axes(box) for box in BOXES]
+    boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
+    axes = [figure.add_axes(box) for box in boxes]
     _side(axes[0])
     _above(axes[1], p)
     _forces(axes[2])
@@ -71,8 +71,8 @@ def _side(ax: Axes) -> None:
     # vertical branch
     top = 2.15
     _wall(ax, (-0.6, top), (0.6, top), (0.12, 0.15))
-    _spring(ax, (-0.2, bottom + 0.55), (-0.2, top))
-    _damper(ax, (0.2, bottom + 0.55), (0.2, top))
+    _join(ax, SPRING, (-0.2, bottom + 0.55), (-0.2, top))
+    _join(ax, DAMPER, (0.2, bottom + 0.55), (0.2, top))
     ax.text(-0.47, 1.63, "$k$", ha="center")
     ax.text(0.5, 1.63, "$c$", ha="center")
     _arrow(ax, (0.85, top + 0.3), (0.85, top))
@@ -81,8 +81,8 @@ def _side(ax: Axes) -> None:
     # in-plane branch
     drive = 2.6
     _wall(ax, (drive, 0.5), (drive, 1.15), (0.13, 0.12))
-    _spring(ax, (0.4, 0.97), (drive, 0.97), width=0.08)
-    _damper(ax, (0.4, 0.68), (drive, 0.68), width=0.08)
+    _join(ax, SPRING, (0.4, 0.97), (drive, 0.97), width=0.08)
+    _join(ax, DAMPER, (0.4, 0.68), (drive, 0.68), width=0.08)
     ax.text(1.5, 1.16, "$k_p$", ha="center")
     ax.text(1.85, 0.44, "$c_p$", ha="center", va="center")
     _arrow(ax, (drive + 0.2, 1.3), (drive + 0.95, 1.3), r"drive point, $r_0\,\Omega$", (0.15, 0.2))
@@ -111,8 +111,8 @@ def _above(ax: Axes, p: Parameters) -> None:
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
     _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=SLIDER)
-    _angle(ax, 0.0, phi, r"$\varphi$", SLIDER)
-    _angle(ax, phi, ahead, r"$\psi$", SLIDER)
+    _angle(ax, 0.0, phi, r"$\varphi$")
+    _angle(ax, phi, ahead, r"$\psi$")
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
     place = _at(fixed, 1.3, (0.38, -0.06))
     _write(ax, place, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
@@ -173,37 +173,34 @@ def _write(ax: Axes, place: Point, text: str, **look: Any) -> None:
     ax.text(float(place[0]), float(place[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
-def _angle(ax: Axes, low: float, high: float, text: str, colour: str, radius: float = 0.72) -> None:
+def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -> None:
     """Draw an arc with an arrow, from one angle to another."""
     wide = 2 * radius
-    ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=colour, lw=1.5))
-    _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=colour)
-    _write(ax, _at((low + high) / 2, radius + 0.13), text, color=colour, fontsize=13)
+    ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=SLIDER, lw=1.5))
+    _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=SLIDER)
+    _write(ax, _at((low + high) / 2, radius + 0.13), text, color=SLIDER, fontsize=13)
 
 
-def _spring(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
-    """Draw a spring as a zigzag between two points."""
-    places = np.concatenate([[0, 0.2], np.linspace(0.2, 0.8, 11)[1:-1], [0.8, 1]])
-    swings = np.array([0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])
-    ax.plot(*_beside(start, end, places, width * swings), color=BLACK, lw=1.2)
+Strokes = Sequence[tuple[ArrayLike, ArrayLike]]
+"""Lines between two points: fractions of the way, and offsets to its left in widths."""
+SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]
+"""A zigzag."""
+DAMPER: Strokes = [
+    ([0, 0.35], [0, 0]),
+    ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1]),
+    ([0.55, 0.55], [-0.7, 0.7]),
+    ([0.55, 1], [0, 0]),
+]
+"""A cup and a piston."""
 
 
-def _damper(ax: Axes, start: Point, end: Point, width: float = 0.1) -> None:
-    """Draw a damper as a cup and a piston between two points."""
-    for along, side in (
-        ((0, 0.35), (0, 0)),
-        ((0.7, 0.35, 0.35, 0.7), (1, 1, -1, -1)),
-        ((0.55, 0.55), (-0.7, 0.7)),
-        ((0.55, 1), (0, 0)),
-    ):
-        ax.plot(*_beside(start, end, np.array(along), width * np.array(side)), color=BLACK, lw=1.2)
-
-
-def _beside(start: Point, end: Point, along: NDArray[np.float64], side: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Points at fractions of the way between two points, offset to its left by distances, shape (2, n)."""
+def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:
+    """Draw a spring or a damper between two points."""
     first, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
     left = np.array([-way[1], way[0]]) / np.hypot(*way)
-    return np.asarray(first[:, None] + way[:, None] * along + left[:, None] * side)
+    for along, side in strokes:
+        x, y = first[:, None] + way[:, None] * np.array(along) + left[:, None] * (width * np.array(side))
+        ax.plot(x, y, color=BLACK, lw=1.2)
 
 
 def _wall(ax: Axes, start: Point, end: Point, depth: Point) -> None:

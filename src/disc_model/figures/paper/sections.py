@@ -48,9 +48,8 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
             for axis, one in (("x", name), ("y", f"{name}_velocity")):
                 label, factor, _ = parts.sampled(one, samples)
                 at.append(samples[one].values * factor)
-                ax.set(
-                    **{f"{axis}label": label, f"{axis}lim": _around(np.concatenate([w[one] for w in room]) * factor)}
-                )
+                limits = _around(np.concatenate([window[one] for window in room]) * factor)
+                ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
             for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
                 there = getattr(found, stage)
                 look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}

@@ -58,8 +58,8 @@ def stretch(found: TimeFrequency) -> tuple[float, float]:
 
 def colour_bar(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
     """Draw the colour scale of power beside the panels that share it."""
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06)
-    bar.set_label("Power (dB re strongest line)")
+    label = "Power (dB re strongest line)"
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06, label=label)
     bar.outline.set_visible(False)
 
 
