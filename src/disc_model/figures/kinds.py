@@ -66,11 +66,8 @@ Roles = Mapping[str, Role]
 class Grid(Protocol):
     """Properties of a study that a figure needs, such as those of `disc_model.studies.study.GridStudy`."""
 
-    @property
-    def quantity(self) -> str: ...
-
-    @property
-    def options(self) -> Any: ...
+    quantity: str
+    options: Any
 
     @property
     def base(self) -> Mapping[str, Any]: ...
