@@ -43,9 +43,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
             for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()
         ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [
-            _variable(found) for found in study.data_vars.values() if found.ndim and found.dtype.kind in "biuf"
-        ],
+        "variables": [_variable(one) for one in study.data_vars.values() if one.ndim and one.dtype.kind in "biuf"],
         "messages": None if message is None else _messages(message),
         "motions": None if motions is None else motion_contents(motions, text),
     }
@@ -85,9 +83,7 @@ def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
 
 
 def packed(values: NDArray[Any], kind: str) -> str:
-    """Pack an array, last dimension fastest: first bytes of all numbers, then second ones and so on, deflated, as
-    base64.
-    """
+    """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and so on, deflated."""
     numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
     planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
     return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")

@@ -60,14 +60,12 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "palette": PALETTE,
         "words": WORDS,
     }
+    texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     parts = {
         "title": escape(title),
         "style": _part("page.css"),
         "figures": gallery(pictures),
-        # its texts cannot end the enclosing HTML element
-        "contents": json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False).replace(
-            "<", "\\u003c"
-        ),
+        "contents": texts.replace("<", "\\u003c"),  # so that none of them ends the enclosing HTML element
         "script": "\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     }
     # in one pass over the template, so that inserted text is not searched

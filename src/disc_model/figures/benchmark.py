@@ -122,8 +122,7 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict
             fixed = math.isfinite(float(line["order_theory"]))
             text = f"{order:.1f}" if fixed else rf"$tol^{{{order:.1f}}}$"
             labels.append((float(x[finest]), float(cost[finest]), text, look["color"]))
-    ax.set_xlim(1e-18, 300.0)
-    ax.set_xticks(10.0 ** np.arange(-15, 1, 3))
+    ax.set(xlim=(1e-18, 300.0), xticks=10.0 ** np.arange(-15, 1, 3))
     ax.xaxis.set_minor_locator(NullLocator())
     if error == "event":
         ax.axvline(3.0, color=GREY, linewidth=0.5)
@@ -153,7 +152,6 @@ ANSWERS: dict[str, str] = _TEXTS["answers"]
 HEADS: dict[str, str] = _TEXTS["heads"]
 RIGHT, WRONG, NO_ANSWER = range(3)
 MODELS = ("rigid", "residual")
-_ENOUGH = "#E4F1E4"
 _RED = "#B2182B"
 
 
@@ -178,7 +176,7 @@ def answers(dataset: xr.Dataset) -> Figure:
         for line, points in part.groupby("line", sort=False):
             handles |= _answer_line(ax, str(line), points)
         low, _ = ax.get_xlim()
-        ax.axvspan(low, enough[name], color=_ENOUGH, zorder=0)
+        ax.axvspan(low, enough[name], color="#E4F1E4", zorder=0)
         ax.set_xlim(left=low)
         ax.xaxis.set_minor_formatter(NullFormatter())
         _number_models(ax, part[part["line"].isin(MODELS) & part["error"].notna()])
@@ -198,10 +196,6 @@ def _answer_line(ax: Axes, line: str, points: pd.DataFrame) -> dict[str, Line2D]
     return {line: Line2D([], [], label=points["label"].iloc[0], **look)} if len(found) or len(denied) else {}
 
 
-APART = 0.045
-"""Least distance of two numbers in a panel, as a fraction of its sides."""
-
-
 def _number_models(ax: Axes, points: pd.DataFrame) -> None:
     """Label models with their numbers of nodal diameters, the largest first; a dot where there is no room."""
     to_panel = ax.transScale + ax.transLimits
@@ -210,7 +204,7 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
         ["setting", "error", "seconds"]
     ].values:
         place = np.asarray(to_panel.transform(at))
-        if any(np.abs(place - other).max() < APART for other in numbered):
+        if any(np.abs(place - other).max() < 0.045 for other in numbered):  # of the panel's sides
             ax.plot(*at, ".", color=BLACK, markersize=2)
         else:
             numbered.append(place)
@@ -246,7 +240,8 @@ def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMa
     for _, best in part[part["verdict"] == RIGHT].nsmallest(1, "seconds").iterrows():
         face = colors.to_rgba(best["seconds"])
         ink = "white" if best["seconds"] > 3.0 else BLACK
-        phrase = SETTINGS[best["varies"]][1].format(_power(best["setting"]))
+        setting = f"{best['setting']:.0e}".replace("e-0", "e-").replace("e+00", "")
+        phrase = SETTINGS[best["varies"]][1].format(setting)
         texts = [(_seconds(best["seconds"]), 6.5, ink), (phrase, 6.0, ink)]
         texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
@@ -254,10 +249,6 @@ def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMa
         at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
         halo = _HALO if ink == _RED else None
         ax.text(column, at, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
-
-
-def _power(value: float) -> str:
-    return f"{value:.0e}".replace("e-0", "e-").replace("e+00", "")
 
 
 def _seconds(value: float) -> str:
@@ -309,10 +300,9 @@ def _map_panels(
                 ax.plot(x, np.repeat(rows, 2)[1:-1], color=color, linestyle=dashes, linewidth=width)  # a staircase
     used = np.unique(np.concatenate([dataset["verdict"].values.ravel() for dataset in maps]))
     named = [verdict for number, verdict in enumerate(verdicts.values()) if number in used]
-    handles: list[Any] = [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in named]
-    for style, word in borders.items():
-        handles.append(Line2D([], [], color=BLACK, linewidth=1.4, linestyle=style, label=word))
-    figure.legend(handles=handles, loc="outside lower center", ncols=3)
+    shaded = [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in named]
+    lines = [Line2D([], [], color=BLACK, linewidth=1.4, linestyle=style, label=word) for style, word in borders.items()]
+    figure.legend(handles=[*shaded, *lines], loc="outside lower center", ncols=3)
     return figure
 
 
@@ -376,20 +366,15 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     axes["late"].set_ylim(-FAR, FAR)
     for line, (color, _), _ in lines:
         behind = line["late"].values
-        for name, there, height, look in (
-            ("late", behind > FAR, 0.98, {"marker": "^", "markersize": 3, "alpha": 0.7}),
-            ("late", behind < -FAR, 0.02, {"marker": "v", "markersize": 3, "alpha": 0.7}),
-            (
-                "growth_rate",
-                ~np.isfinite(line["growth_rate"].values),
-                0,
-                {"marker": "x", "markersize": 3.5, "zorder": 4},
-            ),
+        arrow: dict[str, Any] = {"markersize": 3, "alpha": 0.7}
+        for name, there, height, mark, look in (
+            ("late", behind > FAR, 0.98, "^", arrow),
+            ("late", behind < -FAR, 0.02, "v", arrow),
+            ("growth_rate", ~np.isfinite(line["growth_rate"].values), 0, "x", {"markersize": 3.5, "zorder": 4}),
         ):
-            at_edge: dict[str, Any] = {"color": color, "linestyle": "", "clip_on": False, **look}
             if there.any():
                 x, edge = line["modes"].values[there], axes[name].get_xaxis_transform()
-                axes[name].plot(x, np.full(x.size, height), transform=edge, **at_edge)
+                axes[name].plot(x, np.full(x.size, height), mark, color=color, transform=edge, clip_on=False, **look)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     return figure
 

@@ -87,9 +87,8 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
     """Draw the number of events after which the motion repeats; crosses at the foot where it is unknown."""
     repeats = period > 0
     ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
-    ax.set(yscale="log", ylim=(0.4, None))  # room for crosses below period 1
+    ax.set(yscale="log", ylim=(0.4, None), ylabel="Period\n(events)")  # room for crosses below period 1
     ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_ylabel("Period\n(events)")
     parts.mark_failed(ax, along[~repeats], name="not shown to repeat")
     if not repeats.all():
         parts.legend_above(ax)

@@ -76,8 +76,7 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     for text, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):  # clear of the neighbours
         text.set(horizontalalignment=side)
     ax.minorticks_off()
-    ax.set_xlabel(f"{symbol(name)}\n({unit})" if unit else symbol(name))
-    ax.set(ylim=(-0.03, 1.03))
+    ax.set(xlabel=f"{symbol(name)}\n({unit})" if unit else symbol(name), ylim=(-0.03, 1.03))
 
 
 def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
