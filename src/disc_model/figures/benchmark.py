@@ -204,7 +204,7 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
         ["setting", "error", "seconds"]
     ].values:
         place = np.asarray(to_panel.transform(at))
-        if any(np.abs(place - other).max() < 0.045 for other in numbered):  # of the panel's sides
+        if any(np.abs(place - other).max() < 0.045 for other in numbered):  # of a panel's side
             ax.plot(*at, ".", color=BLACK, markersize=2)
         else:
             numbered.append(place)

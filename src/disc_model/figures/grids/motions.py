@@ -41,7 +41,7 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     events = {"stick": "at release of stick", "separation": "at loss of contact"}
     names = events if options.get("section") == "event" else {}
     below = ["period"] * ("period_events" in study) + ["lyapunov"] * ("lyapunov" in overlays)
-    heights = [2.4, *({"period": 0.9, "lyapunov": 1.4}[name] for name in below)]
+    heights = [2.4, *({"period": 0.9, "lyapunov": 1.4}[name] for name in below)]  # inch
     figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
     ax = axes[0]
     xlabel, factor = parts.axis_of(plot.x)
@@ -190,7 +190,7 @@ def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: s
 
 
 def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: str) -> None:
-    """Draw the marks of a sweep, and an arrow at each jump, by a factor of ten or more."""
+    """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
     shown = np.maximum(y, LOWEST)
     for at, color in ((~separates, BLACK), (separates, SEPARATED)):
         ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **MARK)

@@ -50,9 +50,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
         outcome = cells.words_of(one, "outcome", plot.x, plot.y)
         for name, look in MARKS.items():
             if (there := outcome == name).any():
-                marks[name] = ax.scatter(
-                    x[there], y[there], zorder=3, clip_on=False, linewidth=0.5, edgecolor=BLACK, **look
-                )
+                marks[name] = ax.scatter(x[there], y[there], zorder=3, clip_on=False, lw=0.5, edgecolor=BLACK, **look)
                 marks[name].set_label(OUTCOME_LOOKS[name].label)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
@@ -61,9 +59,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
         for ax, one in zip(axes, growth, strict=True):
             x, y = (one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
             rate = one["growth_rate"].transpose(plot.y, plot.x).values
-            if (
-                min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate)
-            ):  # it is neutral
+            # the line on which the growth rate changes its sign
+            if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
                 ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
         handles = [Line2D([], [], **BORDERS["neutral"]), *patches(CYCLE_LOOKS, gaps), *handles]
     _legend_above(figure, [*(marks[name] for name in MARKS if name in marks), *handles])

@@ -145,7 +145,8 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     figure, [ax] = panels(COLUMN, 2.5)
     with parts.blank_if_missing(ax):
         window, rest = dataset.samples(case, "zoom"), float(case["u_0"])
-        found, length = complete_separations(window), 0.025  # s
+        found = complete_separations(window)
+        length = 0.025  # of the stretch shown, s
         start = found[0][0] - 0.1 * length if found else float(window["time"][0])
         part = after(window.sel(time=slice(start, start + length)), start)
         spans = separations(part)
