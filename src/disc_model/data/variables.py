@@ -185,8 +185,8 @@ def _parameter_variable(name: str) -> Variable:
 
 
 def typeset(text: str) -> str:
-    """The text with its indexed symbols, such as c_p, in the notation of matplotlib."""
-    return re.sub(r"\b(\w)_(\w)\b", r"$\1_\2$", text)
+    """The text with its indexed symbols, such as c_p, in the notation of matplotlib, also if some are in it already."""
+    return re.sub(r"(?<!\$)\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
 class Shown(NamedTuple):
