@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeG
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
+from disc_model.errors import Fault, ParameterError, as_text, faults_of
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -277,7 +277,8 @@ class Strict(BaseModel):
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """Make the model from a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
-            raise_faults([*faults_of_names(obj)])
+            if unnamed := [*faults_of_names(obj)]:
+                raise ParameterError(*unnamed)
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
