@@ -120,7 +120,7 @@ def compliant_slip_series(model, s, order, direction):
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
-    _, pending, _, _, first = _begin_orders(model, s, f0)
+    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     for k in range(order):
         f = s.slider[F + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -141,10 +141,12 @@ def compliant_slip_series(model, s, order, direction):
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
         if k > 0:
-            _, _, pending, first = _next_order(model, s, k, f, f0, impulse, pending, first)
-        closing = _closing(model, s, k + 1, first[0], first[1])
+            _, _, pending, e, carried, e_last, z_last = _next_order(
+                model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
+            )
+        closing = _closing(model, s, k + 1, e, carried)
         impulse = V * s.slider[UP + k]
-    _end_slip(model, s, order, direction, first[0], impulse)
+    _end_slip(model, s, order, direction, e, impulse)
     return ratio
 
 
@@ -221,16 +223,18 @@ def normal_slip_series(model, s, order, direction):
     denominator = slip_denominator(model, model.m, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    inertia, pending, by_f, by_f_rate, first = _begin_orders(model, s, f0)
+    inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     h, impulse = 0.0, 0.0
     for k in range(order):
         f = s.slider[F + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)
-            pairs, single, pending, first = _next_order(model, s, k, f, f0, impulse, pending, first)
+            pairs, single, pending, e, carried, e_last, z_last = _next_order(
+                model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
+            )
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
-            inertia = pairs + single + f * by_speed + impulse * model.damped_inverse_mass
+            inertia = total(pairs) + single + f * by_speed + impulse * model.damped_inverse_mass
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
         R = (top + h * (mobility * friction - beta)) * inverse
@@ -239,5 +243,5 @@ def normal_slip_series(model, s, order, direction):
         rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
         impulse = V * s.slider[UP + k]
-    _end_slip(model, s, order, direction, first[0], impulse)
+    _end_slip(model, s, order, direction, e, impulse)
     return denominator
