@@ -132,7 +132,7 @@ def disc_table(p: Parameters) -> str:
     if p.disc is not None:
         shapes = zip(p.disc.radii, zip(*p.disc.shapes, strict=True), strict=True)
         columns |= {f"shape_at_{radius}_m": shape for radius, shape in shapes}
-    rows = [columns, *zip(*columns.values(), strict=True)]
+    rows = [[*columns], *zip(*columns.values(), strict=True)]
     comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
 

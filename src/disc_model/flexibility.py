@@ -156,7 +156,8 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
     moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
     matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
-    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged
+    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged,
+    # so that its powers are the last two
     near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
     outside = [far / (n - 1), -far * x**2 / (n + 1)]

@@ -140,7 +140,7 @@ ANSWER_TRUNCATIONS = (1, 2, 4, 8)
 BUDGET = 3.0
 """Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
 VALUES = 6
-"""Greatest number of settings, of those of the method the first and the last among them."""
+"""Greatest number of settings by default: the method's first, its last, and some between."""
 ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=AnswerStatus)
 
 

@@ -74,10 +74,11 @@ def work_precision(
     Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, and
     along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
     """
-    settings = settings or {
-        scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
-        for scene in SCENES
-    }
+    if settings is None:
+        settings = {
+            scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
+            for scene in SCENES
+        }
     todo = [
         Point(scene, method, place, value)
         for scene, by_method in settings.items()

@@ -115,18 +115,21 @@ def _stays_calm(case: CaseView, factor: float = GREW) -> bool:
 def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
     intervals = case.intervals()
-    spread, small = irregularity(intervals), case.late.width < part * case["N"]
-    return Answer(small and _stays_calm(case) and spread <= within, rate=1 / intervals.mean(), spread=spread)
+    spread = irregularity(intervals)
+    small = _stays_calm(case) and case.late.width < part * case["N"]
+    return Answer(small and spread <= within, rate=1 / intervals.mean(), spread=spread)
 
 
-def only_between(*cases: CaseView, factor: float) -> Answer:
+def only_between(
+    small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
+) -> Answer:
     """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
-    largest, again, *repeats = cases[3:]
-    *stable, largest_too = [_stays_calm(case, factor) for case in cases[:4]]
-    first = again.first_separation(*repeats)
-    beyond = [{"case": again, "first": first}, {"case": largest, "first": largest.first}]
-    holds, decides = stable == [True, False, True], largest_too and not again.separates
-    return Answer(None if holds and not decides else holds, "beyond", loads=measures.rows(cases[:3]), beyond=beyond)
+    *stable, largest_stable = [_stays_calm(case, factor) for case in (small, middle, large, largest)]
+    first = again[0].first_separation(*again[1:])
+    beyond = [{"case": again[0], "first": first}, {"case": largest, "first": largest.first}]
+    holds, decides = stable == [True, False, True], largest_stable and not again[0].separates
+    shown = measures.rows((small, middle, large))
+    return Answer(None if holds and not decides else holds, "beyond", loads=shown, beyond=beyond)
 
 
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
@@ -362,7 +365,8 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
 
 def stiffer_disc(*cases: CaseView) -> Answer:
     rates, said = _stiffened_at_speeds(cases[0], "E", 11, 20)
-    falls = all(each.size == 3 and np.all(np.diff(each) < 0) for each in rates)
+    # a cycle at every stiffness
+    falls = all(each.size == len(STIFFENED["E"][2]) and np.all(np.diff(each) < 0) for each in rates)
     return Answer(falls, discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=said)
 
 

@@ -205,7 +205,8 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
         settled = fourth <= (1 + wider) * third
         below = settled and max(third, fourth) < min(other)
-        smaller.append(False if min(third, fourth) >= max(other) else below or None)
+        above = min(third, fourth) >= max(other)
+        smaller.append(False if above else True if below else None)
         rows.append({"case": free, "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
     return Answer(*_all_cases(smaller), cases=rows)
 

@@ -1,6 +1,7 @@
 """Compilation of kernels, with the same floating-point rules for all.
 
-``contract`` allows a * b + c to be rounded once. Nothing is reordered, so that results do not depend on the optimiser.
+``contract`` allows a * b + c to be rounded once. Nothing is reordered. In a * b + c * d the optimiser chooses which
+product is not rounded, by the code around it: the last bit may depend on that.
 Division by zero gives inf or nan instead of an exception inside the kernel.
 
 A ``kernel`` is separate machine code that Python calls and the cache stores.  A ``helper`` is compiled only as a part

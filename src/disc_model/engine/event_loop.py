@@ -19,7 +19,7 @@ from .stick_propagator import LONGEST_STICK, closed_form_length
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
-# By the causes of ``transitions``; at rest the slider may also reverse.
+# Kind of event by its cause, in the order of the causes in ``transitions``; at rest the slider may also reverse.
 KIND_OF = (-1, STICK_TO_SLIP, STICK_TO_SLIP, SLIP_TO_STICK, LOSS_OF_CONTACT, REATTACHMENT)
 
 # Counters, shape (N_COUNTERS,).

@@ -282,7 +282,7 @@ def _axisymmetric(model, s, k, impulse):
 
 @inlined
 def _begin_orders(model, s, f0):
-    """Order 0 of all modes; ``_next_order`` takes the second and the last four values returned.
+    """Order 0 of all modes; ``_next_order`` takes the second value returned and the last four.
 
     Returns u'' without P and f', the part of u'' pending for order 1 (lanes), the factors of f_k and of (k + 1) f_k in
     u'', and e_1 without P_0, s_1, e_0 and z_1 of the first block.
@@ -309,7 +309,7 @@ def _next_order(model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
     """Order k >= 1 of all modes; the last four arguments are those of ``_order`` for the first block.
 
     Returns the parts of u'' of the pairs (lanes) and of the other modes, and the last five arguments for the next
-    order. In one tuple these values would cost a slip under the normal force 6 %.
+    order. The last four are handed over one by one: as one argument they cost a slip under the normal force 6 %.
     """
     width = lane_count(model)
     part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
@@ -494,7 +494,10 @@ def separation_series(model, s, order):
     _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     for k in range(order + 1):
         if k > 0:
-            pull, weight = _spring(model, s, k), s.slider[LOAD_SERIES + k] if is_ramped(model) else 0.0
+            # not by _spring: in the branches there, sums would be rounded otherwise
+            pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0
+            if is_ramped(model):
+                pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
             _, _, pending, e, carried, e_last, z_last = _next_order(
                 model, s, k, s.slider[F + k], f0, 0.0, pending, e, carried, e_last, z_last
             )
@@ -502,5 +505,5 @@ def separation_series(model, s, order):
         for j in range(n):
             gap -= model.mode_amplitude0[j] * s.y[k * n + j]
         s.slider[SWITCH + k], s.slider[P_SERIES + k] = gap, 0.0
-        weight = weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
-        _move_slider(model, s, k, pull / model.m, -weight / model.m)
+        vertical = weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
+        _move_slider(model, s, k, pull / model.m, -vertical / model.m)

@@ -293,7 +293,7 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """
     at = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
-    return label, factor, FORCE if name == "P" else DISC if name.startswith("w") else SLIDER
+    return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
 
 
 def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:

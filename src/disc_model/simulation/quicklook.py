@@ -1,7 +1,9 @@
 """Quick plot of one run: contact force and disc displacement, one column for each recorded window."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,6 +13,9 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, typeset, values_text
 from disc_model.errors import Fault, ParameterError
+
+if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
 
 PANELS = ("P", "w")
 
@@ -30,10 +35,8 @@ class _ShownOnce(Figure):
         self.drawn = True
 
 
-def quicklook(result: Any) -> Figure:
+def quicklook(result: Result) -> Figure:
     """Plot contact force (top) and disc displacement under the slider (bottom), one column for each window.
-
-    result : a `disc_model.Result`, whose module imports this one
 
     Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """

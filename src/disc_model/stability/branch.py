@@ -60,20 +60,27 @@ class CyclePoint:
 
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``scale`` replaces the usual ones of the parameters.
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``parameter_scale`` replaces the usual scales.
 
     With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
-        self, p: Parameters, names: tuple[str, ...], scale: float | None, tol: float, order: Counts | None = None
+        self,
+        p: Parameters,
+        names: tuple[str, ...],
+        parameter_scale: float | None,
+        tol: float,
+        order: Counts | None = None,
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
         self.size = float(np.linalg.norm(reference.static))
-        self.scales = np.array([default_scale(p, name) if scale is None else scale for name in names])
+        self.scales = np.array(
+            [default_scale(p, name) if parameter_scale is None else parameter_scale for name in names]
+        )
 
     def case(self, z: Array) -> Parameters:
         values = z[self.n :] * self.scales

@@ -135,8 +135,6 @@ def lyapunov_exponents(
     columns[:] = 0.0
     asked, count = count, count + leave_out_trivial
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
-    if state.x[layout.PHASE] == layout.STICK:
-        columns[tangent.F_ROW - tangent.N_SLIDER_ROWS] = 0.0
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
     _bind(model, state, t)
@@ -275,6 +273,6 @@ def _metric(model: layout.Model) -> Array:
 
 
 def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:
-    """Set u, u' of columns to those of the disc in rigid contact, where they are not integrated between events."""
+    """Set rows of columns that follow from others in contact, and are not integrated between events."""
     if state.x[layout.PHASE] != layout.SEPARATION:
         saltation.slider_rows(model, state, t)

@@ -248,7 +248,7 @@ Columns = create_model("Columns", __base__=_Columns, **_columns)
 NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
 """Parameters that can be distributed."""
 FARTHEST = 6.47
-"""Standard deviations at which a normal distribution is cut off: a fraction of 1e-10 lies beyond."""
+"""Standard deviations at which a normal distribution is cut off, rounded up: a fraction of 1e-10 lies beyond."""
 
 
 class _Distribution(Ruled):

@@ -194,7 +194,7 @@ class Study:
     def __init__(self, document: Document, raw: Mapping[str, Any], faults: list[Fault]) -> None:
         self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
         self.cases, self.studies = document.cases, document.studies
-        if self.name in ("compiled", "bench"):
+        if self.name in ("compiled", "bench"):  # folders beside those of studies
             faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
         if not raw.keys() & {"cases", "studies", *GRID_KEYS}:
             faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))

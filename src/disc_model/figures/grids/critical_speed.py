@@ -32,7 +32,7 @@ EDGES: dict[str, Any] = {
     "markeredgewidth": 0.5,
     "path_effects": [withStroke(linewidth=1.3, foreground=BLACK)],
 }
-"""Black edges of their marks, to be seen on any area."""
+"""What all these marks have in common: black edges, to be seen on any area."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:

@@ -48,7 +48,7 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
             for axis, one in (("x", name), ("y", f"{name}_velocity")):
                 label, factor, _ = parts.sampled(one, samples)
                 at.append(samples[one].values * factor)
-                limits = _around(np.concatenate([window[one] for window in room]) * factor)
+                limits = _around(np.concatenate([each[one] for each in room]) * factor)
                 ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
             for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
                 there = getattr(found, stage)

@@ -195,7 +195,7 @@ class Basins:
         if calm is not None:
             return Attractor(calm, stretch)
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
-        if near is not None and near.follows_cycle:
+        if near is not None and near.follows_cycle:  # of stable cycles only
             return self._periodic(near, stretch)
         if near is not None and not near.cycle.stable:
             # near the cycle the motion hardly moves on the section over a period; on a torus it would move

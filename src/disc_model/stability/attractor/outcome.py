@@ -310,8 +310,18 @@ class _OutcomeSearch:
         return code == RETURNED and self.torus.shows_no_change(x)
 
     def _ended(self, outcome: Outcome | None, **more: Any) -> OutcomeResult:
-        known = ("simulated", "cycle", "departed", "time", "state", "changes", "times", "segment")
-        return OutcomeResult(outcome, **{name: getattr(self, name) for name in known}, **more)
+        return OutcomeResult(
+            outcome,
+            self.simulated,
+            self.cycle,
+            departed=self.departed,
+            time=self.time,
+            state=self.state,
+            changes=self.changes,
+            times=self.times,
+            segment=self.segment,
+            **more,
+        )
 
     def _depart(self, near: NearCycle) -> float:
         """Follow the linear map away from an unstable cycle, as far as it is valid; returns the time at its end, s."""

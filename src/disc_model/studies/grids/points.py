@@ -57,7 +57,7 @@ def tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
-    """A column of shares, those of the lower and of the upper ends of their intervals, by name."""
+    """Three columns by name: a share, and the ends of its confidence interval."""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
 
 

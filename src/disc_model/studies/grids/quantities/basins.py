@@ -44,7 +44,7 @@ COLUMNS = {
     "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
     "lost_contact": Variable("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
     **_share("basin_fraction_by_energy", _SHARES),
-    **_share("basin_fraction", _SHARES[1:]),
+    **_share("basin_fraction", ("attractor_class",)),
     **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
     "critical_energy": Variable("J", "least energy found that leads to lasting separation, by bisection"),
     "critical_energy_lower": Variable("J", "greatest energy below it, in the same direction, that does not"),
