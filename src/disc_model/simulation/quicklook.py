@@ -1,9 +1,7 @@
 """Quick plot of one run: contact force and disc displacement, one column for each recorded window."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,9 +11,6 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, typeset, values_text
 from disc_model.errors import Fault, ParameterError
-
-if TYPE_CHECKING:
-    from disc_model.simulation.result import Result
 
 PANELS = ("P", "w")
 
@@ -35,8 +30,10 @@ class _ShownOnce(Figure):
         self.drawn = True
 
 
-def quicklook(result: Result) -> Figure:
+def quicklook(result: Any) -> Figure:
     """Plot contact force (top) and disc displacement under the slider (bottom), one column for each window.
+
+    result : a `disc_model.Result`, untyped since its module imports this one
 
     Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """
