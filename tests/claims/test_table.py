@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -32,6 +33,7 @@ from disc_model.claims.model import (
 from disc_model.claims.pages import to_markdown
 from disc_model.data.dataset import Missing, events_dataset
 from disc_model.simulation.api import run_case
+from disc_model.stability.cycle import floquet
 from disc_model.studies.study import parse_study
 from tests.claims.test_pages import COLUMNS
 
@@ -241,3 +243,11 @@ def test_growth_is_that_of_the_cycle() -> None:
     assert still.growth == "no stick-slip cycle"
     with pytest.raises(Missing, match="no stick-slip cycle: "):
         measures.cycle_of(still.parameters)
+
+
+def test_a_cycle_that_does_not_exist_was_searched_anew_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    searched = Mock(wraps=floquet)
+    monkeypatch.setattr("disc_model.stability.cycle.floquet", searched)
+    still = Parameters(N=201, Omega=0, n_diameters=1)
+    assert np.isnan([measures.growth_or_nan(still), measures.growth_or_nan(still.replace())]).all()
+    searched.assert_called_once()

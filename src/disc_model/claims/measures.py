@@ -441,11 +441,18 @@ class Section(NamedTuple):
 
 
 @cache
+def _search_of(p: Parameters) -> FloquetResult:
+    """The search for a cycle near the static start, made once also where there is none."""
+    from disc_model.stability.cycle import floquet
+
+    return floquet(p)
+
+
 def cycle_of(p: Parameters) -> FloquetResult:
     """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
-    from disc_model.stability.cycle import CycleStatus, floquet
+    from disc_model.stability.cycle import CycleStatus
 
-    found = floquet(p)
+    found = _search_of(p)
     if found.status is not CycleStatus.OK:
         raise Missing(f"no stick-slip cycle: {found.message}")
     return found
