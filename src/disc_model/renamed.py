@@ -2,26 +2,21 @@
 
 from collections.abc import Collection
 
-_INTERVAL = ("", "_low", "_high")
-_ALIKE = (
-    ("share{}", "basin_fraction{}", _INTERVAL),
-    ("energy_share{}", "basin_fraction_by_energy{}", _INTERVAL),
-    ("separating_share{}", "separating_fraction{}", _INTERVAL),
-    ("cycle_share{}", "cycle_fraction{}", _INTERVAL),
-    ("outcome_share{}", "outcome_fraction{}", _INTERVAL),
-    ("first_index{}", "sobol_first{}", _INTERVAL),
-    ("total_index{}", "sobol_total{}", _INTERVAL),
-    ("energy_{}", "energy_residual_{}", ("transverse", "inplane")),
-    ("attractor_share_{}", "attractor_{}_fraction", ("stick", "separation")),
-    ("share_{}", "{}_fraction", ("stick", "slip", "separation")),
-    ("joined_{}", "branch_continues_{}", ("first", "second")),
-    ("tongue_{}", "resonance_{}", ("harmonic", "frequency", "diameters", "sign", "detuning")),
-    ("kick{}", "perturbation{}", ("", "_u", "_u_velocity", "_f")),
-)
-"""Old and new names that changed alike, and what stands for the braces in both."""
+_WITH_INTERVALS = {
+    "share": "basin_fraction",
+    "energy_share": "basin_fraction_by_energy",
+    "separating_share": "separating_fraction",
+    "cycle_share": "cycle_fraction",
+    "outcome_share": "outcome_fraction",
+    "first_index": "sobol_first",
+    "total_index": "sobol_total",
+}
+"""Variables that have an interval as well, from `_low` to `_high`."""
 RENAMED: dict[str, tuple[str, ...]] = {
-    **{old.format(part): (new.format(part),) for old, new, parts in _ALIKE for part in parts},
+    **{f"{old}{end}": (f"{new}{end}",) for old, new in _WITH_INTERVALS.items() for end in ("", "_low", "_high")},
     # variables and dimensions of datasets
+    "energy_transverse": ("energy_residual_transverse",),
+    "energy_inplane": ("energy_residual_inplane",),
     "likeness": ("mac",),
     "forward": ("forward_wave_fraction",),
     "fate": ("attractor_class",),
@@ -29,10 +24,15 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "least_kick": ("critical_energy",),
     "least_kick_not": ("critical_energy_lower",),
     "least_kick_sample": ("critical_energy_sampled",),
+    "attractor_share_stick": ("attractor_stick_fraction",),
+    "attractor_share_separation": ("attractor_separation_fraction",),
     "simulated": ("simulated_time",),
     "separated": ("lost_contact",),
     "onset": ("onset_speed",),
     "persists_to": ("offset_speed",),
+    "share_stick": ("stick_fraction",),
+    "share_slip": ("slip_fraction",),
+    "share_separation": ("separation_fraction",),
     "distance": ("cycle_distance",),
     "difference": ("return_map_residual",),
     "difference_rate": ("return_map_residual_rate",),
@@ -42,8 +42,15 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "transient": ("transient_time",),
     "origin": ("method",),
     "oscillations": ("period_ratio",),
+    "joined_first": ("branch_continues_first",),
+    "joined_second": ("branch_continues_second",),
     "border": ("adjoins_stable_cycle",),
     "n_unfollowed": ("n_continuation_failures",),
+    "tongue_harmonic": ("resonance_harmonic",),
+    "tongue_frequency": ("resonance_frequency",),
+    "tongue_diameters": ("resonance_diameters",),
+    "tongue_sign": ("resonance_sign",),
+    "tongue_detuning": ("resonance_detuning",),
     "along": ("trivial_exponent",),
     "covered": ("averaging_time",),
     "draw": ("sample_matrix",),
@@ -65,6 +72,10 @@ RENAMED: dict[str, tuple[str, ...]] = {
     "rise": ("min_rise",),
     "stay": ("dwell",),
     "prepare": ("prerun",),
+    "kick": ("perturbation",),
+    "kick_u": ("perturbation_u",),
+    "kick_u_velocity": ("perturbation_u_velocity",),
+    "kick_f": ("perturbation_f",),
     "others": ("overlays",),
     "claim": ("paper_points",),
     "paper": ("paper_outcome", "paper_cases"),

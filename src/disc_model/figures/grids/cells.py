@@ -59,8 +59,14 @@ CYCLE_LOOKS = {
 }
 """Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
 may be another cycle's."""
-WITHOUT = {word: word for word in ("no_cycle", "separates", "at_rest", EXCLUDED)}
-WITHOUT |= {"ok": "no_cycle", "no_stick_slip": "steady_sliding"}
+WITHOUT = {
+    "ok": "no_cycle",
+    "no_cycle": "no_cycle",
+    "separates": "separates",
+    "no_stick_slip": "steady_sliding",
+    "at_rest": "at_rest",
+    EXCLUDED: EXCLUDED,
+}
 """Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`; others have failed."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
 GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
