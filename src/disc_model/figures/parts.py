@@ -193,7 +193,10 @@ def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray |
 
 def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
     """Points where a `picked` variable has no value, by the word of their status."""
-    gone, status = found.isnull(), picked(study, "status", at)
+    gone = found.isnull()
+    if not gone.any() or "status" not in study:
+        return {"no value": gone} if gone.any() else {}
+    status = picked(study, "status", at)
     words = status.copy(data=flag_names(status))
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
     names.pop(EXCLUDED, None)
