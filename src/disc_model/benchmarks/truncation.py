@@ -67,8 +67,15 @@ def truncation_study(
 
 
 def _described(study: xr.Dataset, title: str, cases: Mapping[str, Any], **more: Any) -> xr.Dataset:
-    more |= {"title": title, "cases": json.dumps(cases, sort_keys=True), "band": BAND}
-    return study.assign_attrs({"Conventions": "CF-1.11"} | more | {"compared_with": json.dumps(RICH)})
+    attrs = {
+        "Conventions": "CF-1.11",
+        **more,
+        "title": title,
+        "cases": json.dumps(cases, sort_keys=True),
+        "band": BAND,
+        "compared_with": json.dumps(RICH),
+    }
+    return study.assign_attrs(attrs)
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
