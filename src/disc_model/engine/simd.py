@@ -199,6 +199,7 @@ else:
 
     def _lane_by_lane(write):
         """An instruction of LLVM applied to two values lane by lane."""
+        # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
     mul = _lane_by_lane(ir.IRBuilder.fmul)

@@ -38,12 +38,12 @@ def margins(p: Parameters, run: Result) -> Iterator[tuple[float, str]]:
     stick, slip, apart = (samples["phase"] == PHASES.index(name) for name in ("stick", "slip", "separation"))
     pull = p.r_0 * np.abs(p.k_p * samples["psi"] + p.c_p * p.Omega)
     # event functions, which end a phase when they fall to 0, and the samples to which they apply
-    watched = {
-        ("stop", "slip_to_stick"): (np.abs(p.Omega - samples["psi_velocity"]) / p.Omega, slip),
-        ("separation", "separation"): (samples["P"] / p.N, ~apart),
-        ("release", "stick_to_slip"): (samples["P"] / p.N - pull / (p.mu_s * p.N), stick),
-    }
-    for (name, kind), (values, during) in watched.items():
+    watched = (
+        ("stop", "slip_to_stick", np.abs(p.Omega - samples["psi_velocity"]) / p.Omega, slip),
+        ("separation", "separation", samples["P"] / p.N, ~apart),
+        ("release", "stick_to_slip", samples["P"] / p.N - pull / (p.mu_s * p.N), stick),
+    )
+    for name, kind, values, during in watched:
         yield _nearest_dip(values, during), f"a further {name}"
         at = events["time"].to_numpy()[events["kind"].to_numpy() == kind]
         yield _shallowest(values, during, np.searchsorted(samples["time"], at)), f"the omission of a {name}"

@@ -110,7 +110,7 @@ class _Tile:
         self.options, self.shape = options, (len(points), len(points[0]))
         self.points = {(i, j): point for i, row in enumerate(points) for j, point in enumerate(row)}
         self.starts = {
-            place: point if isinstance(point, Exception) else _tried(cycle_of_static_start, point)
+            place: point if isinstance(point, Exception) else _result_or_error(cycle_of_static_start, point)
             for place, point in self.points.items()
         }
         self.results: dict[Place, OutcomeResult | Exception] = {}
@@ -183,7 +183,7 @@ class _Tile:
         if isinstance(start, Exception):
             return start
         horizon, tol = self.options.horizon, self.options.tol
-        return _tried(find_outcome, self.points[place], horizon, tol=tol, near=start, furthest=furthest)
+        return _result_or_error(find_outcome, self.points[place], horizon, tol=tol, near=start, furthest=furthest)
 
     def _trend(self, place: Place) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
@@ -339,7 +339,7 @@ class _Tile:
                 known[here].append(found.x)
 
 
-def _tried(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
+def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
     try:
         return compute(*arguments, **named)
     except NUMERICAL as error:
