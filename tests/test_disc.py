@@ -102,6 +102,11 @@ def test_content_decides_the_key(tmp_path: Path) -> None:
     assert dm.read_disc(tmp_path / "b.csv").omega[0] == pytest.approx(1000, rel=1e-15)
 
 
+def test_the_residual_compliance_is_found_from_the_static_one() -> None:
+    given = P.replace(disc=dm.Disc(**THREE, static_compliance=1e-5), contact_compliance="residual")
+    assert dm.simulate(given, 0.01).status == "ok"
+
+
 def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
     """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the deflection."""
     plate, r, theta = P.replace(normalization="orthonormal"), np.linspace(P.a, P.b, 41), np.linspace(0, 6, 13)

@@ -52,6 +52,20 @@ def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
     assert [f"{value:.2f}" for value in coupled_natural_frequencies(P)] == [f"{value:.2f}" for value in paper]
 
 
+@pytest.mark.parametrize(("p", "lowest"), [(P, 850.864), (ORTHONORMAL, 1178.65)])
+def test_coupled_frequencies_are_the_shifted_ones(p: Parameters, lowest: float) -> None:
+    mine = coupled_frequencies(p)
+    assert mine[0] == pytest.approx(lowest, abs=0.01)
+    partners = plate_modes(p).query("diameters > 0")["omega"]
+    assert_allclose(np.sort([*mine, *partners]), coupled_natural_frequencies(p), rtol=1e-12)
+
+
+def test_more_modes_lower_every_frequency() -> None:
+    """Rayleigh: a larger space of displacements can only lower them."""
+    few, more = coupled_frequencies(P), coupled_frequencies(P.replace(n_diameters=8, n_circles=1))
+    assert (more[: few.size] < few).all()
+
+
 @pytest.mark.parametrize("give", [0.0, 2.5e-7])
 def test_coupled_shapes_solve_the_equations_of_motion(give: float) -> None:
     """In rigid contact u is the disc's; on a compliant one it is a coordinate, and the contact is a spring."""

@@ -76,6 +76,13 @@ def test_files_and_command_lines_may_leave_the_choice() -> None:
     assert parameters_of({**values, "n_diameters": 5}, []) == (Parameters(**values, n_diameters=5), None)
 
 
+def test_chosen_parameters_are_those_given_outright() -> None:
+    """They were unequal, although key and hash agreed, and a copy lost the record of the choice."""
+    chosen = choose_modes(P, 1e-3).parameters
+    assert chosen == Parameters(N=385, Omega=15.1, n_diameters=3)
+    assert chosen.model_copy() == chosen
+
+
 @pytest.mark.compiled
 def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
