@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import pytest
 
-from disc_model import Parameters, progress, simulate
+from disc_model import Execution, Parameters, progress, simulate
 from disc_model.progress import COMPILING, compiling, simulating
 from disc_model.simulation import api
 
@@ -64,7 +64,7 @@ def test_a_long_simulation_is_shown(where: str, monkeypatch: pytest.MonkeyPatch)
 def test_what_is_short_or_to_be_silent_is_not(where: str, patience: float, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress, "PATIENCE", patience)
     texts = watched(where, monkeypatch)
-    simulate(P, 0.05, progress=None if patience else False)
+    simulate(P, 0.05, execution=Execution(progress=None if patience else False))
     assert not texts()
 
 

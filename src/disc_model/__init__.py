@@ -26,7 +26,7 @@ _NAMES = {
     "parameters": "Parameters Disc",
     "plate": "plate_modes coupled_natural_frequencies",
     "plausibility": "ImplausibleValue",
-    "simulation.api": "simulate",
+    "simulation.api": "simulate Execution",
     "simulation.case": "Record Window Poincare",
     "simulation.deflection": "snapshots deflection",
     "simulation.ramps": "Ramp",
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from disc_model.parameters import Disc, Parameters
     from disc_model.plate import coupled_natural_frequencies, plate_modes
     from disc_model.plausibility import ImplausibleValue
-    from disc_model.simulation.api import simulate
+    from disc_model.simulation.api import Execution, simulate
     from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.deflection import deflection, snapshots
     from disc_model.simulation.ramps import Ramp

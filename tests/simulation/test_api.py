@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Poincare, Record, Window, simulate
+from disc_model import Execution, Parameters, Poincare, Record, Window, simulate
 from disc_model.errors import StepLimit
 from disc_model.plate import mode_arrays
 from tests.simulation.equal import same
@@ -21,7 +21,7 @@ def test_a_window_alone_is_a_record_of_it():
 
 
 def test_steps_run_out():
-    result = simulate(P, 1.0, max_steps=3)
+    result = simulate(P, 1.0, execution=Execution(max_steps=3))
     assert result.status == "step_limit"
     assert not result.status.complete
     assert result.statistics["steps"] == 3
@@ -31,7 +31,7 @@ def test_steps_run_out():
 
 def test_more_steps_than_the_engine_counts_are_no_bound():
     """Numba took such a number for one of another kind, and compiled the engine for it, or refused it."""
-    assert simulate(P, 1e-3, max_steps=2**64).status == "ok"
+    assert simulate(P, 1e-3, execution=Execution(max_steps=2**64)).status == "ok"
 
 
 NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
@@ -49,10 +49,14 @@ NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
 )
 def test_no_call_decides_how_later_ones_are_computed(given):
     """The engine was compiled for the types of the first call, and given others after it."""
+
+    def run(t_end=0.0625, tol=1e-10, **how):
+        return simulate(P, t_end, tol=tol, execution=Execution(**how))
+
     plain = {name: (int if name == "max_steps" else float)(value) for name, value in given.items()}
-    usual, expected = simulate(P, 0.0625), simulate(P, **{"t_end": 0.0625, **plain})
-    same(simulate(P, **{"t_end": 0.0625, **given}), expected)
-    same(simulate(P, 0.0625), usual)
+    usual, expected = run(), run(**plain)
+    same(run(**given), expected)
+    same(run(), usual)
 
 
 STATE = simulate(P, 0.0371).final_state

@@ -1,6 +1,7 @@
 """An interrupted simulation continues from its checkpoint to the same result, bit for bit; and so do long ones."""
 
 import importlib
+import inspect
 import json
 import os
 import pickle
@@ -15,12 +16,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window
+from disc_model import Execution, ParameterError, Parameters, Poincare, Ramp, Record, Window
 from disc_model.data.dataset import load
 from disc_model.simulation import api
 from disc_model.simulation.api import run_case, simulate
 from disc_model.simulation.case import CaseSpec
-from disc_model.simulation.result import State
+from disc_model.simulation.result import Result, State
 from tests import processes
 from tests.commands import Command
 from tests.simulation.equal import same
@@ -46,16 +47,23 @@ RAMPS = (Ramp(parameter="Omega", to=14.0, start=54.5, end=55.5), Ramp(parameter=
 
 
 Options = dict[str, Any]
+HOW = inspect.signature(Execution).parameters.keys()
 
 
 class Interrupted(Exception):
     pass
 
 
+def simulated(*args: Any, **options: Any) -> Result:
+    """`simulate` with an `Execution` of those options that belong there."""
+    how = {name: options.pop(name) for name in HOW & options.keys()}
+    return simulate(*args, **options, execution=Execution(**how))
+
+
 @pytest.fixture(scope="module")
 def separating() -> State:
     """The first loss of contact."""
-    return simulate(P, 60, stop_at="first_separation").final_state
+    return simulated(P, 60, stop_at="first_separation").final_state
 
 
 @pytest.fixture
@@ -88,7 +96,7 @@ def interrupted_after(pauses: int) -> Callable[[float], None]:
 def interrupt(pauses: int, *args: Any, **options: Any) -> None:
     """Run until an interruption."""
     with pytest.raises(Interrupted):
-        simulate(*args, **options, checkpoint_every=0, progress=interrupted_after(pauses))
+        simulated(*args, **options, checkpoint_every=0, progress=interrupted_after(pauses))
 
 
 RUNS: dict[str, Options] = {
@@ -105,10 +113,10 @@ class TestGoingOn:
     @pytest.mark.parametrize("name", RUNS)
     def test_the_result_is_that_of_an_undisturbed_run(self, separating: State, file: Path, name: str) -> None:
         options = {"initial_state": separating} | RUNS[name]
-        undisturbed = simulate(P, 55.6, **options)
+        undisturbed = simulated(P, 55.6, **options)
         for pauses in (1, 1, 0, 2):
             interrupt(pauses, P, 55.6, **options, checkpoint=file)
-        resumed = simulate(P, 55.6, **options, checkpoint=file)
+        resumed = simulated(P, 55.6, **options, checkpoint=file)
         same(undisturbed, resumed)
         assert resumed.statistics["wall_time"] > 0
         assert os.listdir(file.parent) == []
@@ -117,9 +125,9 @@ class TestGoingOn:
         """The very end is no place to go on from: one more step, of no length, would be counted."""
         pauses: list[float] = []
         run["record"] = ALL
-        undisturbed = simulate(P, 55, **run | {"checkpoint": None}, progress=pauses.append)
+        undisturbed = simulated(P, 55, **run | {"checkpoint": None}, progress=pauses.append)
         interrupt(len(pauses) - 1, P, 55, **run)
-        same(simulate(P, 55, **run), undisturbed)
+        same(simulated(P, 55, **run), undisturbed)
 
     @pytest.mark.parametrize("every", [0, 3600])
     @pytest.mark.parametrize("another_run", [False, True])
@@ -133,7 +141,7 @@ class TestGoingOn:
         content = file.read_bytes()
         earlier = file.with_name("x.other")
         earlier.write_text("kept before")
-        simulate(P, 54.5, **run, checkpoint_every=every)
+        simulated(P, 54.5, **run, checkpoint_every=every)
         assert earlier.read_text() == "kept before"
         earlier.unlink()
         (aside,) = file.parent.iterdir()
@@ -145,7 +153,7 @@ class TestGoingOn:
         ends = 55.0, 55.5
         seen: dict[float, list[float]] = {}
         undisturbed = {
-            end: simulate(P, end, **run | {"checkpoint": None}, progress=seen.setdefault(end, []).append)
+            end: simulated(P, end, **run | {"checkpoint": None}, progress=seen.setdefault(end, []).append)
             for end in ends
         }
         for pauses in (2, 1):
@@ -153,7 +161,7 @@ class TestGoingOn:
                 interrupt(pauses, P, end, **run)
         for end in ends:
             rest: list[float] = []
-            same(simulate(P, end, **run, progress=rest.append), undisturbed[end])
+            same(simulated(P, end, **run, progress=rest.append), undisturbed[end])
             assert rest == seen[end][5:]  # three pauses and two
         assert os.listdir(file.parent) == []
 
@@ -168,7 +176,7 @@ class TestGoingOn:
 
         monkeypatch.setattr(os, "replace", refused)
         with pytest.raises(ParameterError, match=r"checkpoint='.*x': is of another run .* cannot be renamed"):
-            simulate(P, 54.5, **run, checkpoint_every=0)
+            simulated(P, 54.5, **run, checkpoint_every=0)
         assert file.read_bytes() == content
 
 
@@ -191,12 +199,12 @@ class TestNotTrusted:
         interrupt(3, P, 55, **run)
         p, t_end, options = OTHERS[name]
         options = {key: value(run[key]) if callable(value) else value for key, value in options.items()}
-        found = simulate(p, t_end, **run | options)
+        found = simulated(p, t_end, **run | options)
         phrase = re.search(r"checkpoint (.*) ignored: of another run \(other (.*)\)", caplog.text)
         assert phrase is not None
         assert phrase[1] == str(run["checkpoint"])
         assert name in phrase[2].split(", ")
-        same(found, simulate(p, t_end, **run | options | {"checkpoint": None}))
+        same(found, simulated(p, t_end, **run | options | {"checkpoint": None}))
 
     @pytest.mark.parametrize(("function", "name"), [("source_hash", "sources"), ("versions", "versions")])
     def test_another_engine(
@@ -205,7 +213,7 @@ class TestNotTrusted:
         interrupt(3, P, 55, **run)
         monkeypatch.setattr(api, function, lambda *_: "another")
         begun: list[float] = []
-        simulate(P, 55, **run, progress=begun.append)
+        simulated(P, 55, **run, progress=begun.append)
         assert f"(other {name})" in caplog.text
         assert begun[0] < run["initial_state"].time + 0.2
 
@@ -213,14 +221,14 @@ class TestNotTrusted:
         run["record"] = ALL
         interrupt(1, P, 54.8, **run)
         content = file.read_bytes()
-        undisturbed = simulate(P, 54.8, **run | {"checkpoint": None})
+        undisturbed = simulated(P, 54.8, **run | {"checkpoint": None})
         places = [*range(40), *np.random.default_rng(1).integers(0, len(content), 40), len(content) - 1]
         for place in places:
             caplog.clear()
             changed = bytearray(content)
             changed[place] ^= 1 << int(place) % 8
             file.write_bytes(changed)
-            same(simulate(P, 54.8, **run), undisturbed)
+            same(simulated(P, 54.8, **run), undisturbed)
             assert "ignored" in caplog.text
 
     @pytest.mark.parametrize(
@@ -229,13 +237,13 @@ class TestNotTrusted:
     def test_something_else(self, run: Options, file: Path, content: bytes) -> None:
         file.write_bytes(content)
         interrupt(2, P, 55, **run)
-        same(simulate(P, 55, **run), simulate(P, 55, **run | {"checkpoint": None}))
+        same(simulated(P, 55, **run), simulated(P, 55, **run | {"checkpoint": None}))
         assert not file.exists()
 
 
 class TestArguments:
     def test_all_faults_in_one_error(self, tmp_path: Path) -> None:
-        faults = faults_of(simulate, P, -1, checkpoint=tmp_path / "no" / "such", checkpoint_every=-1)
+        faults = faults_of(simulated, P, -1, checkpoint=tmp_path / "no" / "such", checkpoint_every=-1)
         assert [fault.partition("=")[0] for fault in faults] == ["t_end", "checkpoint", "checkpoint_every"]
 
     @pytest.mark.parametrize(
@@ -244,7 +252,7 @@ class TestArguments:
     def test_a_place_for_no_file(self, path: Any) -> None:
         rule = "must be a file in a folder that exists, with a name of at most 233 bytes"
         with pytest.raises(ParameterError, match=rf"^checkpoint=.*{rule}$"):
-            simulate(P, 1, checkpoint=path)
+            simulated(P, 1, checkpoint=path)
 
     @pytest.mark.compiled
     def test_a_checkpoint_that_cannot_be_written_does_not_end_the_run(
@@ -266,7 +274,7 @@ class TestArguments:
         interrupt(4, P, 55.6, **run)
         assert caplog.text.count("not written: [Errno 28]") == 2
         assert len(calls) == 10
-        same(simulate(P, 55.6, **run), simulate(P, 55.6, **run | {"checkpoint": None}))
+        same(simulated(P, 55.6, **run), simulated(P, 55.6, **run | {"checkpoint": None}))
 
 
 @pytest.mark.compiled
@@ -294,7 +302,7 @@ def test_what_a_run_left_that_was_killed_while_it_wrote_is_removed(tmp_path: Pat
     left, of_another = (tmp_path / f".{name}.0123456789abcdef.tmp" for name in ("checkpoint", "checkpoint.nc"))
     left.touch()
     of_another.touch()
-    simulate(P, 0.1, checkpoint=tmp_path / "checkpoint")
+    simulate(P, 0.1, execution=Execution(checkpoint=tmp_path / "checkpoint"))
     assert [*tmp_path.iterdir()] == [of_another]
 
 
@@ -304,12 +312,12 @@ def test_what_a_run_left_that_was_killed_while_it_wrote_is_removed(tmp_path: Pat
 
 HOUR = """
 import logging, pickle, sys
-from disc_model import Parameters, Poincare, Record, Window
-from disc_model.simulation.api import simulate
+from disc_model import Execution, Parameters, Poincare, Record, Window, simulate
 logging.basicConfig(level=logging.INFO)
 windows = Window(start=0, stop=3600, rate=200, envelope=100), Window(start=3000, stop=3001, rate=1e4)
 record = Record(windows=windows, poincare=Poincare(start=1000))
-result = simulate(Parameters(N=385, Omega=15.1), 3600, record=record, checkpoint=sys.argv[2], checkpoint_every=0.3)
+execution = Execution(checkpoint=sys.argv[2], checkpoint_every=0.3)
+result = simulate(Parameters(N=385, Omega=15.1), 3600, record=record, execution=execution)
 pickle.dump(result, open(sys.argv[1], "wb"))
 """
 
@@ -343,12 +351,12 @@ def test_an_hour_killed_several_times(tmp_path: Path) -> None:
 
 TWO_HOURS = """
 import json, resource
-from disc_model import Parameters, Record
-from disc_model.simulation.api import simulate
+from disc_model import Execution, Parameters, Record, simulate
 seen = []
 def progress(time):
     seen.append((time, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
-result = simulate(Parameters(N=385, Omega=15.1), 7200, record=Record(events=False), progress=progress)
+execution = Execution(progress=progress)
+result = simulate(Parameters(N=385, Omega=15.1), 7200, record=Record(events=False), execution=execution)
 print(json.dumps({"seen": seen, "status": result.status.value, **result.statistics}))
 """
 

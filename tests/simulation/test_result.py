@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Record, State, Window, load, simulate
+from disc_model import Execution, ParameterError, Parameters, Record, State, Window, load, simulate
 from disc_model.data.dataset import WriteError
 from disc_model.simulation.result import engine_case
 from tests.simulation.equal import same
@@ -26,7 +26,7 @@ def test_two_runs_of_a_case_at_a_time_do_not_meet() -> None:
     """A run's progress may start another run of the same case."""
     alone = simulate(LONG, 0.5)
     inner = []
-    outer = simulate(LONG, 0.5, progress=lambda _: inner.append(simulate(LONG, 0.5)))
+    outer = simulate(LONG, 0.5, execution=Execution(progress=lambda _: inner.append(simulate(LONG, 0.5))))
     assert inner
     for result in (outer, *inner):
         same(result, alone)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import Record, Window, deflection, floquet
+from disc_model import Execution, Record, Window, deflection, floquet
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.data.variables import PHASES, flag_names
@@ -149,7 +149,8 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
 def test_a_release_continued_under_other_parameters_is_one_of_these() -> None:
     """Without a jump of friction f rises with the square of the time; under less friction with the time itself."""
     p = APART.replace(mu_k=0.4)
-    state = next(state for n in range(1, 100) if (state := simulate(p, 0.1, max_steps=n).final_state).known)
+    states = (simulate(p, 0.1, execution=Execution(max_steps=n)).final_state for n in range(1, 100))
+    state = next(state for state in states if state.known)
     assert (state.phase, state.f, state.known) == ("slip", 0.0, 2)
     release = state.time
     held = simulate(p.replace(N=500), release + 1e-6, initial_state=state)

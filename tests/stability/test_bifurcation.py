@@ -21,9 +21,9 @@ def test_samples_are_those_of_the_simulator():
     np.testing.assert_allclose(data["psi"].sel(N=200.0), run.poincare["psi"][:2], rtol=0, atol=1e-7)
     assert [STATUS_NAMES[i] for i in data["status"].values] == ["ok", "ok"]
     assert data["N"].attrs["units"] == "N"
-    followed = bifurcation_samples(BASE, "N", [150.0, 200.0], transient=0.1, samples=2, tol=1e-9, follow=True)
-    assert np.array_equal(data["psi"][0], followed["psi"][0])
-    assert not np.allclose(data["psi"][1], followed["psi"][1])
+    later = bifurcation_samples(BASE, "N", [150.0, 200.0], transient=0.1, samples=2, tol=1e-9, initial_state="previous")
+    assert np.array_equal(data["psi"][0], later["psi"][0])
+    assert not np.allclose(data["psi"][1], later["psi"][1])
 
 
 def test_samples_that_are_not_reached_are_missing():

@@ -76,7 +76,7 @@ def table(text: str) -> dm.Disc:
         return dm.read_disc(path)
 
 
-KINDS = {"p": dm.Parameters, "record": dm.Record, "ramps": dm.Ramp}
+KINDS = {"p": dm.Parameters, "record": dm.Record, "execution": dm.Execution, "ramps": dm.Ramp}
 
 
 def given_to(function: Callable[..., Any]) -> Callable[..., Any]:

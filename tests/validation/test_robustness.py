@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import linalg
 
-from disc_model import Parameters, Record, Result, State, Status, Window, plate_modes, simulate
+from disc_model import Execution, Parameters, Record, Result, State, Status, Window, plate_modes, simulate
 from tests.tally import tried
 
 # phase left -> (kind, phase entered): the table of switches
@@ -56,8 +56,8 @@ def run(p: Parameters, radians: float, tol: float) -> Result:
     """A run of so many radians of the highest mode, a second at most, sampled throughout."""
     tried("hostile inputs", "simulations of anything in and beyond the parameter box")
     t_end = min(1.0, radians / float(plate_modes(p).omega.max()))
-    window = Window(start=0, stop=t_end, rate=400 / t_end)
-    return simulate(p, t_end, tol=tol, max_steps=20_000, record=Record(windows=(window,), audit_every_step=True))
+    record = Record(windows=(Window(start=0, stop=t_end, rate=400 / t_end),), audit_every_step=True)
+    return simulate(p, t_end, tol=tol, record=record, execution=Execution(max_steps=20_000))
 
 
 def check_laws(result: Result, phase: str = "stick") -> None:

@@ -66,13 +66,13 @@ def run(
     how = {
         "tol": option("tol", tol, Tolerance, faults),
         "stop_at": option("stop_at", stop_at, Literal[*STOPS], faults, default=None),
-        "max_steps": option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None),
     }
+    most = option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None)
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)
     faults += _file_faults(plot, save, checkpoint)
     raise_faults(faults)  # all faults at once, before kernels load
-    from disc_model.simulation.api import simulate
+    from disc_model.simulation.api import Execution, simulate
     from disc_model.simulation.case import Record
 
     record = Record(windows=tuple(windows.values())) if windows else None
@@ -81,8 +81,9 @@ def run(
     if checkpoint is not None:  # reports where a run continues, or why it does not
         logging.basicConfig(format="%(message)s")
         logging.getLogger("disc_model").setLevel(logging.INFO)
+    execution = Execution(max_steps=most, checkpoint=checkpoint)
     try:
-        result = simulate(p, end, record=record, checkpoint=checkpoint, ramps=ramps, **how)
+        result = simulate(p, end, record=record, ramps=ramps, execution=execution, **how)
     except KeyboardInterrupt:
         if checkpoint is not None and checkpoint.exists():
             typer.echo(f"{checkpoint} holds what was reached: the same command continues from there", err=True)

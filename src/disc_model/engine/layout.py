@@ -208,7 +208,7 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     for a rigid disc.  slider: N to r_0 of the model.  compliance: of the contact, m/N, 0 if rigid; normal: whether the
     contact force is normal to the bent disc.
     """
-    N, k, c, m = (slider[name] for name in ("N", "k", "c", "m"))
+    N, k, m = (slider[name] for name in ("N", "k", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
     width, lane = WIDTH * max(1, -(-len(pairs) // HALF)), pair_lanes(len(pairs))
@@ -232,9 +232,8 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
         shape = np.where(np.arange(len(each)) < len(pairs) + n0, psi[each], 0.0)
         place = np.concatenate([lane, 2 * width + np.arange(n0), lane + HALF])
         modes = build_stick_modes(
-            omega[each], damping[each], shape, np.stack([place, place + np.where(diameters[each] > 0, width, n0)]),
-            slider=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0),
-            N=N, k=k, c=c, m=m, unit=unit, compliance=compliance,
+            (omega[each], damping[each], shape), np.stack([place, place + np.where(diameters[each] > 0, width, n0)]),
+            slider, u=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0), unit=unit, compliance=compliance,
         )  # fmt: skip
     views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(

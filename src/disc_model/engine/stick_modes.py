@@ -103,28 +103,30 @@ def _decomposed(stiffness, damping, scale, unit):
     return decay + 1j * rates.imag, vectors / back[:, None], np.linalg.inv(both)[:n] * back
 
 
-def build_stick_modes(omega, damping, shape, places, *, slider, length, N, k, c, m, unit, compliance) -> StickModes:
+def build_stick_modes(components, places, slider, *, u, length, unit, compliance) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
-    omega, damping, shape : of the components a, the modes without nodal diameter and the components b, whose shape is 0
+    components : omega, damping, shape of the components a, modes without nodal diameter, components b, whose shape is 0
     places : shape (2, n), of their displacements and velocities in `EngineState.disc`
-    slider : index of u in `EngineState.disc`, followed by u', where contact is compliant
+    slider : with N, k, c and m
+    u : index of u in `EngineState.disc`, followed by u', where contact is compliant
     length : of `EngineState.disc`
     """
-    n = len(omega)
+    omega, n = components[0], len(components[0])
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
     if compliance:
-        places = np.hstack([places, [[slider], [slider + 1]]])
-    numbers = (tuple(a.tolist()) for a in (omega, damping, shape, places.ravel()))
-    modes = _under_unit_load(*numbers, length, float(k), float(c), float(m), float(unit), float(compliance))
-    return modes._replace(rest=N * modes.rest, offset=N * modes.offset)
+        places = np.hstack([places, [[u], [u + 1]]])
+    arrays = tuple(tuple(a.tolist()) for a in (*components, places.ravel()))
+    numbers = map(float, (slider["k"], slider["c"], slider["m"], unit, compliance))
+    modes = _under_unit_load(arrays, length, *numbers)
+    return modes._replace(rest=slider["N"] * modes.rest, offset=slider["N"] * modes.offset)
 
 
 @lru_cache(maxsize=256)
-def _under_unit_load(frequencies, dampings, shapes, places, length, k, c, m, unit, compliance) -> StickModes:
-    """`StickModes` for N = 1, shared by many cases; ``places`` are the indices of (d, d') in `EngineState.disc`."""
-    omega, damping, shape, where = (np.array(a) for a in (frequencies, dampings, shapes, places))
+def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
+    """`StickModes` for N = 1, shared by many cases; last of ``arrays``: indices of (d, d') in `EngineState.disc`."""
+    omega, damping, shape, where = map(np.array, arrays)
     system = (omega, damping, shape, k, c, m, unit)
     modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
     if modes is None:

@@ -78,6 +78,29 @@ _STATUS = {
 }
 
 
+@dataclass(frozen=True, kw_only=True)
+class Execution:
+    """How a run is carried out. Nothing of it changes results, except that a run ends early after `max_steps`.
+
+    Attributes
+    ----------
+    progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
+        compilation; False shows nothing
+    max_steps : largest number of steps; None sets a generous limit from the highest frequency
+    checkpoint : file from which the same call continues after an interruption. The result is the same to the last bit
+        (except ``wall_time``). The file is removed at the end; two simultaneous runs must not share it
+    checkpoint_every : s of wall time between checkpoints
+    """
+
+    progress: Progress = None
+    max_steps: int | None = None
+    checkpoint: str | os.PathLike[str] | None = None
+    checkpoint_every: float = 5.0
+
+
+_PLAIN = Execution()
+
+
 def simulate(
     p: Parameters,
     t_end: float | str,
@@ -86,11 +109,8 @@ def simulate(
     initial_state: State | None = None,
     record: Record | Window | None = None,
     stop_at: str | None = None,
-    max_steps: int | None = None,
-    progress: Progress = None,
-    checkpoint: str | os.PathLike[str] | None = None,
-    checkpoint_every: float = 5.0,
     ramps: Ramp | tuple[Ramp, ...] = (),
+    execution: Execution = _PLAIN,
 ) -> Result:
     """Simulate from the static equilibrium (or ``initial_state``) to the absolute time ``t_end``.
 
@@ -102,13 +122,8 @@ def simulate(
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
     record : quantities to keep, or a single window; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
-    max_steps : largest number of steps; None sets a generous limit from the highest frequency
-    progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
-        compilation; False shows nothing
-    checkpoint : file from which the same call continues after an interruption. The result is the same to the last bit
-        (except ``wall_time``). The file is removed at the end; two simultaneous runs must not share it
-    checkpoint_every : s of wall time between checkpoints
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
+    execution : progress, largest number of steps and checkpoints, see `Execution`
 
     Returns
     -------
@@ -122,25 +137,22 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    asked = _Request(
-        p, in_si(t_end, "s"), tol, initial_state, record, stop_at, max_steps,
-        progress, checkpoint, checkpoint_every, ramps,
-    )  # fmt: skip
+    asked = _Request(p, in_si(t_end, "s"), tol, initial_state, record, stop_at, ramps, execution)
     raise_faults(asked.faults())
     # numbers of other types would make the engine compile again, and would round differently
     start, end, asked.tol = asked.start, float(asked.t_end), float(tol)
     asked.t_end, asked.record = end, record.resolved(start, end)
-    asked.max_steps = None if max_steps is None else int(max_steps)
     run = _Run(asked)
     for window in asked.record.outside(start, end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
-    kept = None if checkpoint is None else Checkpoint(checkpoint, checkpoint_every, run.identity)
+    file = execution.checkpoint
+    kept = None if file is None else Checkpoint(file, execution.checkpoint_every, run.identity)
     if kept is not None and (contents := kept.load()) is not None:
         run.restore(contents)
         log.info("continues at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
-    if code == exit_codes.PAUSED or callable(progress):  # a short run has no progress to show
-        with simulating(progress, end) as tell:
+    if code == exit_codes.PAUSED or callable(execution.progress):  # a short run has no progress to show
+        with simulating(execution.progress, end) as tell:
             while code == exit_codes.PAUSED:
                 if kept is not None and kept.due:
                     kept.save(run.contents())
@@ -164,11 +176,8 @@ class _Request:
     initial_state: State | None = None
     record: Record = _EVENTS_ALONE
     stop_at: str | None = None
-    max_steps: int | None = None
-    progress: Progress = None
-    checkpoint: str | os.PathLike[str] | None = None
-    checkpoint_every: float = 5.0
     ramps: tuple[Ramp, ...] = ()
+    execution: Execution = _PLAIN
 
     @property
     def start(self) -> float:
@@ -177,7 +186,8 @@ class _Request:
 
     def faults(self) -> list[str]:
         """Every fault of the arguments."""
-        t_end, stop_at, progress = self.t_end, self.stop_at, self.progress
+        t_end, stop_at = self.t_end, self.stop_at
+        how = self.execution if isinstance(self.execution, Execution) else _PLAIN
         starts = self.initial_state is None or isinstance(self.initial_state, State)
         time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
         timed = is_finite(time)
@@ -193,14 +203,15 @@ class _Request:
             (later, "t_end", t_end, rule),
         )
         stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-        counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
-        shows = progress is None or isinstance(progress, bool) or callable(progress)
+        counts = how.max_steps is None or (is_whole(how.max_steps) and how.max_steps >= 1)
+        shows = how.progress is None or isinstance(how.progress, bool) or callable(how.progress)
         found += limits_faults("tol", self.tol, TOLERANCES) + violations(
             (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-            (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
-            (shows, "progress", progress, "must be a function of the time, or False"),
+            (how is self.execution, "execution", self.execution, "must be an Execution"),
+            (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
+            (shows, "progress", how.progress, "must be a function of the time, or False"),
         )
-        found += faults(self.checkpoint, self.checkpoint_every)
+        found += faults(how.checkpoint, how.checkpoint_every)
         if isinstance(self.p, Parameters) and not (isinstance(self.ramps, tuple) and not self.ramps):
             found += courses.faults(self.p, self.ramps, poincare=getattr(self.record, "poincare", None) is not None)
         return found
@@ -227,8 +238,8 @@ class _Run:
         longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
-        limit = _step_limit(model, asked.t_end - start) if asked.max_steps is None else asked.max_steps
-        self.max_steps = min(limit, MOST_STEPS)
+        most = asked.execution.max_steps
+        self.max_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
         every_step = asked.record.audit_every_step
         self.audit_every = 1 if every_step else AUDIT_EVERY
         # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
@@ -246,7 +257,7 @@ class _Run:
         if not piece.constant:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        self.engine = _engine_for(self.model, self._arguments, report=self.asked.progress is not False)
+        self.engine = _engine_for(self.model, self._arguments, report=self.asked.execution.progress is not False)
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
@@ -490,7 +501,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
 
     Parameters
     ----------
-    checkpoint : file from which an interrupted case continues, see `simulate`
+    checkpoint : file from which an interrupted case continues, see `Execution`
     choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
         for a case that asks for such a choice
     """
@@ -506,7 +517,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
         start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
             p, spec.t_end, tol=spec.tol, initial_state=start, record=spec.record, stop_at=spec.stop_at,
-            checkpoint=checkpoint, ramps=spec.ramps,
+            ramps=spec.ramps, execution=Execution(checkpoint=checkpoint),
         )  # fmt: skip
     except DiscModelError as error:
         log.error("no result: %s", error)

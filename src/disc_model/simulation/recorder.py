@@ -42,7 +42,7 @@ Contents = dict[str, Array]
 
 
 def faults(path: object, every: object) -> Iterator[str]:
-    """Faults of the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.simulate`."""
+    """Faults of the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.Execution`."""
     if path is not None:
         from disc_model.data.dataset import LONGEST_NAME, may_be_file
 

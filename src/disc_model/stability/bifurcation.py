@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -33,8 +33,7 @@ def bifurcation_samples(
     *,
     transient: float,
     samples: int,
-    follow: bool = False,
-    initial_state: State | None = None,
+    initial_state: State | Literal["previous"] | None = None,
     theta: float = 1.0,
     tol: float = 1e-10,
 ) -> xr.Dataset:
@@ -47,9 +46,8 @@ def bifurcation_samples(
     values : values of the parameter in SI units, in the order of simulation
     transient : s, duration before the samples, at every value
     samples : number of turns sampled after the transient
-    follow : whether each value starts from the end of the previous one instead of from `initial_state`. Values that
-        rise and then fall show hysteresis
-    initial_state : state at the start; None is the static start
+    initial_state : state at the start of each value; None is the static start. With "previous" the first value has the
+        static start, and each further one the end of the one before: values that rise and then fall show hysteresis
     theta : rad, angle at which `w_point` is taken
     tol : as in `simulate`
 
@@ -67,7 +65,7 @@ def bifurcation_samples(
     import xarray as xr
 
     values = list(values) if np.iterable(values) and not isinstance(values, str | bytes | Mapping) else values
-    _check(p, name, values, transient, samples, follow, initial_state)
+    _check(p, name, values, transient, samples, initial_state)
     values = list(map(float, values))
     cases = [p.replace(**{name: value}) for value in values]
     shape = (len(values), samples)
@@ -75,7 +73,7 @@ def bifurcation_samples(
     phase = np.full(shape, -1, np.int8)
     first, stick = np.full(len(values), math.nan), np.full(len(values), math.nan)
     separations, status = np.zeros(len(values), np.int64), np.zeros(len(values), np.int8)
-    given = initial_state
+    given, follow = (None, True) if isinstance(initial_state, str) else (initial_state, False)
     for i, case in enumerate(cases):
         start = None if given is None else transfer_state(case, given)
         turn = 2 * math.pi / case.Omega
@@ -111,9 +109,7 @@ def bifurcation_samples(
     )
 
 
-def _check(
-    p: object, name: str, values: Any, transient: float, samples: int, follow: object, initial_state: object
-) -> None:
+def _check(p: object, name: str, values: Any, transient: float, samples: int, initial_state: object) -> None:
     wrong = foreign_case(p)
     known = isinstance(name, str) and name in Parameters.model_fields
     real = known and (wrong or isinstance(getattr(p, name), float))
@@ -121,14 +117,13 @@ def _check(
     speeds = [getattr(p, "Omega", 1.0)] if not known or name != "Omega" else values if numbers else [1.0]
     counts = is_whole(samples) and 1 <= samples <= MOST_SAMPLES
     lasts = is_number(transient) and 0 <= transient < math.inf
-    starts = initial_state is None or isinstance(initial_state, State)
+    starts = isinstance(initial_state, State | None) or (isinstance(initial_state, str) and initial_state == "previous")
     wrong += violations(
         (real, "name", name, "must be a parameter that is a real number"),
         (numbers, "values", values, "must be finite numbers, one or more"),
         (lasts, "transient", transient, "must be finite and >= 0"),
         (counts, "samples", samples, f"must be a whole number from 1 to {MOST_SAMPLES}"),
-        (isinstance(follow, bool | np.bool_), "follow", follow, "must be True or False"),
-        (starts, "initial_state", initial_state, "must be a State"),
+        (starts, "initial_state", initial_state, "must be a State or 'previous'"),
         (min(speeds) > 0, "Omega", min(speeds), "must be > 0, because samples are taken once a turn"),
     )
     raise_faults(wrong)

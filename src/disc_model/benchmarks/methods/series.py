@@ -9,7 +9,7 @@ import numpy as np
 from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Physics
 from disc_model.errors import Status
-from disc_model.simulation.api import simulate
+from disc_model.simulation.api import Execution, simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result
 
@@ -26,9 +26,9 @@ class Series(Method):
         steps = int(max(1, min(budget, 1e6) * STEPS_PER_SECOND))
         began = clock.thread_time()
         result = simulate(
-            problem.parameters, problem.t_end, tol=value, initial_state=problem.start, max_steps=steps,
+            problem.parameters, problem.t_end, tol=value, initial_state=problem.start,
             stop_at="first_separation" if problem.stop else None,
-            record=_watching(problem) if problem.watched else None,
+            record=_watching(problem) if problem.watched else None, execution=Execution(max_steps=steps),
         )  # fmt: skip
         outcome = {
             Status.OK: RunStatus.FINISHED,
