@@ -85,8 +85,9 @@ def compare_series(law, phase, direction, n_diameters, rates=None):
         len(model.mode_amplitude),
         len(model.mode_amplitude0),
     )
-    rows = [x[: (order + 1) * n].reshape(-1, n) for x, n in ((s.z, width), (s.e, width), (s.y, n0), (s.g, n0)) if n]
-    own = np.concatenate(rows, axis=1)[:, case.places]
+    pairs = [x.reshape(-1, width)[: order + 1] for x in (s.z, s.e)]
+    single = [x.reshape(n0, layout.ROWS).T[: order + 1] for x in (s.y, s.g)]
+    own = np.concatenate(pairs + single, axis=1)[:, case.places]
     for i, name in enumerate(("a", "b", "alpha", "beta")):
         here = case.present // len(sign) == i
         wanted = np.array(sign * getattr(step, name)[: order + 1], float)[:, case.present[here] % len(sign)]

@@ -44,7 +44,7 @@ compile_pipelines = HelperCompiler.define_pipelines
 HelperCompiler.define_pipelines = lambda self: compiled.append(self.state.func_id) or compile_pipelines(self)
 @kernel
 def eighth(powers):
-    set_powers(powers, 2.0)
+    set_powers(powers, 2.0, 15)
     return powers[3]
 print(eighth(np.zeros(16)), len(compiled))
 """

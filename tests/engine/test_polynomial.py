@@ -6,7 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from disc_model.engine import layout
-from disc_model.engine.polynomial import NO_ROOT, first_root, set_powers
+from disc_model.engine.polynomial import NO_ROOT, dot, first_root, set_powers
 
 DEGREE = 24
 
@@ -14,7 +14,7 @@ DEGREE = 24
 def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
     c, powers = layout.aligned(layout.ROWS), layout.aligned(layout.ROWS)
     c[: len(coefficients)] = coefficients
-    set_powers(powers, x_end)
+    set_powers(powers, x_end, DEGREE)
     return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, layout.ROWS)))
 
 
@@ -41,6 +41,15 @@ def test_first_of_well_separated_roots_is_found(roots: list[float], x_end: float
         assert got == pytest.approx(inside[0], abs=1e-6)
     else:
         assert got == NO_ROOT
+
+
+def test_powers_beyond_the_order_are_zero_and_leave_what_stands_behind_a_series_out() -> None:
+    powers, c = np.full(24, np.nan), np.arange(1.0, 25.0)
+    set_powers(powers, 1.3, 18)
+    # a power of 18 is the product of up to six rounded ones
+    np.testing.assert_allclose(powers[:19], 1.3 ** np.arange(19), rtol=2e-15)
+    assert (powers[19:] == 0).all()
+    assert dot(c, 0, powers, 18) == pytest.approx(np.polyval(c[18::-1], 1.3), rel=1e-14)
 
 
 @pytest.mark.parametrize("apart", [1e-2, 1e-4, 1e-6])

@@ -88,7 +88,7 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     for i in range(len(_NODES) * panels):
         x = (i // len(_NODES) + _NODES[i % len(_NODES)]) * x_end / panels
         move_to(model, s, order, x, phase, probe)
-        P = force_at(model, s, order, x, phase, probe)
+        P = force_at(model, s, order, phase, probe)
         weight = _WEIGHTS[i % len(_NODES)] * x_end / panels * model.unit
         t, p, st, sp = _powers_in(model, probe, phase, direction, P)
         work_t += weight * t

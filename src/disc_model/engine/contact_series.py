@@ -16,6 +16,7 @@ from .layout import (
     LOAD_SERIES,
     P_SERIES,
     PSI_SERIES,
+    ROWS,
     SLOPE_SERIES,
     SWITCH,
     SWITCH2,
@@ -54,9 +55,9 @@ from .simd import WIDTH, fma, item, mul, total
 @inlined
 def _deflection(model, s, k):
     """w of order k."""
-    n, w = len(model.mode_amplitude0), _modal_sum(model, s, AMPLITUDE_ROW, k)
-    for j in range(n):
-        w += model.mode_amplitude0[j] * s.y[k * n + j]
+    w = _modal_sum(model, s, AMPLITUDE_ROW, k)
+    for j in range(len(model.mode_amplitude0)):
+        w += model.mode_amplitude0[j] * s.y[j * ROWS + k]
     return w
 
 
@@ -71,21 +72,21 @@ def _disc_velocity(model, s):
     """Order 0 of the disc's velocity under the slider, without f_0 B."""
     v = _modal_sum(model, s, AMPLITUDE_ROW, E)
     for j in range(len(model.mode_amplitude0)):
-        v += model.mode_amplitude0[j] * s.g[j]
+        v += model.mode_amplitude0[j] * s.g[j * ROWS]
     return v
 
 
 @inlined
 def _closing(model, s, k, e, carried):
     """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and f_k."""
-    width, n = lane_count(model), len(model.mode_amplitude0)
+    width = lane_count(model)
     lanes = fma(_row(model, AMPLITUDE_ROW, 0), e, mul(_row(model, DW_DTHETA, 0), carried))
     for b in range(WIDTH, width, WIDTH):
         lanes = fma(_row(model, AMPLITUDE_ROW, b), _e(s, width, k * width + b), lanes)
         lanes = fma(_row(model, DW_DTHETA, b), _kept(s, _CARRIED, width, b), lanes)
     v = total(lanes)
-    for j in range(n):
-        v += item(model.mode_amplitude0, j) * item(s.g, k * n + j)
+    for j in range(len(model.mode_amplitude0)):
+        v += item(model.mode_amplitude0, j) * item(s.g, j * ROWS + k)
     return v
 
 

@@ -2,8 +2,8 @@
 
 from . import layout
 from .compile import inlined
-from .layout import DRIVE_SERIES, LOAD_SERIES, E, is_compliant, is_normal, is_ramped, ramp_of
-from .polynomial import value, value_by_halves
+from .layout import DRIVE_SERIES, LOAD_SERIES, ROWS, E, is_compliant, is_normal, is_ramped, ramp_of
+from .polynomial import dot, set_powers
 from .series import lane_count
 from .simd import WIDTH, fma, load, splat, store
 from .stick_propagator import propagate_stick
@@ -14,9 +14,9 @@ CLOSED_FORM = 0
 
 
 @inlined
-def _modes_at(model, s, order, x, state):
-    """Modal displacements and velocities at x; even and odd powers do not wait for each other."""
-    width, n, at, square = lane_count(model), len(model.mode_amplitude0), splat(x), splat(x * x)
+def _pairs_at(model, s, order, x, state):
+    """Displacements and velocities of the pairs at x; even and odd powers do not wait for each other."""
+    width, at, square = lane_count(model), splat(x), splat(x * x)
     for b in range(0, width, WIDTH):
         i = order * width + b
         z, e = load(s.modes, i), load(s.modes, E * width + i)
@@ -28,8 +28,6 @@ def _modes_at(model, s, order, x, state):
             e_odd = fma(e_odd, square, load(s.modes, E * width + i - width))
         store(state.z, b, fma(z_odd, at, fma(z, square, load(s.modes, b))))
         store(state.e, b, fma(e_odd, at, fma(e, square, load(s.modes, E * width + b))))
-    for j in range(n):
-        state.y[j], state.g[j] = value_by_halves(s.y, j, n, order, x), value_by_halves(s.g, j, n, order, x)
 
 
 @inlined
@@ -38,11 +36,14 @@ def state_at(model, s, order, x, phase, state):
 
     The order is even.
     """
-    _modes_at(model, s, order, x, state)
-    psi, f = value_by_halves(s.psi, 0, 1, order, x), value_by_halves(s.f, 0, 1, order, x)
+    set_powers(s.powers, x, order)
+    psi, f = dot(s.psi, 0, s.powers, order), dot(s.f, 0, s.powers, order)
+    _pairs_at(model, s, order, x, state)
+    for j in range(len(model.mode_amplitude0)):
+        state.y[j], state.g[j] = dot(s.y, j * ROWS, s.powers, order), dot(s.g, j * ROWS, s.powers, order)
     if is_compliant(model) or phase == layout.SEPARATION:
-        state.x[layout.U] = value_by_halves(s.u, 0, 1, order, x)
-        state.x[layout.U_VELOCITY] = value_by_halves(s.v, 0, 1, order, x)
+        state.x[layout.U] = dot(s.u, 0, s.powers, order)
+        state.x[layout.U_VELOCITY] = dot(s.v, 0, s.powers, order)
     state.x[layout.PHASE] = phase
     state.x[layout.PSI] = psi
     state.x[layout.SPEED] = 0.0 if phase == layout.STICK else f
@@ -61,13 +62,13 @@ def move_to(model, s, order, x, phase, state):
 
 
 @inlined
-def force_at(model, s, order, x, phase, state):
-    """Contact force at x, where ``move_to`` has put ``state``."""
+def force_at(model, s, order, phase, state):
+    """Contact force where ``move_to`` has put ``state``, which leaves the powers of that place in ``s.powers``."""
     if order == CLOSED_FORM:
         return stick_force(model, state)
     if phase == layout.SEPARATION:
         return 0.0
-    P = value(s.P, 0, order - 1, x)
+    P = dot(s.P, 0, s.powers, order)
     return force_in_stick(model, state, P) if is_normal(model) and phase == layout.STICK else P
 
 
@@ -78,7 +79,7 @@ def load_state(model, s, state):
         store(s.z, b, load(state.z, b))
         store(s.e, b, load(state.e, b))
     for j in range(len(state.y)):
-        s.y[j], s.g[j] = state.y[j], state.g[j]
+        s.y[j * ROWS], s.g[j * ROWS] = state.y[j], state.g[j]
     s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.SPEED]
     s.u[0], s.v[0] = state.x[layout.U], state.x[layout.U_VELOCITY]
     if is_ramped(model):

@@ -29,6 +29,11 @@ EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity"
 
 MAX_EVENTS_PER_STEP = 3
 
+# State.x[PROPAGATED] after the closed form of stick, which usually ends shortly before the release: the next step is
+# short, and a series of low order is enough for it.
+JUST_PROPAGATED = 2.0
+ORDER_BEFORE_RELEASE = 10
+
 
 class Limits(NamedTuple):
     """Limits and settings of a run."""
@@ -111,7 +116,8 @@ def _move(model, s, state, probe, order, x_end, audit_every, buffers):
             model, s, order, state, x_end, buffers.samplers, buffers.sampled, probe, kept, filled
         )
     move_to(model, s, order, x_end, phase, state)
-    x[layout.KNOWN], x[layout.FORCE], x[layout.PROPAGATED] = 0.0, 0.0, 1.0 if x_end < LONGEST_STICK else 0.0
+    x[layout.KNOWN], x[layout.FORCE] = 0.0, 0.0
+    x[layout.PROPAGATED] = 0.0 if x_end >= LONGEST_STICK else JUST_PROPAGATED if order == CLOSED_FORM else 1.0
     advance_time(x, x_end * model.unit)
     set_course(model, state)
     buffers.phase_times[int(phase)] += x_end * model.unit
@@ -128,7 +134,7 @@ def _full(buffers):
 @kernel
 def run(model, s, state, probe, limits, buffers):
     """Advance ``state`` until a reason to return: see ``exit_codes``.  ``probe`` is a work state."""
-    x, counters, order = state.x, buffers.counters, limits.order
+    x, counters = state.x, buffers.counters
     pause = counters[STEPS] + limits.pause_after
     set_course(model, state)
     while True:
@@ -144,6 +150,9 @@ def run(model, s, state, probe, limits, buffers):
                 if x_end >= left:
                     return TIME_OVER
                 continue
+        order = limits.order
+        if x[layout.PROPAGATED] == JUST_PROPAGATED and not layout.is_compliant(model):
+            order = ORDER_BEFORE_RELEASE
         if expand(model, s, state, order) <= transitions.PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])

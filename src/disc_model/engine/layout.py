@@ -4,8 +4,9 @@ Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their
 velocities ``e``.  Axisymmetric modes (l = 0) have separate arrays ``y`` and ``g``, because rotation does not mix them;
 being few, they are stored one by one.  Unused lanes are zero and stay zero.
 
-Series are stored as [order][lane] in units of the time ``unit``: coefficient k multiplies (time / unit)**k. No
-coefficient therefore overflows, however stiff the disc is.
+Series are stored as [order][lane], those of axisymmetric modes and of the slider as [quantity][order]. They are in
+units of the time ``unit``: coefficient k multiplies (time / unit)**k. No coefficient therefore overflows, however stiff
+the disc is.
 """
 
 from typing import NamedTuple
@@ -20,7 +21,9 @@ from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 STICK, SLIP, SEPARATION = 0, 1, 2
 
 # Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
+# From SLOPE_RATE on, a row for each order k: dw_dtheta (k + 1) / unit in a-lanes, dw_dtheta in b-lanes.
 SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
+SLOPE_RATE = 8
 
 # Number of coefficients of a series; rows of Series.modes where e and scratch begin (z begins at 0); offsets of the
 # slider's series in Series.slider, and its end.
@@ -40,7 +43,7 @@ _FROM_1 = np.arange(1.0, ROWS + 1.0)
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
-    ``lanes`` holds the lane arrays one after the other, and two derived ones. Hot kernels address all through that one
+    ``lanes`` holds the lane arrays one after the other, and derived ones. Hot kernels address all through that one
     pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and (number of
     further blocks,) otherwise. The length of a tuple is known to the compiler, so that the usual case has no loop over
     blocks. Likewise ``compliance`` is () in rigid contact, else (m/N,), ``normal`` is () if the contact force is
@@ -181,9 +184,9 @@ class EngineState(NamedTuple):
     x: np.ndarray
 
 
-# Indices into State.x.  KNOWN: multiplicity of the event function's known root at present; COASTED: 1 if stick has
-# already used its closed form as far as possible. The time is TIME + TIME_LOW, summed with compensation so that event
-# times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
+# Indices into State.x.  KNOWN: multiplicity of the event function's known root at present; PROPAGATED: not 0 if stick
+# has used its closed form as far as possible, see ``event_loop``. The time is TIME + TIME_LOW, summed with compensation
+# so that event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
 TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, PROPAGATED, DRIVE, LOAD, SCALARS = range(14)
 
 
@@ -212,7 +215,7 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
     width, lane = WIDTH * max(1, -(-len(pairs) // HALF)), pair_lanes(len(pairs))
-    lanes = aligned((MINUS_AMPLITUDE_STIFFNESS + 1) * width)
+    lanes = aligned((SLOPE_RATE + ROWS) * width)
     rows = lanes.reshape(-1, width)
     rows[SHIFT, lane], rows[SHIFT, lane + HALF] = diameters[pairs], -diameters[pairs]
     rows[STIFFNESS, lane] = rows[STIFFNESS, lane + HALF] = omega[pairs] ** 2
@@ -226,6 +229,8 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     stiffest = max(k, slider["k_p"])
     unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, stiffest / m)
     free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
+    rows[SLOPE_RATE:, lane + HALF] = rows[DW_DTHETA, lane + HALF]
+    rows[SLOPE_RATE:, lane] = np.outer(_FROM_1 / unit, rows[DW_DTHETA, lane + HALF])
     modes = no_modes()
     if not normal:
         each, n0 = np.concatenate([pairs, single, pairs]), len(single)

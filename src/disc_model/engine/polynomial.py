@@ -10,7 +10,7 @@ import numpy as np
 
 from .compile import helper, inlined
 from .layout import ROWS
-from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, put, splat, spread, store, total
+from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers_of, put, splat, spread, store, total
 
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.
@@ -35,39 +35,26 @@ _ONE_OVER_CHOOSE = np.divide(1.0, _binomials().T, out=np.zeros((ROWS, ROWS)), wh
 _MOST_HALVINGS = 20
 _HALVES = 0.5 ** np.arange(ROWS)
 _COUNT = np.arange(float(ROWS))
+_ONES = np.repeat([1.0, 0.0], ROWS)
 
 
 @inlined
-def value(c, low, n, x):
-    """sum_{j=low..n} c[j] x^(j-low)."""
-    p = item(c, n)
-    for j in range(n - 1, low - 1, -1):
-        p = p * x + item(c, j)
-    return p
-
-
-@inlined
-def value_by_halves(c, first, stride, n, x):
-    """sum_{j=0..n} c[first + j stride] x^j for an even n; even and odd powers are summed independently."""
-    i = first + n * stride
-    even, odd, square = item(c, i), item(c, i - stride), x * x
-    for _ in range(n // 2 - 1):
-        i -= 2 * stride
-        even, odd = even * square + item(c, i), odd * square + item(c, i - stride)
-    return odd * x + (even * square + item(c, first))
-
-
-@inlined
-def set_powers(powers, x):
-    """powers[j] = x^j."""
-    power = 1.0
-    for j in range(WIDTH):
-        powers[j] = power
-        power *= x
-    stride, block = splat(power), load(powers, 0)
-    for j in range(WIDTH, len(powers), WIDTH):
+def set_powers(powers, x, n):
+    """powers[j] = x^j for j <= n, and 0 up to the end of its block of lanes."""
+    block, fourth = powers_of(x), x * x * (x * x)
+    stride = splat(fourth * fourth)
+    for j in range(0, n + 1, WIDTH):
+        store(powers, j, mul(block, load(_ONES, ROWS - 1 - n + j)))
         block = mul(block, stride)
-        store(powers, j, block)
+
+
+@inlined
+def dot(c, first, powers, n):
+    """sum_{j=0..n} c[first + j] x^j, from the powers up to x^n."""
+    sums = splat(0.0)
+    for j in range(0, n + 1, WIDTH):
+        sums = fma(load(c, first + j), load(powers, j), sums)
+    return total(sums)
 
 
 @inlined

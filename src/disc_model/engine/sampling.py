@@ -41,7 +41,7 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
     w, velocity, _ = disc_point(model, probe)
     angle = theta - (layout.drive_angle(model, time) - probe.x[layout.PSI])
     row[1] = time
-    row[2] = force_at(model, s, order, x, phase, probe)
+    row[2] = force_at(model, s, order, phase, probe)
     apart = layout.is_compliant(model) or phase == layout.SEPARATION
     row[3] = probe.x[layout.U] if apart else w
     row[4] = probe.x[layout.U_VELOCITY] if apart else velocity

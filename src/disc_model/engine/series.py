@@ -31,8 +31,10 @@ from .layout import (
     MINUS_AMPLITUDE_STIFFNESS,
     P_SERIES,
     PSI_SERIES,
+    ROWS,
     SCRATCH,
     SHIFT,
+    SLOPE_RATE,
     STIFFNESS,
     SWITCH,
     SWITCH2,
@@ -43,9 +45,27 @@ from .layout import (
     F,
     is_ramped,
 )
-from .simd import ONE_REGISTER, WIDTH, add, fma, item, load, mul, put, splat, spread, store, sub, swap_halves, total
+from .simd import (
+    ONE_REGISTER,
+    WIDTH,
+    add,
+    fma,
+    high_halves,
+    item,
+    load,
+    low_halves,
+    mul,
+    put,
+    splat,
+    spread,
+    store,
+    sub,
+    swap_halves,
+    total,
+)
 
-# Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, and the constants C and f_0 bend.
+# Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, the constant C, and in a-lanes that of
+# the displacements, in b-lanes f_0 bend.
 _E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
 
 
@@ -121,8 +141,8 @@ def _disc_point(model, s):
     B = _modal_sum(model, s, DW_DTHETA, 0)
     u, v = _modal_sum(model, s, AMPLITUDE_ROW, 0), _modal_sum(model, s, AMPLITUDE_ROW, E) + s.slider[F] * B
     for j in range(len(model.mode_amplitude0)):
-        u += model.mode_amplitude0[j] * s.y[j]
-        v += model.mode_amplitude0[j] * s.g[j]
+        u += model.mode_amplitude0[j] * s.y[j * ROWS]
+        v += model.mode_amplitude0[j] * s.g[j * ROWS]
     return u, v, B
 
 
@@ -198,7 +218,7 @@ def _inner_terms(s, width, b, k, e_last, z_last):
 @inlined
 def _pending(model, s, width, b, e, z, carried):
     """A block's part of u'' of an order, as far as the order before determines it (lanes)."""
-    known = fma(_kept(s, _BENT, width, b), carried, mul(_row(model, MINUS_AMPLITUDE_STIFFNESS, b), z))
+    known = mul(_kept(s, _BENT, width, b), low_halves(z, carried))
     return fma(_kept(s, _CORIOLIS, width, b), e, known)
 
 
@@ -211,7 +231,7 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     Terms with P come last in every sum: that chain sets the pace.
     """
     e_inner, z_inner = _inner_terms(s, width, b, k, e_last, z_last)
-    part = mul(_row(model, DW_DTHETA, b), fma(splat(s.slider[DOWN + k]), z_inner, e_inner))
+    part = mul(_row(model, SLOPE_RATE + k, b), high_halves(z_inner, e_inner))
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
     e = fma(splat(-impulse), _row(model, AMPLITUDE_ROW, b), e)
@@ -251,20 +271,21 @@ def _order_zero(model, s, width, b, f0):
     _keep(s, _CARRIED, width, b, carried)
     minus_force_damping = _row(model, MINUS_AMPLITUDE_DAMPING, b)
     _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, DW_DTHETA, b), minus_force_damping))
-    _keep(s, _BENT, width, b, mul(first, _row(model, BEND, b)))
+    bend = swap_halves(_row(model, BEND, b))
+    _keep(s, _BENT, width, b, fma(first, bend, _row(model, MINUS_AMPLITUDE_STIFFNESS, b)))
     return _pending(model, s, width, b, e_next, z_next, carried)
 
 
 @inlined
-def _axisymmetric_mode(model, s, k, n, j, impulse):
-    """Mode j of n without nodal diameter, order k: it only feels P.  Returns its part of u'' without P_{k-1}."""
-    at, up, force, damping = k * n + j, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
+def _axisymmetric_mode(model, s, k, j, impulse):
+    """Mode j without nodal diameter, order k: it only feels P.  Returns its part of u'' without P_{k-1}."""
+    at, up, force, damping = j * ROWS + k, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
     g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
     part = -force * (damping * g + pull)
     g -= force * impulse
     put(s.g, at, g)
-    put(s.y, at + n, g * up)
-    put(s.g, at + n, -(damping * g + pull) * up)
+    put(s.y, at + 1, g * up)
+    put(s.g, at + 1, -(damping * g + pull) * up)
     return part
 
 
@@ -273,10 +294,10 @@ def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, order k.  Returns their part of u'' without P_{k-1}."""
     n = len(model.mode_amplitude0)
     if n == 1:  # the usual case; a loop costs as much again
-        return _axisymmetric_mode(model, s, k, 1, 0, impulse)
+        return _axisymmetric_mode(model, s, k, 0, impulse)
     part = 0.0
     for j in range(n):
-        part += _axisymmetric_mode(model, s, k, n, j, impulse)
+        part += _axisymmetric_mode(model, s, k, j, impulse)
     return part
 
 
@@ -350,7 +371,7 @@ def _last_force(model, s, order, impulse):
         at = order * width + b
         store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, AMPLITUDE_ROW, b))))
     for j in range(n):
-        s.g[order * n + j] -= model.mode_amplitude0[j] * impulse
+        s.g[j * ROWS + order] -= model.mode_amplitude0[j] * impulse
 
 
 @inlined
@@ -503,7 +524,7 @@ def separation_series(model, s, order):
             )
         gap = s.slider[U_SERIES + k] - _modal_sum(model, s, AMPLITUDE_ROW, k)
         for j in range(n):
-            gap -= model.mode_amplitude0[j] * s.y[k * n + j]
+            gap -= model.mode_amplitude0[j] * s.y[j * ROWS + k]
         s.slider[SWITCH + k], s.slider[P_SERIES + k] = gap, 0.0
         vertical = weight + model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
         _move_slider(model, s, k, pull / model.m, -vertical / model.m)

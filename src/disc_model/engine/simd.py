@@ -78,8 +78,21 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
     def fma(a, b, c):
         return a * b + c
 
+    def powers_of(x):
+        """1, x, ..., x^7, rounded as in the compiled version."""
+        square = x * x
+        fourth = square * square
+        low = np.array([1.0, x, square, x * square])
+        return np.concatenate((low, fourth * low))
+
     def swap_halves(v):
         return np.concatenate((v[4:], v[:4]))
+
+    def low_halves(a, b):
+        return np.concatenate((a[:4], b[:4]))
+
+    def high_halves(a, b):
+        return np.concatenate((a[4:], b[4:]))
 
     def total(v):
         """Sum in the order of the compiled version."""
@@ -143,9 +156,10 @@ else:
         signature = ir.FunctionType(args[0].type, [a.type for a in args])
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
 
-    def _shuffle(builder, v, indices):
+    def _shuffle(builder, v, indices, second=None):
+        """Entries of a vector, or of two: those of the second follow those of the first."""
         mask = ir.Constant(ir.VectorType(_I32, len(indices)), indices)
-        return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined), mask)
+        return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined) if second is None else second, mask)
 
     def _copies(builder, x):
         """All lanes equal to x."""
@@ -197,6 +211,17 @@ else:
         """a * b + c, lane by lane; rounded once where the processor can, since software takes 500 times as long."""
         return _call(builder, "llvm.fmuladd.v8f64", a, b, c)
 
+    @_instruction(LANES, types.float64)
+    def powers_of(builder, x):
+        """1, x, ..., x^7."""
+        square = builder.fmul(x, x)
+        fourth = builder.fmul(square, square)
+        powers = ones = ir.Constant(_VECTOR, [1.0] * WIDTH)
+        for bit, power in enumerate((x, square, fourth)):
+            chosen = [lane + WIDTH * (lane >> bit & 1) for lane in range(WIDTH)]
+            powers = builder.fmul(powers, _shuffle(builder, ones, chosen, _copies(builder, power)))
+        return powers
+
     def _lane_by_lane(write):
         """An instruction of LLVM applied to two values lane by lane."""
         # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
@@ -212,6 +237,16 @@ else:
     def swap_halves(builder, v):
         """Lanes 4..7, then 0..3."""
         return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
+
+    @_instruction(LANES, LANES, LANES)
+    def low_halves(builder, a, b):
+        """Lanes 0..3 of both."""
+        return _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b)
+
+    @_instruction(LANES, LANES, LANES)
+    def high_halves(builder, a, b):
+        """Lanes 4..7 of both."""
+        return _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b)
 
     @_instruction(types.float64, LANES)
     def total(builder, v):

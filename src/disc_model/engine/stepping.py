@@ -25,9 +25,16 @@ def _size(model, s, k):
     for j in range(k * width, (k + 1) * width, WIDTH):
         biggest = maximum(biggest, absolute(load(s.modes, layout.E * width + j)))
     size = largest(biggest)
-    for j in range(k * n, (k + 1) * n):
-        size = max(size, abs(s.g[j]))
+    for j in range(n):
+        size = max(size, abs(s.g[j * layout.ROWS + k]))
     return size
+
+
+@inlined
+def _usual_or_present(usual, model, s):
+    """As ``_scale`` for the modal velocities, whose growth is seldom needed."""
+    size = max(usual, _size(model, s, 0))
+    return size if size > 0.0 else _size(model, s, 1)
 
 
 @inlined
@@ -60,7 +67,7 @@ def _root(x, n):
 
     The bits of a number are its binary logarithm, interpolated linearly between powers of two.
     """
-    logarithm = (np.float64(x).view(np.int64) * 2.0**-52 - 1023.0) / n
+    logarithm = (np.float64(x).view(np.int64) * 2.0**-52 - 1023.0) * (1.0 / n)
     whole = math.floor(logarithm)
     part = logarithm - whole
     return np.int64((whole + 1023.0 + part * (0.6565 + 0.3435 * part)) * 2.0**52).view(np.float64)
@@ -81,7 +88,7 @@ def step_size(model, s, order, tolerance, phase):
     usual_speed, share = model.speed_scale, 1.0
     if is_ramped(model):
         usual_speed, share = drive(model, s), load_at(model, s) / model.N
-    scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    scale = _usual_or_present(share * model.velocity_scale, model, s)
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
     if is_compliant(model) or phase == layout.SEPARATION:
@@ -145,7 +152,7 @@ def _sooner(s, c, known, n, x_end, cause, later):
     x = first_root(c, known, n, x_end, s.powers, s.roots)
     if x == NO_ROOT:
         return x_end, later
-    set_powers(s.powers, x)
+    set_powers(s.powers, x, n)
     return x, cause
 
 
@@ -155,7 +162,7 @@ def first_event(model, s, state, order, x_end):
     phase, known, known_force = state.x[layout.PHASE], int(state.x[layout.KNOWN]), 0
     if is_compliant(model):
         known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
-    set_powers(s.powers, x_end)
+    set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
         return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
     if phase == layout.SLIP:

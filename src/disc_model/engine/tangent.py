@@ -16,7 +16,7 @@ import numpy as np
 
 from .compile import helper, inlined
 from .laws import N_ENTRIES, slip_denominator
-from .layout import HALF, SEPARATION, SLIP, STICK, Model, compliance_of, is_compliant, is_normal
+from .layout import HALF, ROWS, SEPARATION, SLIP, STICK, Model, compliance_of, is_compliant, is_normal
 from .packing import packed
 from .simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 
@@ -179,7 +179,7 @@ def _axisymmetric_rates(model, s, t, block, k, R):
         if block * WIDTH >= t.plain:
             d_stiffness = load(t.parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)
             d_damping = load(t.parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH)
-            rate = sub(rate, fma(d_stiffness, splat(s.y[k * n0 + j]), mul(d_damping, splat(s.g[k * n0 + j]))))
+            rate = sub(rate, fma(d_stiffness, splat(s.y[j * ROWS + k]), mul(d_damping, splat(s.g[j * ROWS + k]))))
         store(t.series, there + y * WIDTH, mul(dg, up))
         store(t.series, there + g * WIDTH, rate)
         free = fma(splat(model.mode_amplitude0[j]), rate, free)

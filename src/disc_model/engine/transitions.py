@@ -5,7 +5,7 @@ from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION
 from .laws import Instant
 from .layout import compliance_of, drive_now, is_compliant, is_normal, load_now
-from .simd import WIDTH, absolute, add, load, mul, splat, total
+from .simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 
 # Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
@@ -23,12 +23,13 @@ TOUCHING = 4
 @inlined
 def disc_point(model, state):
     """u, u' and the slope B = dw/dtheta of the disc under the slider."""
-    f = state.x[layout.SPEED]
-    u, v, dw_dtheta = 0.0, 0.0, 0.0
-    for j in range(len(model.shift)):
-        u += model.mode_amplitude[j] * state.z[j]
-        v += model.mode_amplitude[j] * state.e[j]
-        dw_dtheta += model.dw_dtheta[j] * state.z[j]
+    f, zero = state.x[layout.SPEED], splat(0.0)
+    by_u, by_v, by_slope = zero, zero, zero
+    for b in range(0, len(model.shift), WIDTH):
+        z, amplitude = load(state.z, b), load(model.mode_amplitude, b)
+        by_u, by_v = fma(amplitude, z, by_u), fma(amplitude, load(state.e, b), by_v)
+        by_slope = fma(load(model.dw_dtheta, b), z, by_slope)
+    u, v, dw_dtheta = total(by_u), total(by_v), total(by_slope)
     for j in range(len(model.mode_amplitude0)):
         u += model.mode_amplitude0[j] * state.y[j]
         v += model.mode_amplitude0[j] * state.g[j]
@@ -47,13 +48,15 @@ def slider_motion(model, state):
 @inlined
 def _free_acceleration(model, state):
     """A: u'' of the disc under the slider without P and f'; size of its terms."""
-    f, acceleration, size = state.x[layout.SPEED], 0.0, 0.0
-    for j in range(len(model.shift)):
-        a = -model.damping[j] * state.e[j] - (model.stiffness[j] + (model.shift[j] * f) ** 2) * state.z[j]
+    f, parts, sizes = splat(state.x[layout.SPEED]), splat(0.0), splat(0.0)
+    for b in range(0, len(model.shift), WIDTH):
+        z, e, turned = load(state.z, b), load(state.e, b), mul(f, load(model.shift, b))
+        pull = fma(load(model.damping, b), e, mul(fma(turned, turned, load(model.stiffness, b)), z))
         # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
-        part = model.mode_amplitude[j] * a + 2.0 * f * model.dw_dtheta[j] * state.e[j]
-        acceleration += part
-        size += abs(part)
+        driven = mul(mul(splat(2.0), f), mul(load(model.dw_dtheta, b), e))
+        part = sub(driven, mul(load(model.mode_amplitude, b), pull))
+        parts, sizes = add(parts, part), add(sizes, absolute(part))
+    acceleration, size = total(parts), total(sizes)
     for j in range(len(model.mode_amplitude0)):
         part = -model.mode_amplitude0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
         acceleration += part
