@@ -245,7 +245,7 @@ def test_growth_is_that_of_the_cycle() -> None:
         measures.cycle_of(still.parameters)
 
 
-def test_a_cycle_that_does_not_exist_was_searched_anew_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_search_that_finds_no_cycle_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     searched = Mock(wraps=floquet)
     monkeypatch.setattr("disc_model.stability.cycle.floquet", searched)
     still = Parameters(N=201, Omega=0, n_diameters=1)

@@ -216,7 +216,7 @@ def _inner_terms(s, width, b, k, e_last, z_last):
 
 
 @inlined
-def _pending(model, s, width, b, e, z, carried):
+def _pending(s, width, b, e, z, carried):
     """A block's part of u'' of an order, as far as the order before determines it (lanes)."""
     known = mul(_kept(s, _BENT, width, b), low_halves(z, carried))
     return fma(_kept(s, _CORIOLIS, width, b), e, known)
@@ -243,7 +243,7 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     e_next = mul(sub(mul(shift, turned), free), up)
     _set_e(s, width, at, e)
     _set_z(s, at + width, z_next)
-    return part, _pending(model, s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
+    return part, _pending(s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
 
 
 @inlined
@@ -273,7 +273,7 @@ def _order_zero(model, s, width, b, f0):
     _keep(s, _CORIOLIS, width, b, fma(splat(2.0 * f0), _row(model, DW_DTHETA, b), minus_force_damping))
     bend = swap_halves(_row(model, BEND, b))
     _keep(s, _BENT, width, b, fma(first, bend, _row(model, MINUS_AMPLITUDE_STIFFNESS, b)))
-    return _pending(model, s, width, b, e_next, z_next, carried)
+    return _pending(s, width, b, e_next, z_next, carried)
 
 
 @inlined
@@ -313,7 +313,7 @@ def _begin_orders(model, s, f0):
     for b in range(0, width, WIDTH):
         pending = add(pending, _order_zero(model, s, width, b, f0))
         z, e = _z(s, b), _e(s, width, b)
-        now = add(now, _pending(model, s, width, b, e, z, zero))
+        now = add(now, _pending(s, width, b, e, z, zero))
         by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
         by_z = fma(_row(model, BEND, b), z, by_z)
         by_z1 = fma(_row(model, DW_DTHETA, b), _z(s, width + b), by_z1)

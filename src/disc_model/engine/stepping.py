@@ -31,13 +31,6 @@ def _size(model, s, k):
 
 
 @inlined
-def _usual_or_present(usual, model, s):
-    """As ``_scale`` for the modal velocities, whose growth is seldom needed."""
-    size = max(usual, _size(model, s, 0))
-    return size if size > 0.0 else _size(model, s, 1)
-
-
-@inlined
 def _last_two(c, order, typical):
     """Size of the last two terms, as if the step were ``typical``."""
     return max(abs(c[order]), abs(c[order - 1]) / typical)
@@ -88,7 +81,7 @@ def step_size(model, s, order, tolerance, phase):
     usual_speed, share = model.speed_scale, 1.0
     if is_ramped(model):
         usual_speed, share = drive(model, s), load_at(model, s) / model.N
-    scale = _usual_or_present(share * model.velocity_scale, model, s)
+    scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
     if is_compliant(model) or phase == layout.SEPARATION:
