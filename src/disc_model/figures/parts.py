@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from itertools import chain, repeat
 from pathlib import Path
 from textwrap import fill
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import matplotlib as mpl
 import numpy as np
@@ -143,6 +143,7 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     return shown if shown.sizes["time"] > 1 else found
 
 
+Values = TypeVar("Values", xr.DataArray, xr.Dataset)
 GIVEN = "given"
 """Word instead of a normalization for modes from a table."""
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", GIVEN: "modes of a table"}
@@ -174,30 +175,16 @@ def flags_of(variable: xr.DataArray) -> list[str]:
     return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
 
 
-def picked(study: xr.Dataset, name: str, at: Mapping[str, float | str]) -> xr.DataArray:
-    """A variable of a grid study at values of those dimensions that it has; dimensions of one value are dropped."""
-    found = study[name]
+def picked(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.Dataset:
+    """A grid study at values of some dimensions; dimensions of one value are dropped."""
     for dim, value in at.items():
-        if dim in found.dims:
-            found = found.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
-    return found.squeeze()
+        study = study.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
+    return study.squeeze()
 
 
-def excluded(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.DataArray | None:
-    """Points that the study's rule excludes, `picked`; None if it has no rule."""
-    if EXCLUDED not in study["status"].attrs.get("flag_meanings", ""):
-        return None
-    status = picked(study, "status", at)
-    return status.copy(data=flag_names(status) == EXCLUDED)
-
-
-def gaps(study: xr.Dataset, found: xr.DataArray, at: Mapping[str, float | str]) -> dict[str, xr.DataArray]:
-    """Points where a `picked` variable has no value, by the word of their status."""
-    gone = found.isnull()
-    if not gone.any() or "status" not in study:
-        return {"no value": gone} if gone.any() else {}
-    status = picked(study, "status", at)
-    words = status.copy(data=flag_names(status))
+def gaps(study: xr.Dataset, found: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points where a variable has no value, by the word of their status; without those that a rule excludes."""
+    words, gone = statuses(study), found.isnull()
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
     names.pop(EXCLUDED, None)
     each = {name: gone & words.isin([word for word in names if names[word] == name]) for name in names.values()}
@@ -217,7 +204,7 @@ def head(figure: Figure, study: xr.Dataset, plot: Plot) -> None:
     """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary."""
     texts = []
     if isinstance(plot, General):
-        shown = picked(study, plot.variable, plot.at)
+        shown = picked(study, plot.at)[plot.variable]
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         texts = [coordinate_text(shown, name) for name in alone if name in shown.coords]
     base = json.loads(study.attrs.get("base", "{}"))
@@ -255,7 +242,7 @@ def note(figure: Figure, plot: Kind, text: str) -> None:
         figure.supxlabel(fill(text, round(figure.get_figwidth() / 0.055)), fontsize=7)
 
 
-def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]]:
+def slices(found: Values, by: str | None) -> list[tuple[str, Values]]:
     """Label and values of each slice along a dimension; one slice without a dimension.
 
     A slice of a zip is labelled by its parameters.  Words are ordered as in `WORDS`, not alphabetically as in datasets.
@@ -269,7 +256,7 @@ def slices(found: xr.DataArray, by: str | None) -> list[tuple[str, xr.DataArray]
     return [(", ".join(coordinate_text(one, name) for name in along), one) for one in each]
 
 
-def coordinate_text(one: xr.DataArray, by: str) -> str:
+def coordinate_text(one: xr.DataArray | xr.Dataset, by: str) -> str:
     """Label of a panel or a line."""
     value = one[by].item()
     if isinstance(value, str):
@@ -410,9 +397,14 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
     return study.sel(normalization=normalization) if "normalization" in study.dims else study
 
 
+def statuses(study: xr.Dataset) -> xr.DataArray:
+    """The status of each point of a grid study, as a word."""
+    return study["status"].copy(data=flag_names(study["status"]))
+
+
 def failed(study: xr.Dataset) -> xr.DataArray:
     """Points of a grid study that failed."""
-    return study["status"].copy(data=flag_names(study["status"]) != "ok")
+    return statuses(study) != "ok"
 
 
 def mark_failed(

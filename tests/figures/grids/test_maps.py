@@ -65,7 +65,7 @@ def test_a_hatch_on_dark_red_could_not_be_seen() -> None:
     )
     figure = Figure()
     ax = figure.subplots()
-    growth_panels(figure, [ax], [data], "Omega", "N")
+    growth_panels(figure, [ax], [data])
     inks = {}
     for hatch, places in zip(ax.patches, _hatched(ax), strict=True):
         inks |= dict.fromkeys(places[:, 1], np.dot(to_rgb(hatch.get_edgecolor()), (0.299, 0.587, 0.114)))
@@ -97,7 +97,7 @@ def test_what_there_is_without_a_cycle_is_told_apart() -> None:
     }
     data = xr.Dataset(values, {"N": [100.0], "Omega": np.arange(7.0)})
     expected = ["", "no_cycle", "separates", "steady_sliding", "no_cycle", "at_rest", "failed"]
-    assert cycles_of(data, "Omega", "N")[0].tolist() == expected
+    assert cycles_of(data)[0].tolist() == expected
 
 
 def test_a_growth_rate_unlike_all_around_is_marked() -> None:
@@ -112,7 +112,7 @@ def test_a_growth_rate_unlike_all_around_is_marked() -> None:
     figure = Figure()
     axes = figure.subplots()
     data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
-    assert growth_panels(figure, [axes], [data], "Omega", "N") >= {"alone"}
+    assert growth_panels(figure, [axes], [data]) >= {"alone"}
     assert axes.collections[0].get_array()[1, 1] == -0.1, "its value was hidden"
     decay = (rate < 0) & ~there
     for found, expected in zip(_hatched(axes), (np.isnan(rate), decay, there), strict=True):
@@ -158,9 +158,9 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
 def test_a_single_large_growth_rate_is_hatched_in_maps_of_regions() -> None:
     """A resonance narrower than a cell was one dark cell among even ones, which looked like a stain."""
     data = made_up("Omega", [5.0, 6, 7, 8, 9, 10], NORMS[:1]).squeeze()
-    assert not isolated(data, "Omega", "N")[:2].any()
+    assert not isolated(data)[:2].any()
     data["growth_rate"][0, 4] = 0.4
-    assert np.argwhere(isolated(data, "Omega", "N")).tolist() == [[0, 4]]
+    assert np.argwhere(isolated(data)).tolist() == [[0, 4]]
 
 
 def mark(x: float, y: float, paper: str) -> dict[str, Any]:

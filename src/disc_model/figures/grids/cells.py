@@ -59,15 +59,6 @@ CYCLE_LOOKS = {
 }
 """Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
 may be another cycle's."""
-WITHOUT = {
-    "ok": "no_cycle",
-    "no_cycle": "no_cycle",
-    "separates": "separates",
-    "no_stick_slip": "steady_sliding",
-    "at_rest": "at_rest",
-    EXCLUDED: EXCLUDED,
-}
-"""Key of `CYCLE_LOOKS` by the status of a point of the quantity `floquet`; others have failed."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
 GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
 """Weights of red, green and blue in grey print, and the lightness below which a hatch is white."""
@@ -80,14 +71,14 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
     return np.asarray(np.any([(one == other) & (one != words) & (one != "") for one, other in pairs], axis=0))
 
 
-def edges_of(data: xr.Dataset | xr.DataArray, x: str, y: str) -> Edges:
-    """Edges of the cells around the points, halfway between neighbours, in the units of the axes."""
+def edges_of(plane: xr.DataArray) -> Edges:
+    """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
     found = []
-    for name in (x, y):
-        values = data[name].values * label_of(data[name])[1]
+    for name in map(str, plane.dims):
+        values = plane[name].values * label_of(plane[name])[1]
         log = scale_of(name, values) == "log"
         found.append(np.exp(edges(np.log(values))) if log else edges(values))
-    return found[0], found[1]
+    return found[1], found[0]
 
 
 def scale_of(name: str, values: Array) -> str:
@@ -98,11 +89,6 @@ def scale_of(name: str, values: Array) -> str:
     if np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
         return "linear"
     return "log" if values[0] > 0 else "symlog"
-
-
-def words_of(data: xr.Dataset, name: str, x: str, y: str) -> Names:
-    """Names of a flag: shape (len(y), len(x))."""
-    return np.asarray(flag_names(data[name].transpose(y, x)))
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
@@ -135,11 +121,11 @@ def _outline(sides: Edges, there: NDArray[np.bool_]) -> Path:
     return Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
 
 
-def outcome_cells(ax: Axes, data: xr.Dataset, x: str, y: str) -> set[str]:
+def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
     """Fill cells in the look of their outcome, hatched where unresolved; returns the used keys of `CELL_LOOKS`."""
-    words = words_of(data, "outcome", x, y)
+    words = flag_names(outcome)
     words = np.where(unresolved(words), "fine", words)
-    fill(ax, edges_of(data, x, y), words, CELL_LOOKS)
+    fill(ax, edges_of(outcome), words, CELL_LOOKS)
     return set(words.flat)
 
 
@@ -168,7 +154,7 @@ def growth_norm(rates: Array) -> AsinhNorm:
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Dataset], x: str, y: str) -> set[str]:
+def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
     """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
 
     Cells of decay are dotted, isolated ones hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
@@ -178,11 +164,11 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
     norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):
-        sides, without = edges_of(data, x, y), cycles_of(data, x, y)
-        rates = np.ma.masked_invalid(data["growth_rate"].transpose(y, x).values)
+        sides, without = edges_of(data["growth_rate"]), cycles_of(data)
+        rates = np.ma.masked_invalid(data["growth_rate"].values)
         mesh = ax.pcolormesh(*sides, rates, cmap=cm.vik, norm=norm, rasterized=True)
         fill(ax, sides, without, CYCLE_LOOKS)
-        hatched = np.where(isolated(data, x, y), "alone", np.where((rates < 0).filled(False), "stable", ""))
+        hatched = np.where(isolated(data), "alone", np.where((rates < 0).filled(False), "stable", ""))
         fill(ax, sides, hatched, CYCLE_LOOKS, mesh.to_rgba(rates))
         used |= {*without.flat, *hatched.flat}
     label = "Growth rate of the\nstick-slip cycle (1/s)"
@@ -193,33 +179,33 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
     return used
 
 
-def stability_of(data: xr.Dataset, x: str, y: str) -> Names:
+def stability_of(data: xr.Dataset) -> Names:
     """Stability of the followed cycle, or the word of the quantity `regions` where there is none."""
-    rate = data["growth_rate"].transpose(y, x).values
-    return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", words_of(data, "cycle", x, y)))
+    rate = data["growth_rate"].values
+    return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", flag_names(data["cycle"])))
 
 
-def isolated(data: xr.Dataset, x: str, y: str) -> NDArray[np.bool_]:
-    """Cells whose growth rate, or whose stability, differs from that around them: shape (len(y), len(x))."""
-    cells = alone(data["growth_rate"].transpose(y, x).values)
-    return cells | unresolved(stability_of(data, x, y)) if "cycle" in data else cells
+def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Cells whose growth rate, or whose stability, differs from that around them."""
+    cells = alone(data["growth_rate"].values)
+    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
 
 
-def cycles_of(data: xr.Dataset, x: str, y: str) -> Names:
-    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise "": shape (len(y), len(x))."""
-    rate = data["growth_rate"].transpose(y, x).values
+def cycles_of(data: xr.Dataset) -> Names:
+    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or `floquet`."""
+    rate = data["growth_rate"].values
+    words = np.full(rate.shape, "no_cycle")
     if "cycle" in data:
-        return np.where(np.isfinite(rate), "", words_of(data, "cycle", x, y)).astype("<U16")
-    words = np.full(rate.shape, "no_cycle", dtype="<U16")
-    if "status" in data:
-        status = words_of(data, "status", x, y)
-        words = np.array([WITHOUT.get(word, "failed") for word in status.flat], dtype="<U16").reshape(rate.shape)
+        words = flag_names(data["cycle"])
+    elif "status" in data:
+        words = flag_names(data["status"])
+        words = np.select([words == "ok", words == "no_stick_slip"], ["no_cycle", "steady_sliding"], words)
+        words = np.where(np.isin(words, [*CYCLE_LOOKS]), words, "failed")
     if "sliding_growth_rate" in data:
         # growing steady sliding is no lasting motion
-        grows = ~(data["sliding_growth_rate"].transpose(y, x).values < 0)
-        words[(words == "steady_sliding") & grows] = "no_cycle"
-    words[np.isfinite(rate)] = ""
-    return words
+        grows = ~(data["sliding_growth_rate"].values < 0)
+        words = np.where((words == "steady_sliding") & grows, "no_cycle", words)
+    return np.where(np.isfinite(rate), "", words)
 
 
 def alone(rate: Array) -> NDArray[np.bool_]:

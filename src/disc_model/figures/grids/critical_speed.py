@@ -42,7 +42,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
     scan = span(study["scan_Omega"].values)
     if cycle is not None:
         # separation is unknown beyond the scan
-        cycle = cycle.sel(Omega=slice(*scan))
+        cycle = cycle.sel(Omega=slice(*scan)).transpose("N", "Omega", ...)
         cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
     figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
     loads = study["N"].values
@@ -155,10 +155,10 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
     if "outcome" in cycle:
-        words, horizon = outcome_cells(ax, cycle, "Omega", "N"), stated_in(cycle, "options")["horizon"]
+        words, horizon = outcome_cells(ax, cycle["outcome"]), stated_in(cycle, "options")["horizon"]
         return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
-    stable = np.where(cycle["growth_rate"].transpose("N", "Omega").values < 0, "quiet", "")
-    fill(ax, edges_of(cycle, "Omega", "N"), stable, {"quiet": STABLE})
+    stable = np.where(cycle["growth_rate"].values < 0, "quiet", "")
+    fill(ax, edges_of(cycle["growth_rate"]), stable, {"quiet": STABLE})
     return [*patches({"quiet": STABLE}, stable)]
 
 
@@ -185,7 +185,7 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
     sweep is left out if the sweep found no separation at one of them.
     """
-    rate = cycle["growth_rate"].transpose("N", "Omega")
+    rate = cycle["growth_rate"]
     speeds, loads = rate["Omega"].values, rate["N"].values
     lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)
     there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))

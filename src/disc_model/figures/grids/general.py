@@ -56,10 +56,10 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
 
     Growth rates have the colours of all growth maps; variables of both signs are centred on 0.
     """
-    found = parts.picked(study, plot.variable, plot.at)
-    left_out = parts.excluded(study, plot.at)
-    if left_out is not None:
-        found = found.where(~left_out)
+    study = parts.picked(study, plot.at)
+    ruled = EXCLUDED in study["status"].attrs["flag_meanings"]
+    left_out = parts.statuses(study) == EXCLUDED
+    found = study[plot.variable].where(~left_out) if ruled else study[plot.variable]
     by = _other(found, plot)
     shown = parts.slices(found, by)
     figure, axes = panels(PAGE if len(shown) > 1 else COLUMN * 1.2, 2.9, 1, len(shown), sharex=True, sharey=True)
@@ -71,12 +71,12 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
         for ax, (_, panel) in zip(axes, shown, strict=True):
             ax.patch.set(linewidth=0, **HATCH)
             mesh = _cells(ax, panel, plot, **colours)
-        if left_out is not None:
+        if ruled:
             for ax, (_, panel) in zip(axes, parts.slices(left_out, by), strict=False):
                 _cells(ax, panel.where(panel), plot, cmap=ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
         _bar(figure, axes, mesh, parts.label_of(found)[0], words)
-        if not words and (gaps := parts.gaps(study, found, plot.at)):
+        if not words and (gaps := parts.gaps(study, found)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
     width = round(figure.get_figwidth() / len(axes) / 0.08)
     # a value stays on the line of its name
@@ -96,9 +96,8 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
 def _growth(figure: Figure, axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
     """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
-    picked = {name: parts.slices(parts.picked(study, name, plot.at), by) for name in names}
-    shown = [xr.Dataset({name: found[i][1] for name, found in picked.items()}) for i in range(len(axes))]
-    words = growth_panels(figure, axes, shown, plot.x, plot.y)
+    shown = [one.transpose(plot.y, plot.x) for _, one in parts.slices(study[names], by)]
+    words = growth_panels(figure, axes, shown)
     for axis, name in plot.axes.items():  # axes are shared
         axes[0].set(**{f"{axis}scale": "log" if scale_of(name, study[name].values) == "log" else "linear"})
     return patches(CYCLE_LOOKS, words)
@@ -148,7 +147,8 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
 
     A second dimension of numbers has a colour scale, one of words or pairs a legend.
     """
-    found = parts.picked(study, plot.variable, plot.at)
+    study = parts.picked(study, plot.at)
+    found = study[plot.variable]
     by = _other(found, plot)
     lines = parts.slices(found, by)
     numbers = found[by] if by in found.coords and found[by].dtype.kind in "fi" else None
@@ -179,7 +179,7 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
     ax.set(xlabel=label, ylabel=fill(parts.label_of(found)[0], 32))
     if words:
         ax.set_yticks(range(len(words)), labels=words)
-    for (name, gone), mark in zip(parts.gaps(study, found, plot.at).items(), "x+|12", strict=False):
+    for (name, gone), mark in zip(parts.gaps(study, found).items(), "x+|12", strict=False):
         there = gone.any([dim for dim in gone.dims if dim != plot.x]).values
         parts.mark_failed(ax, along[there], name=name, mark=mark)
     if numbers is not None:

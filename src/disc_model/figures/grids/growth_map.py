@@ -74,7 +74,7 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
 
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
     """
-    rate = cycle["growth_rate"].transpose("N", "Omega")
+    rate = cycle["growth_rate"]
     # beside a cell are the eight around it
     stable, unstable, not_stable = (
         binary_dilation(there, np.ones((3, 3))) for there in (rate < 0, rate > 0, ~(rate < 0))
@@ -152,8 +152,8 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap)
     """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
     norms = parts.normalizations(study)
     figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
-    grids = [parts.of(study, norm) for norm in norms]
-    gaps = growth_panels(figure, axes, grids, "Omega", "N")
+    grids = [parts.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
+    gaps = growth_panels(figure, axes, grids)
     data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
     curves = [curves_of(one) for one in data] or [[] for _ in norms]
     shown, others = zip(*map(parted, curves, grids), strict=True)

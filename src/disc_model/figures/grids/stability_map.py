@@ -44,21 +44,20 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
     figure, axes = panels(PAGE, 3.3, 1, len(norms), sharex=True, sharey=True)
     parts.letters(axes, [MODES[norm] for norm in norms])
     marks: dict[str, Artist] = {}
-    for ax, norm in zip(axes, norms, strict=True):
-        one = parts.of(study, norm)
+    for ax, one in zip(axes, _planes(study, norms, plot), strict=True):
         x, y = np.meshgrid(*(one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
-        outcome = cells.words_of(one, "outcome", plot.x, plot.y)
+        outcome = flag_names(one["outcome"])
         for name, look in MARKS.items():
             if (there := outcome == name).any():
                 marks[name] = ax.scatter(x[there], y[there], zorder=3, clip_on=False, lw=0.5, edgecolor=BLACK, **look)
                 marks[name].set_label(OUTCOME_LOOKS[name].label)
     handles = finish(axes, study, plot)
     if "growth" in overlays:
-        growth = [parts.of(overlays["growth"], norm) for norm in norms]
-        gaps = growth_panels(figure, axes, growth, plot.x, plot.y)
+        growth = _planes(overlays["growth"], norms, plot)
+        gaps = growth_panels(figure, axes, growth)
         for ax, one in zip(axes, growth, strict=True):
             x, y = (one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
-            rate = one["growth_rate"].transpose(plot.y, plot.x).values
+            rate = one["growth_rate"].values
             # the line on which the growth rate changes its sign
             if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
                 ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
@@ -72,17 +71,20 @@ def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Re
 
     Lines come from the further study ``curves``, if it is given, and else lie between cells.
     """
-    shown = [parts.of(study, norm) for norm in parts.normalizations(study)]
-    figure, axes = panels(PAGE, 5.6, 2, len(shown), sharex=True, sharey=True)
-    above, below = axes[: len(shown)], axes[len(shown) :]
-    parts.letters(axes, [MODES[norm] for norm in parts.normalizations(study)])
-    gaps = growth_panels(figure, below, shown, plot.x, plot.y) - {"alone"}
+    norms = parts.normalizations(study)
+    shown = _planes(study, norms, plot)
+    figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
+    above, below = axes[: len(norms)], axes[len(norms) :]
+    parts.letters(axes, [MODES[norm] for norm in norms])
+    gaps = growth_panels(figure, below, shown) - {"alone"}
+    # branches are continued along the study's first dimension, which may be either axis
+    upward = [name for name in study["outcome"].dims if name in (plot.x, plot.y)] == [plot.y, plot.x]
     outcomes: set[str] = set()
     lines: list[Artist] = []
     for upper, lower, one in zip(above, below, shown, strict=True):
-        outcomes |= cells.outcome_cells(upper, one, plot.x, plot.y)
+        outcomes |= cells.outcome_cells(upper, one["outcome"])
         for ax in (upper, lower):
-            lines += _curves(ax, one, overlays["curves"]) if "curves" in overlays else _borders(ax, one, plot)
+            lines += _curves(ax, one, overlays["curves"]) if "curves" in overlays else _borders(ax, one, upward)
     named = {line.get_label(): line for line in lines}.values()
     _legend_above(figure, [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, plot)])
     said = Line2D([], [], linestyle="", label="\n".join(_captions(study, plot)))
@@ -101,27 +103,27 @@ def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
     return draw_curves([ax], [found], [])
 
 
-def _borders(ax: Axes, data: xr.Dataset, plot: RegionMap) -> list[Line2D]:
+def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
     """Draw borders between cells: where the same cycle changes its stability, and where a stable one ends.
 
     A cycle ends where the next cell has no cycle and the motion does not stay quiet there. A start that follows no
     cycle, or another one, does not prove an end. Nothing is drawn around unresolved cells.
+
+    upward : whether the study's first dimension is the vertical one
     """
-    x, y = cells.edges_of(data, plot.x, plot.y)
-    state = cells.stability_of(data, plot.x, plot.y)
+    x, y = cells.edges_of(data["outcome"])
+    state = cells.stability_of(data)
     state[cells.unresolved(state)] = "unresolved"
     stable, unstable = state == "stable", state == "unstable"
-    gone = cells.words_of(data, "cycle", plot.x, plot.y) == "no_cycle"
-    gone &= cells.words_of(data, "outcome", plot.x, plot.y) != "quiet"
-    # the axes of the study's plane may be exchanged
+    gone = (flag_names(data["cycle"]) == "no_cycle") & (flag_names(data["outcome"]) != "quiet")
     names = ("branch_continues_first", "branch_continues_second")
-    up, right = names if str(data["outcome"].dims[0]) == plot.y else names[::-1]
+    up, right = names if upward else names[::-1]
     found: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
     for joined, ahead, here, ends in (
         (up, np.s_[1:, :], np.s_[:-1, :], lambda i, j: [(x[j], y[i + 1]), (x[j + 1], y[i + 1])]),
         (right, np.s_[:, 1:], np.s_[:, :-1], lambda i, j: [(x[j + 1], y[i]), (x[j + 1], y[i + 1])]),
     ):
-        same = cells.words_of(data, joined, plot.x, plot.y)[here] == "yes"
+        same = flag_names(data[joined])[here] == "yes"
         changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
         stops = (stable[here] & gone[ahead]) | (gone[here] & stable[ahead])
         found["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
@@ -152,6 +154,11 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
 
 # ----------------------------------------------------------------------------------------------------
 # Common parts of both
+
+
+def _planes(study: xr.Dataset, norms: Sequence[str], plot: StabilityMap) -> list[xr.Dataset]:
+    """A study over the two parameters, the vertical one first, for each normalization."""
+    return [parts.of(study, norm).transpose(plot.y, plot.x, ...) for norm in norms]
 
 
 def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
