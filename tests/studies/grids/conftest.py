@@ -120,9 +120,14 @@ def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
 def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
     """Samples and exponents over three loads, for base values with this normalization."""
     status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(STATUSES)})
-    axes, attrs = {"N": ("N", [1.0, 2, 3], {"units": "N"})}, {"base": json.dumps({"normalization": normalization})}
+    axes = {"N": ("N", [1.0, 2, 3], {"units": "N"})}
+    attrs = {"base": json.dumps({"normalization": normalization}), "options": json.dumps({"section": "stroboscopic"})}
+    known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
     samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
-    exponents = {name: (("N", "exponent_number"), np.ones((3, 1))) for name in ("exponent", "exponent_error")}
+    samples |= {"stationary": ("N", np.zeros(3, np.int8), known), "period_events": ("N", np.zeros(3, int))}
+    samples["kind"] = ("N", np.zeros(3, np.int8), {"flag_meanings": "failed undecided steady_sliding"})
+    exponents = {name: (each, np.ones((3, 1))) for name in ("exponent", "exponent_error")}
+    exponents["converged"] = (each, np.zeros((3, 1), np.int8), known)
     one, other = (xr.Dataset(values | {"status": status}, axes, attrs) for values in (samples, exponents))
     return one, other
 

@@ -1,6 +1,5 @@
 """Motions against one parameter: bifurcation and continuation diagrams, ramps of the speed, and basins."""
 
-import json
 from collections.abc import Mapping
 from typing import Any
 
@@ -34,14 +33,13 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     """Draw samples against a parameter, coloured by phase, grey where the motion was not steady yet.
 
     A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
-    events.  The further study ``lyapunov``, if given, has a panel below.
+    events.  Periods are below, and the further study ``lyapunov``, if it is given.
     """
     study = study.transpose(plot.x, "sample", ...)
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     events = {"stick": "at release of stick", "separation": "at loss of contact"}
-    names = events if options.get("section") == "event" else {}
-    below = ["period"] * ("period_events" in study) + ["lyapunov"] * ("lyapunov" in overlays)
-    heights = [2.4, *({"period": 0.9, "lyapunov": 1.4}[name] for name in below)]  # inch
+    names = events if options["section"] == "event" else {}
+    heights = [2.4, 0.9, *[1.4] * ("lyapunov" in overlays)]  # inch
     figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
     ax = axes[0]
     xlabel, factor = parts.axis_of(plot.x)
@@ -49,7 +47,7 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     position = np.broadcast_to(along[:, None], values.shape)
     lost = parts.failed(study).values
     phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
-    steady = (flag_names(study["stationary"]) != "no" if "stationary" in study else ~lost)[:, None]
+    steady = (flag_names(study["stationary"]) != "no")[:, None]
     dots = [("not stationary", ~steady & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
     for code, (name, color) in enumerate(PHASE_COLOURS.items()):
         dots.append((names.get(name, name), steady & (phase == code), DOT | {"color": color} | MARKS.get(name, {})))
@@ -58,7 +56,7 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
             ax.plot(position[there], values[there], linestyle="", label=label, **look)
     parts.mark_failed(ax, along[lost])
     moving = (phase >= 0).any(axis=1)
-    slides = flag_names(study["kind"]) == "steady_sliding" if "kind" in study else np.zeros_like(lost)
+    slides = flag_names(study["kind"]) == "steady_sliding"
     at_edge: dict[str, Any] = {"color": GREY, "markersize": 4, "transform": ax.get_xaxis_transform()}
     for label, marker, here in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
         if (idle := along[here & ~moving & ~lost]).size:
@@ -67,11 +65,9 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
     ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
-    for one, name in zip(axes[1:], below, strict=True):
-        if name == "period":
-            _period(one, along[moving], study["period_events"].values[moving])
-        else:
-            _exponents(one, overlays["lyapunov"], plot.x)
+    _period(axes[1], along[moving], study["period_events"].values[moving])
+    if "lyapunov" in overlays:
+        _exponents(axes[2], overlays["lyapunov"], plot.x)
     parts.letters(axes)
     for one in axes:
         one.margins(x=0.01)  # no dot is cut at the edge
@@ -105,29 +101,24 @@ def _start(options: Mapping[str, Any]) -> str:
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     """Draw the largest exponents with their errors; rings of their colours where they have not converged."""
-    known = ~parts.failed(lyapunov)
-    exponent = lyapunov["exponent"].where(known).transpose("exponent_number", name)
-    error = lyapunov["exponent_error"].where(known).transpose("exponent_number", name)
+    lyapunov, known = lyapunov.transpose("exponent_number", name, ...), ~parts.failed(lyapunov)
+    exponent, error = (lyapunov[each].where(known) for each in ("exponent", "exponent_error"))
+    moving = flag_names(lyapunov["converged"])[: len(EXPONENTS)] == "no"
     along = exponent[name].values * parts.axis_of(name)[1]
     ax.axhline(0, color=GREY, linewidth=0.8)
     ring: dict[str, Any] = {"color": GREY, "markerfacecolor": "none", "markersize": 4, "markeredgewidth": 0.6}
-    unsure = False
     for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
         shown = parts.broken(along, exponent[i].values, 0.05)  # 1/s, beyond which another motion begins
         ax.plot(*shown, ".-", color=color, markersize=3, linewidth=0.8, label=label)
         band = ERRORS * np.interp(shown[0], along, error[i].values)
         ax.fill_between(shown[0], shown[1] - band, shown[1] + band, color=color, alpha=0.15, linewidth=0)
-        if "converged" in lyapunov:
-            moving = flag_names(lyapunov["converged"].transpose("exponent_number", name)[i]) == "no"
-            ax.plot(along[moving], exponent[i][moving], "o", label="_nolegend_", **ring | {"color": color})
-            unsure |= bool(moving.any())
+        ax.plot(along[moving[i]], exponent[i][moving[i]], "o", label="_nolegend_", **ring | {"color": color})
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
-    if unsure:
+    if moving.any():
         ax.plot([], [], "o", label="not converged", **ring)
     parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
-    others = ",\nwithout the\ntrivial one" if "trivial_exponent" in lyapunov else ""
-    ax.set_ylabel(f"Lyapunov\nexponents{others} (1/s)")
+    ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
     parts.legend_above(ax)
 
 
