@@ -16,7 +16,7 @@ from disc_model.renamed import RENAMED, renamed
 from disc_model.studies.document import QUANTITIES, STATIC, VARIED, BifurcationOptions, RecordSpec
 from disc_model.studies.grids.summaries import summary_of
 
-MODELS: list[type[BaseModel]] = [*(entry.stated for entry in QUANTITIES.values()), *KINDS.values(), Mark, RecordSpec]
+MODELS: list[type[BaseModel]] = [*(entry.options for entry in QUANTITIES.values()), *KINDS.values(), Mark, RecordSpec]
 
 
 def columns(quantity: str) -> dict[str, Variable]:

@@ -604,9 +604,8 @@ class CampbellOptions(Ruled):
 class Entry(NamedTuple):
     """Properties of a quantity: its options, the cost of a point, and its grids and motions.
 
-    options : model of the options
+    options : model of the key ``options`` in a study file
     seconds : approximate processor time of a point with given options, s, measured at points of the paper's study
-    starts : whether motions may begin elsewhere than at the static start; the file gives the start as an option
     scans : parameters that the quantity varies by itself, or the options that name them
     motions : number of values of each axis for which a motion is stored; smaller if a motion is expensive. 0: none
     motion : description of the motions, which begin at the quantity's ``state_at``
@@ -617,20 +616,12 @@ class Entry(NamedTuple):
 
     options: type[Strict]
     seconds: Callable[[Any], float]
-    starts: bool = False
     scans: tuple[str, ...] = ()
     motions: int = 0
     motion: str = ""
     tiled: bool = False
     over: str = ""
     tasks: tuple[str, ...] = ("simulate", "floquet")
-
-    @property
-    def stated(self) -> type[Strict]:
-        """The model of the key ``options`` in a study file."""
-        if not self.starts:
-            return self.options
-        return create_model(self.options.__name__, __base__=(Start, self.options), __doc__=self.options.__doc__)
 
     def scanned(self, options: Strict | None) -> tuple[str, ...]:
         """Parameters that the quantity varies by itself; the default ones if the options are not known."""
@@ -640,6 +631,11 @@ class Entry(NamedTuple):
     def batch_size(self, options: Strict) -> int:
         """Number of points in a batch if a study does not state it."""
         return max(1, round(WORK / self.seconds(options)))
+
+
+def _with_start(options: type[Strict]) -> type[Strict]:
+    """Options of a quantity whose motions may begin elsewhere than at the static start: the file gives it as one."""
+    return create_model(options.__name__, __base__=(Start, options), __doc__=options.__doc__)
 
 
 WORK = 20.0
@@ -652,9 +648,9 @@ CYCLE = 2.5e-3
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
-AFTER_TRANSIENT: dict[str, Any] = {"starts": True, "motions": 8, "motion": "After the transient."}
+AFTER_TRANSIENT: dict[str, Any] = {"motions": 8, "motion": "After the transient."}
 QUANTITIES = {
-    "outcome": Entry(OutcomeOptions, lambda o: SIMULATED * o.horizon / 2, starts=True, motions=4, motion=COME_TO),
+    "outcome": Entry(_with_start(OutcomeOptions), lambda o: SIMULATED * o.horizon / 2, motions=4, motion=COME_TO),
     "regions": Entry(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
     "critical_speed": Entry(
         CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
@@ -667,12 +663,14 @@ QUANTITIES = {
         scans=("Omega",),
         tasks=("simulate", "ramp"),
     ),
-    "basins": Entry(BasinsOptions, lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6, starts=True),
+    "basins": Entry(_with_start(BasinsOptions), lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6),
     "bifurcation": Entry(
-        BifurcationOptions, lambda o: SIMULATED * (o.transient + o.max_transient / 2), **AFTER_TRANSIENT
+        _with_start(BifurcationOptions), lambda o: SIMULATED * (o.transient + o.max_transient / 2), **AFTER_TRANSIENT
     ),
     "lyapunov": Entry(
-        LyapunovOptions, lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration), **AFTER_TRANSIENT
+        _with_start(LyapunovOptions),
+        lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
+        **AFTER_TRANSIENT,
     ),
     "stability_curves": Entry(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
     "branches": Entry(BranchesOptions, lambda o: WORK, scans=("parameter",)),
@@ -916,7 +914,7 @@ class Document(Strict):
 
 
 DOCUMENTS: dict[str, type[Document]] = {
-    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.stated, ...))
+    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.options, ...))
     for name, entry in QUANTITIES.items()
 }
 """Models of files that give a quantity."""
@@ -950,8 +948,8 @@ class _Plain(GenerateJsonSchema):
 
 def json_schema() -> dict[str, Any]:
     """The JSON Schema of study files; it describes the values of each key, but no rules between keys."""
-    stated = {name: quantity.stated for name, quantity in QUANTITIES.items()}
-    models: tuple[type[BaseModel], ...] = (Document, *stated.values())
+    options = {name: quantity.options for name, quantity in QUANTITIES.items()}
+    models: tuple[type[BaseModel], ...] = (Document, *options.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -963,7 +961,7 @@ def json_schema() -> dict[str, Any]:
                 "if": {"properties": {"quantity": {"const": name}}, "required": ["quantity"]},
                 "then": {"properties": {"options": refs[model, "validation"]}},
             }
-            for name, model in stated.items()
+            for name, model in options.items()
         ],
         **found,
     }

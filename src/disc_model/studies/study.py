@@ -818,7 +818,7 @@ class GridStudy:
             coordinate = name.removeprefix("perturbation_")
             if name not in self.wanted:
                 continue
-            if self.entry is not None and not self.entry.starts:
+            if self.entry is not None and not issubclass(self.entry.options, Start):
                 self._add(("axes", name), f"the quantity {self.quantity} follows no motion from a start")
             if coordinate in mapping(options.get("perturbation")):
                 self._add(("options", "perturbation", coordinate), f"is given, and varies as axes.{name}")

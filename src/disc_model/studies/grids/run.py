@@ -40,7 +40,7 @@ def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
     quantity = quantity or module_of(data["quantity"])
     names, points = data["names"], data["points"]
     entry = QUANTITIES[data["quantity"]]
-    options = entry.stated.model_validate(data["options"])
+    options = entry.options.model_validate(data["options"])
     start = Start(**{name: getattr(options, name) for name in Start.model_fields if isinstance(options, Start)})
     varied = [dict(zip(names, point, strict=True)) for point in points]
     chosen = data["base"].get("n_diameters") == AUTO
