@@ -383,8 +383,6 @@ FREQUENCIES = (1e-3, 1e7)
 """Limits of natural frequencies, rad/s; above them a cycle would take minutes to compute."""
 AMPLITUDES = (1e-6, 1e6)
 """Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
-SPLIT = 0.05
-"""Modes with equal nodal diameters whose frequencies differ by less than this share are the halves of one pair."""
 
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
@@ -549,7 +547,7 @@ def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> l
             if diameters[i] != diameters[j] or (circles and circles[i] != circles[j]):
                 continue
             apart = abs(omega[j] - omega[i]) / max(abs(omega[i]), abs(omega[j]), 1e-300)
-            if not (circles or apart < SPLIT):
+            if not (circles or apart < 0.05):  # as far apart they are no halves of a pair
                 continue
             name = f"modes {i + 1} and {j + 1} have {diameters[j]} nodal diameters"
             if apart < 1e-9:

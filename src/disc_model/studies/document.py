@@ -946,12 +946,12 @@ class _Plain(GenerateJsonSchema):
         return found
 
 
-def json_schema() -> dict[str, Any]:
-    """The JSON Schema of study files; it describes the values of each key, but no rules between keys."""
+def schema_text() -> str:
+    """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
     options = {name: quantity.options for name, quantity in QUANTITIES.items()}
     models: tuple[type[BaseModel], ...] = (Document, *options.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
-    return {
+    schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A study of disc_model",
         **found["$defs"].pop(Document.__name__),
@@ -965,11 +965,7 @@ def json_schema() -> dict[str, Any]:
         ],
         **found,
     }
-
-
-def schema_text() -> str:
-    """The schema as text, as in the shipped file."""
-    return json.dumps(json_schema(), indent=1, ensure_ascii=False) + "\n"
+    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
 
 
 if __name__ == "__main__":

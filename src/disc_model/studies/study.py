@@ -542,10 +542,6 @@ def first_of_each(found: Iterable[str]) -> list[Fault]:
 # ----------------------------------------------------------------------------------------------------
 # Grids
 
-LOOKED_AT = 300
-"""Approximate number of points at which each rule is checked for implausible values."""
-FIRST_SAMPLES = 64
-"""Number of samples in the first block."""
 MOST_POINTS = 1_000_000
 """Greatest number of points of a grid: Snakemake takes hours over so many jobs; many more do not fit into memory."""
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
@@ -657,7 +653,7 @@ class GridStudy:
         base |= next(points(self.dims, self.where, base))
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
-            looked_at = [dim.thinned(round(LOOKED_AT ** (1 / len(dims)))) for dim in dims]
+            looked_at = [dim.thinned(round(300 ** (1 / len(dims)))) for dim in dims]  # about 300 points
             cases = [base | point for point in points(looked_at, self.where, base)] or [base]
             found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, self.discs))))]
             if found:
@@ -762,10 +758,10 @@ class GridStudy:
         return value
 
     def _samples(self) -> tuple[Dimension, ...]:
-        """The dimension of samples, the last one, in blocks that double their number: doubling adds one block."""
+        """The dimension of samples, the last one: a block of 64, and blocks that each double their number."""
         if not isinstance(self.options, SensitivityOptions):
             return ()
-        ends = [0, min(FIRST_SAMPLES, self.options.samples)]
+        ends = [0, min(64, self.options.samples)]
         while ends[-1] < self.options.samples:
             ends.append(2 * ends[-1])
         return (Dimension((SAMPLE,), tuple(tuple((number,) for number in range(a, b)) for a, b in pairwise(ends))),)

@@ -26,11 +26,7 @@ CYCLES_SHOWN = 2
 """Number of stick-slip cycles in a history."""
 LONGEST = 0.05
 """Greatest length of a cycle, s, where stick is very long or nothing pulls the slider back."""
-LOOK = 0.5
-"""Time over which releases are counted, s."""
 SHOWN = ("P", "u", "psi")
-TOLERANCE = 1e-10
-_ALONG = ("sample",)
 
 
 class Motions:
@@ -39,8 +35,8 @@ class Motions:
     COLUMNS: Mapping[str, Variable] = {
         "status": STATUS,
         "length": Variable("s", "length of the history"),
-        **{name: SERIES[name]._replace(dims=_ALONG) for name in SHOWN},
-        "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=_ALONG),
+        **{name: SERIES[name]._replace(dims=("sample",)) for name in SHOWN},
+        "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=("sample",)),
     }
     COORDINATES: Mapping[str, Coordinate] = {
         "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
@@ -55,7 +51,7 @@ class Motions:
         p = point.parameters
         length = CYCLES_SHOWN * cycle_length(p, start)
         record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
-        result = simulate(p, length, tol=TOLERANCE, initial_state=start, record=record).raise_for_status()
+        result = simulate(p, length, initial_state=start, record=record).raise_for_status()
         samples = result.samples[0]
         values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
         return values | {name: samples[name] for name in SHOWN}, ""
@@ -68,12 +64,12 @@ def run_motions(text: str) -> xr.Dataset:
 
 
 def cycle_length(p: Parameters, state: State) -> float:
-    """Mean time between two releases after a state (time 0), s; at least the free period of the in-plane motion.
+    """Mean time between the releases of 0.5 s after a state (time 0), s; at least the in-plane free period.
 
     The free period is returned where the slider no longer sticks.
     """
     free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
-    events = simulate(p, LOOK, tol=TOLERANCE, initial_state=state).events
+    events = simulate(p, 0.5, initial_state=state).events
     released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
     between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
     return min(max(float(between), free), LONGEST)

@@ -16,9 +16,6 @@ from disc_model.stability.attractor.outcome import CERTAIN, OutcomeResult, find_
 from disc_model.studies.document import CriticalSpeedOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
-DOUBT = 0.05
-"""Usual error of a predicted first separation, over the time in which the departure grows by e. At 60 points over speed
-and preload it is 0.014 at most; the phase of a departure, which is lost, may cause more."""
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 COLUMNS = {
@@ -52,16 +49,13 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
     p, scan = point.parameters, options.scan
     motions: dict[int, OutcomeResult] = {}
     known: dict[int, float] = {}
-    total = 0.0
 
     def speed(i: int) -> float:
         return float(f"{scan.start + i * options.precision:.12g}")
 
     def look(i: int) -> None:
         """Compute the motion at the i-th speed of the lattice, which is not known yet."""
-        nonlocal total
         found = motions[i] = motion(p.replace(Omega=speed(i)), options)
-        total += found.simulated
         none = math.isnan(found.first_separation) and found.status == "ok"
         known[i] = math.inf if none else found.first_separation
 
@@ -79,7 +73,7 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
         "scan_first_separation": [motions[i].first_separation for i in scanned],
         "scan_status": [motions[i].status for i in scanned],
         "simulations": len(motions),
-        "simulated_time": total,
+        "simulated_time": sum(found.simulated for found in motions.values()),
     }
     values |= listed([_crossings(known, horizon, speed) for horizon in options.horizons])
     return values, "; ".join(f"Omega={speed(i):g}: {found.message}" for i, found in failed.items())
@@ -89,8 +83,9 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
     """The motion from the static start, up to the longest horizon; `simulated` is all that was simulated for it."""
     horizon = options.horizons[-1]
     found = find_outcome(case, horizon, tol=options.tol, furthest=CERTAIN, early=options.early_end)
-    # a predicted first separation is known to a fraction of the growth time
-    doubt = 0.0 if found.departed is None else DOUBT / found.departed.growth_rate
+    # A predicted first separation is known to a fraction of the growth time: its error was 0.014 of it at most at 60
+    # points over speed and preload, and the phase of a departure, which is lost, may cause more.
+    doubt = 0.0 if found.departed is None else 0.05 / found.departed.growth_rate
     if any(abs(found.first_separation - one) < doubt for one in options.horizons):
         return find_outcome(case, horizon, tol=options.tol, furthest=0.0).after(found)
     return found

@@ -24,8 +24,6 @@ COLUMNS = {
     ),
 }
 COORDINATES = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
-STRETCH = 100.0
-"""Length of a stretch of the way down that is simulated at once, s; events of all of it would fill hundreds of MB."""
 _TIME, _KIND = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
 
 
@@ -74,7 +72,8 @@ class _Run:
         """Time of the last loss of contact after the way down began, s; nan if there is none."""
         last, end = math.nan, self.bottom + self.options.dwell
         while state.time < end:
-            run = self._on(state, min(state.time + STRETCH, end), events=True)
+            # events of all of the way would fill hundreds of MB
+            run = self._on(state, min(state.time + 100.0, end), events=True)
             lost = run.event_rows[run.event_rows[:, _KIND] == LOSS_OF_CONTACT, _TIME]
             last = float(lost[-1]) if lost.size else last
             if not run.status.complete:

@@ -60,18 +60,6 @@ COLUMNS = {
     "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
 }
 
-FINE = 2
-"""Greatest side of a cell, in intervals, in which the middle of an edge is presumed to equal its ends."""
-SMOOTH = 0.002
-"""Distance of neighbouring cycles, over the static deflection, below which they are one continued cycle."""
-ANOTHER = 0.02
-"""Distance of neighbouring cycles, over the static deflection, above which they may be different."""
-SCATTERED = 1
-"""A point without a cycle lies on a strip thinner than the grid if at most so many neighbours have none."""
-SEPARATING = 5.0
-"""Time for which a motion is followed for its history, after its outcome was known, s."""
-MOST_CYCLES = 4
-"""Greatest number of cycles continued from point to point."""
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
 CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
@@ -93,7 +81,7 @@ def state_at(point: Point, options: RegionsOptions) -> State:
         return state
     if found.state is None:
         return simulate(p, options.horizon, tol=options.tol).raise_for_status().final_state
-    end = found.state.time + SEPARATING
+    end = found.state.time + 5.0  # what the separation leads to
     return simulate(p, end, tol=options.tol, initial_state=found.state).raise_for_status().final_state
 
 
@@ -144,7 +132,8 @@ class _Tile:
             beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
             doubtful = outcome in CALM
             if self._own((i, j)) is None:
-                doubtful = sum(self._own(there) is None for there in beside) <= SCATTERED
+                # the strip of points without a cycle is thinner than the grid
+                doubtful = sum(self._own(there) is None for there in beside) <= 1
             if doubtful:
                 self.outcome((i, j))
 
@@ -218,13 +207,13 @@ class _Tile:
         if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
             self.filled |= {place: next(iter(outcomes)) for place in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
-            if side <= FINE:
+            if side <= 2:
                 self._presume(rows, columns)
             for i, j in product(*halves):
                 self._refine(i, j)
 
     def _presume(self, rows: Place, columns: Place) -> None:
-        """Presume that an edge has the outcome of its equal corners; a cell beside it may find otherwise."""
+        """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside it may differ."""
         edges = [((row, columns[0]), (row, columns[1])) for row in rows]
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for one, two in edges:
@@ -267,7 +256,7 @@ class _Tile:
         size = float(np.linalg.norm(two.map.static))
         # in units of the static deflection, which varies with the parameters
         x = one.x * size / float(np.linalg.norm(one.map.static))
-        if np.linalg.norm(x - two.x) <= SMOOTH * size:
+        if np.linalg.norm(x - two.x) <= 0.002 * size:  # smoothly
             return "yes"
         found = newton(two.map, x, tol=CYCLE_TOL, releases=two.cycle.releases)
         return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME_POINT * size else "no"
@@ -330,9 +319,9 @@ class _Tile:
         # in units of the static deflection, which varies with the parameters
         scale = size / float(np.linalg.norm(there.map.static))
         for cycle in known[before]:
-            if len(known[here]) >= MOST_CYCLES:
+            if len(known[here]) >= 4:  # further ones cost too much
                 return
-            if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= ANOTHER * size:
+            if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= 0.02 * size:  # not another one
                 continue
             found = newton(start.map, scale * cycle, tol=CYCLE_TOL, releases=there.cycle.releases)
             if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME_POINT * size:

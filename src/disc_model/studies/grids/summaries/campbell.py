@@ -25,10 +25,6 @@ LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
-FEWEST = 3
-LIKE = 0.75
-"""Modal assurance criterion from which a multiplier belongs to a mode. A real multiplier, in a resonance, resembles the
-conjugate as much, and has 0.5 at most."""
 _EACH = ("crossing",)
 COLUMNS: Mapping[str, Variable] = {
     "n_crossings": Variable("1", "number of crossings found", whole=True),
@@ -89,7 +85,9 @@ def frequency_of(mode: xr.Dataset) -> Array:
     """Frequency of a mode at all speeds, Hz, as the module's docstring describes."""
     sliding = mode["sliding_frequency"].values
     more = mode["cycle_frequency"].values - sliding
-    known = np.isfinite(more) & (mode["mac"].values >= LIKE)
+    # From this mac on a multiplier belongs to the mode. A real multiplier, in a resonance, resembles the conjugate as
+    # much, and has 0.5 at most.
+    known = np.isfinite(more) & (mode["mac"].values >= 0.75)
     speeds = mode["Omega"].values
     return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
 
@@ -113,7 +111,7 @@ def effect_of(detuning: Array, place: int, growth: Array, leading: Array, option
     first = outside.max(initial=-1, where=outside <= place)
     last = outside.min(initial=len(detuning), where=outside > place)
     within = slice(first + 1, last)
-    if first < 0 or last >= len(detuning) or last - first - 1 < FEWEST:
+    if first < 0 or last >= len(detuning) or last - first - 1 < 3:
         return {"effect": "unresolved"}
     highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
     if not np.isfinite(leading[first : last + 1]).all():
