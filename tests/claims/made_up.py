@@ -6,8 +6,9 @@ config/paper.yaml asks for.  `AS_TOLD` is what the paper says happened, `TO_THE_
 
 import cmath
 import dataclasses
+import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Self
@@ -90,6 +91,11 @@ def natural(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
 def few(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     """The drive and the stick-slip rate."""
     return waves(t, (drive(p), 1.0), (rate, 0.01))
+
+
+def loud(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
+    """As `few`, ten thousand times as strong."""
+    return 1e4 * few(p, rate, t)
 
 
 def erratic(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
@@ -338,17 +344,36 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     return xr.DataTree.from_dict({f"/{name}": tell(SPECS[name], story) for name, story in stories.items()})
 
 
+WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
+WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes")
+
+
+def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, /, **variables: Any) -> xr.Dataset:
+    """A grid study: each variable along the first axes, as many as it has dimensions, its words as flags.
+
+    stated : what it states, as its base and as its options alike
+    """
+    found = xr.Dataset(coords=axes, attrs=dict.fromkeys(("base", "options"), json.dumps(stated or {})))
+    for name, given in variables.items():
+        values, attrs = np.asarray(given), {}
+        if values.dtype.kind == "U":
+            values, attrs = np.vectorize(WORDS.index)(values), {"flag_meanings": " ".join(WORDS)}
+        found[name] = (list(axes)[: values.ndim], values, attrs)
+    return found
+
+
 def scans(
     least: float = 0.2,
     settled: bool = True,
-    discs: tuple[str, ...] = ("growing", "quiet", "separation"),
-    windows: tuple[tuple[float, float], ...] = ((20, np.nan), (10, np.nan), (15, np.nan)),
+    discs: Sequence[str] = ("growing", "quiet", "separation"),
+    windows: Sequence[tuple[float, float]] = ((20, np.nan), (10, np.nan), (15, np.nan)),
     damped: str = "separation",
     strong: str = "",
     reach: int = 5,
-    soft: tuple[str, ...] = ("separation",) * 3,
+    soft: Sequence[str] = ("separation",) * 3,
     faster: float = 0.3,
     others: float = 0.9,
+    lasts: Sequence[float] = (),
 ) -> dict[str, xr.Dataset]:
     """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
 
@@ -360,69 +385,50 @@ def scans(
     soft : outcome with the softest spring at 10, 11.25 and 20 rad/s
     faster : share of stick beyond 15.25 rad/s
     others : share of random starts that separate at 385 N, 15 rad/s, where the static one does not
+    lasts : rad/s, where separation ends in sweeps down, at three preloads; no sweeps if there are none
     """
+    published, preloads = {"normalization": ["as_published"]}, [50.0, 200.0, 385.0, 500.0, 510.0]
     shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
     shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
-    bonded = {"stick_fraction": (("Omega", "N"), shares), "settling_time": (("Omega", "N"), times)}
-    kinds = ["failed", "quiet", "growing", "separation"]
-    outcome = np.full((3, 2, 2), kinds.index("quiet"), dtype=np.int8)
-    outcome[:, 1] = np.array([[kinds.index(kind)] for kind in discs])
-    flags = {"flag_values": np.arange(len(kinds), dtype=np.int8), "flag_meanings": " ".join(kinds)}
-    map_E = xr.Dataset(
-        {"outcome": (("E", "Omega", "normalization"), outcome, flags)},
-        {"E": [8e10, 1e11, 1.5e11], "Omega": [10, 50], "normalization": ["as_published", "orthonormal"]},
-        {"study": "map_E", "base": '{"N": 200}', "options": '{"horizon": 1000}'},
-    )
-    springs = np.full((3, 3, 1), kinds.index("separation"), dtype=np.int8)
-    springs[:, 2, 0], springs[:, 0, 0] = kinds.index("quiet"), [kinds.index(kind) for kind in soft]
-    map_k = xr.Dataset(
-        {"outcome": (("Omega", "k", "normalization"), springs, flags)},
-        {"Omega": [10.0, 11.25, 20.0], "k": [1e4, 2e4, 1e5], "normalization": ["as_published"]},
-        {"study": "map_k", "base": '{"N": 200}', "options": '{"horizon": 1000}'},
-    )
-    kinds = np.where(np.isnan(windows), 0, [1, 2])[:, None, None]
-    crossings = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": "none begins ends"}
-    speeds = np.array(windows)[:, None, None]
-    along = ("N", "normalization", "horizon", "crossing_number")
-    loads = {"N": [50.0, 200.0, 385.0, 500.0, 510.0][: len(windows)], "normalization": ["as_published"]}
-    critical_speed = xr.Dataset(
-        {
-            "status": (
-                along[:2],
-                np.zeros((len(windows), 1), dtype=np.int8),
-                {"flag_values": [0], "flag_meanings": "ok"},
-            ),
-            "critical_speed": (along[:3], speeds[..., 0]),
-            "crossing": (along, speeds),
-            "crossing_kind": (along, kinds.astype(np.int8), crossings),
-        },
-        loads | {"horizon": [1000.0], "scan_Omega": [5.0, 24.0]},
-    )
+    bonded = {"stick_fraction": shares, "settling_time": times}
+    speeds = np.array(windows)[:, None]
+    kinds = np.where(np.isnan(speeds), "none", ["begins", "ends"])
+    crossings = {"critical_speed": [speeds[..., 0]], "crossing": [speeds], "crossing_kind": [kinds]}
+    along = published | {"N": preloads[: len(windows)], "horizon": [1000.0], "crossing_number": [0, 1]}
+    on_discs = [np.stack([("quiet",) * 3, discs], axis=1), np.full((3, 2), "quiet")]
+    springs = [(kind, "separation", "quiet") for kind in soft]
     dampers = [0, 0.5, *([0.75] if strong else [])]
-    pulled = np.ones((5, len(dampers), 1), dtype=np.int8)
-    pulled[2:, 1] = pulled[1, 0] = flags["flag_meanings"].split().index(damped)
-    pulled[2:, 2:] = flags["flag_meanings"].split().index(strong or damped)
-    pulled[reach:] = pulled[0]
+    pulled = np.full((5, len(dampers)), "quiet", dtype="<U12")
+    pulled[2:reach, 1], pulled[1, 0], pulled[2:reach, 2:] = damped, damped, strong or damped
     falls = np.linspace(0.02, 0.01 if damped == "separation" else 0.03, len(dampers))
-    map_c_p = xr.Dataset(
-        {
-            "outcome": (("N", "c_p", "normalization"), pulled, flags),
-            "growth_rate": (("N", "c_p", "normalization"), np.tile(falls[:, None], (5, 1, 1))),
-        },
-        {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "normalization": ["as_published"], "c_p": dampers},
-        {"study": "map_c_p", "base": '{"Omega": 15}', "options": '{"horizon": 1000}'},
-    )
-    plain = xr.Dataset(bonded, {"Omega": [10, 50, 100], "N": [50, 385]}, {"options": '{"horizon": 800}'})
-    sticks = {"stick_fraction": ("Omega", [0.31, 0.3, faster, faster])}
-    diagram = xr.Dataset(sticks, {"Omega": [15.0, 15.25, 15.5, 16.0]})
-    apart = {
-        "separating_fraction": (("Omega", "normalization"), [[0.0], [others]]),
-        "separating_fraction_low": (("Omega", "normalization"), [[0.0], [others / 2]]),
+    random = published | {"Omega": [10.0, 15.0], "energy": [0.01, 3.0], "start": range(10)}
+    found = {
+        "basins": grid(
+            random, {"N": 385}, separating_fraction=[[0.0, others]], separating_fraction_low=[[0.0, others / 2]]
+        ),
+        "bifurcation_Omega": grid({"Omega": [15.0, 15.25, 15.5, 16.0]}, stick_fraction=[0.31, 0.3, faster, faster]),
+        "bonded": grid({"Omega": [10, 50, 100], "N": [50, 385]}, {"horizon": 800}, **bonded),
+        "critical_speed": grid(along | {"scan_Omega": [5.0, 24.0]}, status=[["ok"] * len(windows)], **crossings),
+        "map_E": grid(
+            {"normalization": ["as_published", "orthonormal"], "E": [8e10, 1e11, 1.5e11], "Omega": [10, 50]},
+            {"N": 200, "horizon": 1000},
+            outcome=on_discs,
+        ),
+        "map_c_p": grid(
+            published | {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "c_p": dampers},
+            {"Omega": 15, "horizon": 1000},
+            outcome=[pulled],
+            growth_rate=[np.tile(falls, (5, 1))],
+        ),
+        "map_k": grid(
+            published | {"Omega": [10.0, 11.25, 20.0], "k": [1e4, 2e4, 1e5]},
+            {"N": 200, "horizon": 1000},
+            outcome=[springs],
+        ),
     }
-    tried = {"Omega": [10.0, 15.0], "normalization": ["as_published"], "energy": [0.01, 3.0], "start": range(10)}
-    basins = xr.Dataset(apart, tried, {"base": '{"N": 385}'})
-    found = {"basins": basins, "bonded": plain, "critical_speed": critical_speed, "bifurcation_Omega": diagram}
-    return found | {"map_E": map_E, "map_c_p": map_c_p, "map_k": map_k}
+    if lasts:
+        found["hysteresis"] = grid(published | {"N": preloads[:3]}, {"dwell": 60}, offset_speed=[lasts])
+    return found
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:

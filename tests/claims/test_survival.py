@@ -1,6 +1,5 @@
 """What survives: every verdict on data made up so that it holds, that it does not, and that they do not tell."""
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -18,18 +17,11 @@ from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, pag
 from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES
 from disc_model.studies.study import load_study
-from tests.claims.made_up import logistic
+from tests.claims.made_up import grid, logistic
 
 BY_TITLE = {one.id: one for one in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"
 DIM = "normalization_contact_compliance_contact_force"
-
-
-def flag(words: np.ndarray, meanings: Sequence[str], dims: Sequence[str]) -> xr.Variable:
-    """Words as a grid study holds them."""
-    numbers = np.vectorize(list(meanings).index, otypes=[np.int64])(words)
-    attrs = {"flag_values": np.arange(len(meanings)), "flag_meanings": " ".join(meanings)}
-    return xr.Variable(dims, numbers, attrs)
 
 
 def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Finding:
@@ -43,14 +35,13 @@ POINTS = {"N": [50.0, 385.0], "Omega": [10.0, 20.0, 30.0]}
 
 
 def growth(*rates: float) -> xr.Dataset:
-    return xr.Dataset({"growth_rate": (("N", "Omega"), np.reshape(rates, (2, 3)))}, POINTS)
+    return grid(POINTS, growth_rate=np.reshape(rates, (2, 3)))
 
 
 def outcome(letters: str) -> xr.Dataset:
     """A letter for each point: s separates, q is quiet, g grows without, x failed."""
     words = {"s": "separation", "q": "quiet", "g": "growing", "x": "failed"}
-    found = np.array([words[letter] for letter in letters]).reshape(2, 3)
-    return xr.Dataset({"outcome": flag(found, ("failed", "quiet", "growing", "separation"), ("N", "Omega"))}, POINTS)
+    return grid(POINTS, outcome=np.reshape([words[letter] for letter in letters], (2, 3)))
 
 
 NAN = float("nan")
@@ -64,18 +55,14 @@ def curves(
     kind: str, speeds: tuple[float, float], border: str = "yes", status: str = "ok", missed: int = 0
 ) -> xr.Dataset:
     """One curve from 380 to 390 N, and room for another."""
-    dims = ("curve", "curve_point")
-    x, y = np.full((2, 3), NAN), np.full((2, 3), NAN)
-    x[0, :2], y[0, :2] = speeds, (380.0, 390.0)
-    return xr.Dataset(
-        {
-            "kind": flag(np.array([kind, "none"]), ("none", "neutral", "fold"), ["curve"]),
-            "x": (dims, x),
-            "y": (dims, y),
-            "adjoins_stable_cycle": flag(np.full((2, 3), border), ("no", "yes"), dims),
-            "status": flag(np.array(status), ("ok", "failed"), ()),
-            "n_continuation_failures": missed,
-        }
+    return grid(
+        {"curve": [0, 1], "curve_point": [0, 1, 2]},
+        kind=[kind, "none"],
+        x=[[*speeds, NAN], [NAN] * 3],
+        y=[[380.0, 390.0, NAN], [NAN] * 3],
+        adjoins_stable_cycle=np.full((2, 3), border),
+        status=status,
+        n_continuation_failures=missed,
     )
 
 
@@ -84,17 +71,9 @@ QUIET, UNSTABLE = growth(*[-0.1] * 5, 0.1), growth(*[0.1] * 6)
 
 def speeds(*begins: float, status: str = "ok") -> xr.Dataset:
     """At 385 N alone; the second crossing is an end of separation at 15.1 rad/s, which counts for nothing."""
-    kinds = ["begins"] * len(begins) + ["ends"]
-    dims = ("N", "horizon", "crossing_number")
-    grid = xr.Dataset(
-        {
-            "crossing": (dims, np.array([[[*begins, 15.1]]])),
-            "crossing_kind": flag(np.array([[kinds]]), ("none", "begins", "ends"), dims),
-            "status": flag(np.array([status]), ("ok", "failed"), ["N"]),
-        },
-        {"N": [385.0]},
-    )
-    return grid.assign_attrs(options=json.dumps({"precision": 0.1}))
+    kinds = [*["begins"] * len(begins), "ends"]
+    axes = {"N": [385.0], "horizon": [1000.0], "crossing_number": range(len(kinds))}
+    return grid(axes, {"precision": 0.1}, status=[status], crossing=[[[*begins, 15.1]]], crossing_kind=[[kinds]])
 
 
 def at_fold(found: xr.Dataset, *begins: float, rates: xr.Dataset = QUIET) -> dict[str, xr.Dataset]:
@@ -102,27 +81,16 @@ def at_fold(found: xr.Dataset, *begins: float, rates: xr.Dataset = QUIET) -> dic
 
 
 def critical(*found: float) -> dict[str, xr.Dataset]:
-    study = {
-        "critical_speed": (("N", "horizon"), np.array(found)[:, None]),
-        "status": flag(np.full(4, "ok"), ("ok", "failed"), ["N"]),
-    }
-    return {"speed": xr.Dataset(study, {"N": [50.0, 100.0, 200.0, 385.0]})}
+    axes = {"N": [50.0, 100.0, 200.0, 385.0], "horizon": [1000.0]}
+    return {"speed": grid(axes, critical_speed=np.array(found)[:, None], status=["ok"] * 4)}
 
 
 def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok") -> dict[str, xr.Dataset]:
     """Growth rates over preload and speed without and with one damper."""
     rates = np.stack([without, damped])
-    values = {"c": [0.0, 0.0], "c_p": [0.0, 0.0]}
-    values[name][1] = 0.5
-    words = np.where(np.isnan(rates), status, "ok")
-    dims = ("c_c_p", "N", "Omega")
-    coords = {key: ("c_c_p", value) for key, value in values.items()}
-    meanings = ("ok", "no_cycle", "no_stick_slip")
-    study = xr.Dataset(
-        {"growth_rate": (dims, rates), "status": flag(words, meanings, dims)},
-        coords | {"N": [50.0, 385.0], "Omega": np.linspace(10, 50, rates.shape[2])},
-    )
-    return {"damping": study}
+    axes = {"c_c_p": [0, 1], "N": [50.0, 385.0], "Omega": np.linspace(10, 50, rates.shape[2])}
+    study = grid(axes, growth_rate=rates, status=np.where(np.isnan(rates), status, "ok"))
+    return {"damping": study.assign_coords({each: ("c_c_p", [0.0, 0.5 * (each == name)]) for each in ("c", "c_p")})}
 
 
 GROWING = np.array([[-0.1, 0.1, 0.2], [0.05, 0.1, NAN]])
