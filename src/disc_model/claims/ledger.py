@@ -73,7 +73,7 @@ def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
         shared=len(shared), before=len(lost + both), after=len(both + gained),
         lost=_listed(lost), both=_listed(both), gained=_listed(gained),
     )  # fmt: skip
-    rates = {name: [measures.growth_or_nan(each[name].parameters) for each in (old, new)] for name in whole}
+    rates = {name: [each[name].growth_rate for each in (old, new)] for name in whole}
     known = {name: pair for name, pair in rates.items() if not any(map(math.isnan, pair))}
     higher = [name for name, (before, after) in known.items() if after > before]
     text += texts["growth"].format(known=len(known), lower=len(known) - len(higher), higher=_listed(higher))
@@ -130,9 +130,7 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
     table = {"Case": [case.name for case in cases], "Parameters": given}
     table |= {f"First separation{which}": [_first(case) for case in those] for which, those in pairs.items()}
     table |= {
-        f"Growth{which} (1/s)": [
-            measures.rate_text(measures.growth_or_nan(case.parameters), without="–") for case in those
-        ]
+        f"Growth{which} (1/s)": [measures.rate_text(case.growth_rate, without="–") for case in those]
         for which, those in pairs.items()
     }
     table[f"P in the end{[*pairs][-1]} (N)"] = [_late(case) for case in new or cases]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -29,6 +29,8 @@ STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "s
 STRETCHES, STRETCH = 3, 20.0
 """A motion is steady if its ranges of contact force and disc hardly change: over the last three stretches of 20 s they
 differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails."""
+LOW, HIGH = 20.0, 700.0
+"""Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
 EARLY = (1.0, 1.0 + STRETCH)
 """The first 20 s without the first second, s."""
 
@@ -93,6 +95,11 @@ class CaseView:
         return place(self["N"], self["Omega"])
 
     @property
+    def drive(self) -> float:
+        """Frequency of the drive, Hz."""
+        return self["Omega"] / (2 * np.pi)
+
+    @property
     def first(self) -> str:
         """Time of the first separation, in words."""
         return self.first_separation()
@@ -100,7 +107,7 @@ class CaseView:
     @property
     def growth(self) -> str:
         """Growth rate of small disturbances of its cycle, in words."""
-        rate = growth_or_nan(self.parameters)
+        rate = self.growth_rate
         return "no stick-slip cycle" if math.isnan(rate) else f"growth {rate_text(rate)}/s"
 
     @property
@@ -122,6 +129,26 @@ class CaseView:
     def late(self) -> Range:
         """Range of the contact force over the last 20 s, N."""
         return self.late_range("P")
+
+    @property
+    def disc(self) -> Range:
+        """Range of the disc's point over the last 20 s, m."""
+        return self.late_range("w_point")
+
+    @property
+    def stick(self) -> float:
+        """Fraction of time in stick, within the stored events."""
+        return self.phase_share("stick")
+
+    @property
+    def stick_in_all(self) -> float:
+        """Fraction of time in stick, of the whole run."""
+        return self["time_stick"] / self["time_reached"]
+
+    @property
+    def growth_rate(self) -> float:
+        """Largest growth rate of small disturbances of its cycle, 1/s; nan if there is none."""
+        return growth_or_nan(self.parameters)
 
     @property
     def events(self) -> xr.Dataset:
@@ -250,27 +277,12 @@ class CaseView:
         seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
         return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
-    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> tuple[Array, Array]:
-        """Times of the samples of a window between two times, and a variable there; raises `Missing` without any."""
+    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> Signal:
+        """A variable between two times, from the samples of a window; raises `Missing` without any."""
         found = self.samples(window).sel(time=slice(start, stop))
         if found.sizes["time"] < 100:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
-        return found["time"].values, found[name].values
-
-    def lines(self, window: str, start: float, stop: float, name: str = "w_point", **options: float) -> list[Line]:
-        """Lines of a variable between two times, as by `disc_model.analysis.spectra`; raises `Missing` without any."""
-        time, values = self.signal(window, start, stop, name)
-        found = spectra.lines(time, values, **options)
-        if not found:
-            raise Missing(f"case {self.name} has no line in the spectrum of {window}")
-        return found
-
-    def strongest(self, samples: tuple[Array, Array], near: float, within: float) -> Line:
-        """The strongest line of the disc's point within `within` Hz of a frequency; raises `Absent`."""
-        try:
-            return spectra.strongest(*samples, near, within)
-        except ValueError as error:
-            raise Absent(f"case {self.name}: {error} in w_point") from None
+        return Signal(self.name, window, start, stop, found["time"].values, found[name].values)
 
     def sections(self, first: float, end: float) -> list[Section]:
         """Sections before a time, and in the later half of the time from there to an end."""
@@ -298,6 +310,51 @@ class CaseView:
         if not width.min() > 0:
             raise Missing(f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s")
         return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
+
+
+@dataclass(frozen=True)
+class Signal:
+    """Samples of a case between two times, s; `filled` and `high` are comparable for stretches of equal length only."""
+
+    case: str
+    window: str
+    start: float
+    stop: float
+    time: Array
+    values: Array
+
+    @property
+    def width(self) -> float:
+        return float(np.ptp(self.values))
+
+    @cached_property
+    def filled(self) -> float:
+        """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it, lines do not."""
+        return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
+
+    @cached_property
+    def high(self) -> float:
+        """Ratio of the power above `HIGH` to that above `LOW`."""
+        return self.power_above(HIGH)
+
+    def power_above(self, frequency: float) -> float:
+        """Ratio of the power above a frequency in Hz to that above `LOW`; raises `Missing` without any line."""
+        self.lines(above=LOW)
+        return spectra.power_share(self.time, self.values, frequency, LOW)
+
+    def lines(self, **options: float) -> list[Line]:
+        """Lines, as by `disc_model.analysis.spectra`; raises `Missing` without any."""
+        found = spectra.lines(self.time, self.values, **options)
+        if not found:
+            raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
+        return found
+
+    def strongest(self, near: float, within: float) -> Line:
+        """The strongest line within `within` Hz of a frequency; raises `Absent`."""
+        try:
+            return spectra.strongest(self.time, self.values, near, within)
+        except ValueError as error:
+            raise Absent(f"case {self.case}: {error} in w_point") from None
 
 
 def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
@@ -363,7 +420,7 @@ def another_motion(*cases: CaseView) -> list[str]:
     found = []
     for case in cases:
         other = begun.get(case.parameters) if case.from_rest else None
-        if other is not None and stick_disappears(case.phase_share("stick"), other.phase_share("stick")):
+        if other is not None and stick_disappears(case.stick, other.stick):
             motion = classify_intervals(tuple(other.intervals("separation")))
             how = f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
             found.append(f"at {case.place} {how}")

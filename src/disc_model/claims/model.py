@@ -22,6 +22,7 @@ from disc_model.analysis.classify import SETTLED
 from disc_model.claims.measures import STRETCH, Absent, CaseView, elsewhere, rows, simulate_again
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Part, Sentences
+from disc_model.data.variables import stated_in
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 
@@ -63,8 +64,8 @@ class Answer:
     ----------
     holds : whether the claim holds; None if the evidence does not decide it
     why : in that case, the key of the text's reason for it; empty if no evidence of this kind can decide
-    values : values for the sentences beside bounds and cases (each by its name, the first as ``case``, all as rows of
-        ``cases``); a remark is added if the value of its name is true
+    values : values for the sentences beside bounds, what grid studies state (each by its name) and cases (each by its
+        name, the first as ``case``, all as rows of ``cases``); a remark is added if the value of its name is true
     """
 
     def __init__(self, holds: bool | np.bool_ | None, why: str = "", /, **values: Any) -> None:
@@ -198,8 +199,13 @@ class Claim:
                 text = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(text, NOT_TESTABLE)
             wanted = (*self.texts.scans, *self.texts.beside)
-            scans = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
-            answer = self.check(*needed.values(), *scans, **self.numbers)
+            studies = {name: cases[name].node.to_dataset() if name in cases else None for name in wanted}
+            answer = self.check(*needed.values(), *studies.values(), **self.numbers)
+            answer.values |= {
+                name: stated_in(study, "base") | stated_in(study, "options")
+                for name, study in studies.items()
+                if study is not None
+            }
             if "elsewhere" in self.texts.remarks:
                 answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
             found = self._found(answer, needed)

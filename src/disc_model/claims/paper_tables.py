@@ -46,9 +46,8 @@ def table_2(case: CaseView) -> pd.DataFrame:
         symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is (`UNNAMED` if no
         combination is within `COMBINED` of the line), predicted_Hz (of the nearest combination), paper_says
     """
-    drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case)
-    found = table_2_lines(case)
-    names = [spectra.identify(line.frequency, rate, drive) for line in found]
+    rate, found = stick_slip_rate(case), table_2_lines(case)
+    names = [spectra.identify(line.frequency, rate, case.drive) for line in found]
     return _beside_the_papers(
         ours_Hz=[line.frequency for line in found],
         level_dB=[20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
@@ -73,12 +72,11 @@ def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) ->
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """The strongest line near each frequency of Table 2."""
-    window = case.signal("spectrum_a", 0, 10)
-    within = [SEARCHED if paper > 10 else SEARCHED / 4 for paper in LISTED]
-    return [case.strongest(window, *near) for near in zip(LISTED, within, strict=True)]
+    signal = case.signal("spectrum_a", 0, 10)
+    return [signal.strongest(paper, SEARCHED if paper > 10 else SEARCHED / 4) for paper in LISTED]
 
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
     """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
-    (line,) = measures.loudest(case.lines(window, start, stop, "psi", above=20.0), 1)
+    (line,) = measures.loudest(case.signal(window, start, stop, "psi").lines(above=20.0), 1)
     return line.frequency

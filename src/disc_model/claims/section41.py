@@ -13,7 +13,7 @@ from disc_model.claims import energy, measures
 from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome, stated_in
+from disc_model.data.variables import Outcome
 
 FULL = 1.1
 """A section is full if its last points hold at most this factor more distinct points than their last half."""
@@ -34,15 +34,14 @@ def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
     force = float(np.abs(window["P"].values[apart]).max(initial=0.0))
     span = float(window["time"][-1] - window["time"][0])
     rate = case.rate_of("separation")
-    return Answer(count >= fewest and force == 0.0, count=count, ms=span * 1e3, rate=rate, force=force)
+    return Answer(count >= fewest and force == 0.0, count=count, span=span, rate=rate, force=force)
 
 
 def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
     lost = case.switches("separation")
     velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
     upward = float(np.mean(velocity > 0))
-    numbers = {"count": velocity.size, "velocity": velocity.mean(), "mm": 1e3 * height.mean()}
-    return Answer(upward >= share, percent=100 * upward, **numbers)
+    return Answer(upward >= share, upward=upward, count=velocity.size, velocity=velocity.mean(), height=height.mean())
 
 
 def separations_are_short(*cases: CaseView, part: float) -> Answer:
@@ -50,8 +49,8 @@ def separations_are_short(*cases: CaseView, part: float) -> Answer:
     for case in cases:
         durations, still_open = case.separation_durations()
         longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
-        found.append({"case": case, "ms": 1e3 * longest, "period": 1e3 * period, "percent": 100 * longest / period})
-    return Answer(max(row["percent"] for row in found) < 100 * part, longest=found)
+        found.append({"case": case, "lasts": longest, "period": period, "share": longest / period})
+    return Answer(max(row["share"] for row in found) < part, longest=found)
 
 
 def separations_end(*cases: CaseView, factor: float) -> Answer:
@@ -61,14 +60,14 @@ def separations_end(*cases: CaseView, factor: float) -> Answer:
         durations, still_open = case.separation_durations()
         count += durations.size
         if still_open > factor * durations.max():
-            lasting.append({"case": case, "ms": 1e3 * still_open})
+            lasting.append({"case": case, "time": still_open})
     return Answer(not lasting, count=count, lasting=lasting)
 
 
 def releases_regularly(case: CaseView, *, within: float) -> Answer:
     intervals = case.intervals()
     spread = irregularity(intervals)
-    return Answer(spread <= within, interval=1e3 * intervals.mean(), rate=1 / intervals.mean(), spread=spread)
+    return Answer(spread <= within, interval=intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
 
 def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
@@ -89,19 +88,15 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
 
 
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
-    stick, (motion, _) = case.phase_share("stick"), case.late_motion()
-    return Answer(stick > share, percent=100 * stick, modulated=not motion.period)
+    return Answer(case.stick > share, modulated=not case.late_motion()[0].period)
 
 
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
-    shares = [case.phase_share("stick") for case in cases]
-    rows = [{"case": case, "percent": 100 * stick} for case, stick in zip(cases, shares, strict=True)]
-    return Answer(min(shares) > share, sticks=rows)
+    return Answer(min(case.stick for case in cases) > share)
 
 
 def stick_is_gone(case: CaseView, *, share: float) -> Answer:
-    whole, late = case["time_stick"] / case["time_reached"], case.phase_share("stick")
-    return Answer(stick_disappears(whole, late, share), whole=100 * whole, late=100 * late)
+    return Answer(stick_disappears(case.stick_in_all, case.stick, share))
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
@@ -120,7 +115,7 @@ def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
         theta = np.array([window.attrs["theta"] for window in windows])
         found.append(energy.powers(case.parameters, case["u_0"], theta, windows))
     kept, held = found
-    return Answer(kept.pulls > 0, pushes=kept.pushes, pulls=kept.pulls, gained=held.pushes, takes=kept.pulls <= 0)
+    return Answer(kept.pulls > 0, kept=kept, held=held, takes=kept.pulls <= 0)
 
 
 def excites_less(*cases: CaseView, part: float) -> Answer:
@@ -133,18 +128,17 @@ def excites_less(*cases: CaseView, part: float) -> Answer:
         withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
         mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
         mJ |= {"damped": held.damped, "impacts": held.impacts}
-        widths = {"mm": 1e3 * held.width, "most": 1e3 * kept[-1].width}
-        rows.append({"case": free, **widths, **{name: 1e3 * power * cycle for name, power in mJ.items()}})
+        mJ = {name: 1e3 * power * cycle for name, power in mJ.items()}
+        rows.append({"case": free, "width": held.width, "most": kept[-1].width, **mJ})
     return Answer(min(withheld) >= part, pairs=rows, impacts=max(withheld) < part)
 
 
 def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
-    """Late ranges of the disc by pair: with separation, without it, and their ratio."""
+    """Pairs, and the late range of the disc with separation over that without it."""
     rows = []
-    for case, ignored in pairs(cases):
-        free, bonded = (each.late_range("w_point").width for each in (case, ignored))
-        ratio = measures.ratio(free, bonded, f"the range of the disc in case {ignored.name}")
-        rows.append({"case": case, "free": 1e3 * free, "bonded": 1e3 * bonded, "ratio": ratio})
+    for case, bonded in pairs(cases):
+        ratio = measures.ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
+        rows.append({"case": case, "bonded": bonded, "ratio": ratio})
     return rows
 
 
@@ -201,8 +195,7 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
         changed, ignored = before.changed(after, share), before.changed(control, share)
         changes.append(any(changed))
         own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
-        stick = {name: 100 * one.stick for name, one in (("stick", before), ("then", after), ("ignored", control))}
-        found.append({"case": case, "before": before.width, "after": after.width, "control": control.width, **stick})
+        found.append({"case": case, "before": before, "after": after, "ignored": control})
     another = measures.another_motion(*cases)
     return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found, another=another)
 
@@ -215,12 +208,11 @@ def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
 
 
 def _with_stick(cases: Sequence[CaseView], factor: float) -> list[dict[str, Any]]:
-    """`_ranges`, with the late shares of stick in %, and whether range and share of stick differ by a factor."""
+    """`_ranges`, and whether the range and the late share of stick differ by a factor."""
     rows = _ranges(cases)
-    for row, pair in zip(rows, pairs(cases), strict=True):
-        shares = [100 * each.phase_share("stick") for each in pair]
-        row["stick"], row["without"] = shares
-        row["narrower"], row["otherwise"] = row["ratio"] * factor <= 1, max(shares) >= factor * min(shares)
+    for row in rows:
+        shares = row["case"].stick, row["bonded"].stick
+        row |= {"narrower": row["ratio"] * factor <= 1, "otherwise": max(shares) >= factor * min(shares)}
     return rows
 
 
@@ -281,7 +273,6 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
         count=points.sizes["point"],
         N=measures.extent(study["N"]),
         Omega=measures.extent(study["Omega"]),
-        horizon=stated_in(study, "options")["horizon"],
         settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
         moving=moving.size,
         least=_least_stick(moving) if moving.size else "",

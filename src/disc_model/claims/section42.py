@@ -10,7 +10,7 @@ from disc_model.claims.disc import moving_load_speed
 from disc_model.claims.measures import Absent, CaseView, Range
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import flag_names, stated_in
+from disc_model.data.variables import flag_names
 
 
 def quiet(case: CaseView, *, part: float, newtons: float) -> Answer:
@@ -27,13 +27,12 @@ def only_one_separates(*cases: CaseView, which: float) -> Answer:
 
 
 def disc_does_not_grow(case: CaseView, *, part: float) -> Answer:
-    early, late = case.range_of("w_point", *measures.EARLY).width, case.late_range("w_point").width
-    return Answer(late <= (1 + part) * early, early=1e3 * early, late=1e3 * late)
+    early = case.range_of("w_point", *measures.EARLY)
+    return Answer(case.disc.width <= (1 + part) * early.width, early=early)
 
 
-def larger_range(*cases: CaseView, factor: float) -> Answer:
-    below, above = (case.late_range("w_point").width for case in cases)
-    return Answer(above > factor * below, below=1e3 * below, above=1e3 * above)
+def larger_range(below: CaseView, above: CaseView, *, factor: float) -> Answer:
+    return Answer(factor * below.disc.width < above.disc.width)
 
 
 def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer:
@@ -52,10 +51,9 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     return Answer(None if again else holds, "again", scan=measures.extent(scan), step=step, horizon=horizon, **values)
 
 
-def very_different(*cases: CaseView, factor: float) -> Answer:
-    rows = [{"case": case, "motion": case.late_motion()[0]} for case in cases]
-    below, above = (case.late.width for case in cases)
-    return Answer(above > factor * below, motions=rows)
+def very_different(below: CaseView, above: CaseView, *, factor: float) -> Answer:
+    rows = [{"case": case, "motion": case.late_motion()[0]} for case in (below, above)]
+    return Answer(factor * below.late.width < above.late.width, motions=rows)
 
 
 def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: float) -> Answer:
@@ -79,9 +77,8 @@ def can_separate_above(study: xr.Dataset, sweeps: xr.Dataset | None, *, within: 
         raise Absent("no separation at any preload and speed")
     begins, horizon = measures.extent(lowest[found]), float(study["horizon"])
     below = [] if sweeps is None else _lasts_below(study["critical_speed"], sweeps, within)
-    dwell = 0.0 if sweeps is None else stated_in(sweeps, "options")["dwell"]
     counts = {"some": found.sum(), "count": found.size}
-    return Answer(True, loads=rows, begins=begins, horizon=horizon, top=top, below=below, dwell=dwell, **counts)
+    return Answer(True, loads=rows, begins=begins, horizon=horizon, top=top, below=below, **counts)
 
 
 def _lasts_below(critical: xr.DataArray, sweeps: xr.Dataset, within: float) -> list[dict[str, float]]:
@@ -103,5 +100,5 @@ def _scanned(study: xr.Dataset) -> xr.Dataset:
 def far_below(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters)
     lower = [case for case in cases if case["Omega"] < share * critical]
-    rows = [{"case": case, "percent": 100 * case["Omega"] / critical} for case in lower]
+    rows = [{"case": case, "part": case["Omega"] / critical} for case in lower]
     return Answer(any(case.separates for case in lower), lower=rows, critical=critical)

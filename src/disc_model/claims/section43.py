@@ -16,7 +16,7 @@ from disc_model.claims.disc import BASE, moving_load_speed
 from disc_model.claims.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
 from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome, flag_names, stated_in
+from disc_model.data.variables import Outcome, flag_names
 from disc_model.parameters import Parameters
 
 STIFFENED = {
@@ -32,15 +32,10 @@ GREW = 1.02
 
 
 def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
-    p = case.parameters
-    onset = _sliding_onset(p, step)
-    stuck = case["time_stick"] / case["time_reached"]
-    return Answer(
-        not case.separates and stuck < share and onset > case["Omega"],
-        percent=100 * stuck,
-        stable_to=onset - step,
-        true_speed=abs(onset - moving_load_speed(p)) <= step,
-    )
+    onset = _sliding_onset(case.parameters, step)
+    holds = not case.separates and case.stick_in_all < share and onset > case["Omega"]
+    at_load = abs(onset - moving_load_speed(case.parameters)) <= step
+    return Answer(holds, stable_to=onset - step, true_speed=at_load)
 
 
 @cache
@@ -51,29 +46,23 @@ def _sliding_onset(p: Parameters, step: float) -> float:
 
 
 def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
-    p = large.parameters
-    times = large.events["time"].values
+    p, times = large.parameters, large.events["time"].values
     if not times.size:
         raise Missing(f"case {large.name} keeps no event")
-    released = float(times[0])
-    needed = p.r_0 * p.k_p * p.Omega / p.mu_s
+    released, needed = float(times[0]), p.r_0 * p.k_p * p.Omega / p.mu_s
     expected = p.N / needed
-    return Answer(
-        stuck["time_slip"] == 0 and abs(released / expected - 1) < share,
-        released=1e3 * released,
-        expected=1e3 * expected,
-        needed=needed,
-    )
+    holds = stuck["time_slip"] == 0 and abs(released / expected - 1) < share
+    return Answer(holds, released=released, expected=expected, needed=needed)
 
 
 def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
     """Whether the case only sticks, which is damped; and whether the largest preload with releases is not stable."""
-    stable = _stays_calm(large) and growth_or_nan(large.parameters) < 0
+    stable = _stays_calm(large) and large.growth_rate < 0
     return Answer(stuck["time_slip"] == 0 and not stuck.separates, released=not stable)
 
 
 def stick_longer(*cases: CaseView) -> Answer:
-    small, large = (100 * measures.cycle_of(case.parameters).stick_fraction for case in cases)
+    small, large = (measures.cycle_of(case.parameters).stick_fraction for case in cases)
     return Answer(large > small, small=small, large=large)
 
 
@@ -196,8 +185,7 @@ def normal_stiffness(*evidence: Any) -> Answer:
     holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
-    N, horizon = stated_in(study, "base")["N"], stated_in(study, "options")["horizon"]
-    return Answer(None if holds and returns else holds, "speed", N=N, returns=returns, horizon=horizon)
+    return Answer(None if holds and returns else holds, "speed", returns=returns)
 
 
 def stiff_enough(case: CaseView) -> Answer:
@@ -236,7 +224,7 @@ def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
 
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    faster = growth_or_nan(base.parameters) > growth_or_nan(soft.parameters)
+    faster = base.growth_rate > soft.growth_rate
     rates, _ = _stiffened(base.parameters, "k_p")
     changes = np.count_nonzero(np.diff(np.sign(rates)))
     return Answer(sooner and faster and _stays_calm(stiff), between=changes > 1 and changes)
@@ -254,35 +242,31 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
     if not lost.sizes["event"]:
         raise Missing("case F23 keeps no separation")
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
-    lowest, extent = height.min(), np.ptp(height)
-    above = float(np.median(height[starts - 1]) - lowest) / extent
+    above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     return Answer(
         found.kind == "at the lowest position" and above <= bound,
-        kind=found.kind,
-        mm=1e3 * (where - case["u_0"]),
-        percent=100 * found.height,
+        found=found,
+        height=where - case["u_0"],
         speed=speed,
         falling=speed < 0,
-        further=100 * found.to_lowest,
         seldom=starts.size < 0.9 * swings,
         count=starts.size,
         swings=swings,
-        above=100 * above,
-        lowest=1e3 * lowest,
+        above=above,
+        lowest=height.min(),
     )
 
 
 def always_upward(*cases: CaseView, share: float) -> Answer:
-    shares = {}
+    shares: list[dict[str, Any]] = []
     for case in cases:
         velocity = case.switches("separation")["u_velocity"].values
         if case.separates and not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         if velocity.size:
-            shares[case.name] = float(np.mean(velocity > 0))
-    texts = [f"{name}: {100 * found:.0f} %" for name, found in shares.items()]
-    return Answer(min(shares.values(), default=0.0) >= share, shares=texts or ["none that separates"])
+            shares.append({"case": case, "upward": float(np.mean(velocity > 0))})
+    return Answer(min((row["upward"] for row in shares), default=0.0) >= share, shares=shares)
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, few: float) -> Answer:
@@ -305,9 +289,7 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, 
         True if decisive.all() else None if each or shown.any() else False,
         "some" if each else "beyond",
         N=measures.extent(loads),
-        compared=[f"{N:g}" for N in compared],
-        Omega=stated_in(study, "base")["Omega"],
-        horizon=stated_in(study, "options")["horizon"],
+        compared=compared,
         newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
         some=rows,
         partly=[] if each else rows,
@@ -348,7 +330,6 @@ def not_monotonous(*evidence: Any) -> Answer:
         most=damping[-1],
         lowered=lowered.sum(),
         growing=growing.sum(),
-        horizon=stated_in(study, "options")["horizon"],
     )
 
 
@@ -391,8 +372,6 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         mixed if some.any() and not softer else None,
         "enough" if softer else "nowhere",
-        horizon=stated_in(study, "options")["horizon"],
-        N=stated_in(study, "base")["N"],
         Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],
@@ -407,7 +386,7 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
     cycle = measures.cycle_of(case.parameters)
     leading = cycle.multipliers[0]
     start, stop = (float(case.samples("early")["time"][i]) for i in (0, -1))
-    found = case.lines("early", start, stop, "psi", above=1.0, below=200.0, floor=floor)
+    found = case.signal("early", start, stop, "psi").lines(above=1.0, below=200.0, floor=floor)
     (strongest,) = measures.loudest(found, 1)
     turn = abs(float(np.angle(leading))) / (2 * np.pi)
     expected = np.array([turn, 1 - turn, 1 + turn]) * strongest.frequency
@@ -419,9 +398,9 @@ def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> A
         imag=abs(leading.imag),
         start=start,
         stop=stop,
-        strongest=strongest.frequency,
+        strongest=strongest,
+        second=second,
         relative=second.amplitude / strongest.amplitude,
-        second=second.frequency,
         rate=cycle.growth_rate,
         early=start / 4,
         widths=[case.range_of("P", time, time + 20).width for time in (start / 4, stop)],
@@ -438,9 +417,9 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    shares = {case.place: case.phase_share("stick") for case in cases if case.from_rest}
-    texts = [f"N = {place}: {100 * stick:.1f} %" for place, stick in shares.items()]
-    return Answer(min(shares.values()) <= share, shares="; ".join(texts), another=measures.another_motion(*cases))
+    begun = [case for case in cases if case.from_rest]
+    vanishes = min(case.stick for case in begun) <= share
+    return Answer(vanishes, shares=measures.rows(begun), another=measures.another_motion(*cases))
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:

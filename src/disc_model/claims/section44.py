@@ -8,7 +8,7 @@ import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.claims import measures
-from disc_model.claims.measures import CaseView, is_kind
+from disc_model.claims.measures import HIGH, LOW, CaseView, is_kind
 from disc_model.claims.model import Answer
 from disc_model.claims.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.data.dataset import Missing
@@ -17,21 +17,18 @@ from disc_model.plate import coupled_natural_frequencies, plate_modes
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
 """Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""
-LOW, HIGH = 20.0, 700.0
-"""Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
 STILL = 3e-4
 """Greatest growth rate of a motion that counts as steady, 1/s, see `disc_model.claims.measures.STRETCH`."""
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
-    found, table = table_2_lines(case), table_2(case)
-    window = case.signal(*EARLY)
+    found, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
-    chance = max(spectra.chance(*window, line, SEARCHED) for line in found)
+    chance = max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in found)
     floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
     others = [
         line.frequency
-        for line in spectra.lines(*window, above=1.0, below=300.0, floor=floor, apart=1.0)
+        for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
     named = int((table["ours_is"] != UNNAMED).sum())
@@ -46,15 +43,13 @@ def lines(case: CaseView, *, bound: float) -> Answer:
 
 
 def drive(case: CaseView, *, level: float) -> Answer:
-    drive = case["Omega"] / (2 * np.pi)
-    (every,) = measures.loudest(case.lines(*EARLY, above=0.5 * drive), 1)
-    window = case.signal(*EARLY)
-    found = [case.strongest(window, n * drive, 0.4 * drive) for n in (1, 2, 3)]
-    levels = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
-    near = all(abs(line.frequency - n * drive) < 0.05 for n, line in zip((1, 2, 3), found, strict=True))
+    signal, orders = case.signal(*EARLY), (1, 2, 3)
+    (every,) = measures.loudest(signal.lines(above=0.5 * case.drive), 1)
+    found = [signal.strongest(n * case.drive, 0.4 * case.drive) for n in orders]
+    near = all(abs(line.frequency - n * case.drive) < 0.05 for n, line in zip(orders, found, strict=True))
     strongest = every.amplitude <= found[0].amplitude * (1 + 1e-9)
-    rows = [{"Hz": line.frequency, "dB": x} for line, x in zip(found, levels, strict=True)]
     loud = min(line.amplitude for line in found) > level * found[0].amplitude
+    rows = [{"line": line, "dB": 20 * np.log10(line.amplitude / found[0].amplitude)} for line in found]
     return Answer(near and strongest and loud, lines=rows)
 
 
@@ -62,13 +57,12 @@ def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away, near = [], [], [], []
     for case in cases:
-        found = sorted(measures.loudest(case.lines(*EARLY, above=100, below=300, apart=1.0), 6))
+        found = sorted(measures.loudest(case.signal(*EARLY).lines(above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in found]
         away += [_from_natural(case, line) for line in found]
-        near += [_from_natural(case, line) <= 4 * case["Omega"] / (2 * np.pi) for line in found]
-        lines = [line.frequency for line in found]
-        rows.append({"case": case, "rate": rate, "lines": lines})
+        near += [_from_natural(case, line) <= 4 * case.drive for line in found]
+        rows.append({"case": case, "rate": rate, "lines": [line.frequency for line in found]})
     combined = [each <= within for each in off]
     return Answer(
         all(near) and not any(combined),
@@ -82,9 +76,9 @@ def follow(*cases: CaseView, within: float) -> Answer:
 
 
 def inplane_pair(case: CaseView, *, within: float) -> Answer:
-    rate, drive = stick_slip_rate(case), case["Omega"] / (2 * np.pi)
-    found = measures.loudest(case.lines(*EARLY, above=40, below=100, apart=1.0), 2)
-    pair, split = sorted(line.frequency for line in found), [rate - drive, rate + drive]
+    rate = stick_slip_rate(case)
+    found = measures.loudest(case.signal(*EARLY).lines(above=40, below=100, apart=1.0), 2)
+    pair, split = sorted(line.frequency for line in found), [rate - case.drive, rate + case.drive]
     return Answer(len(pair) == 2 and np.allclose(pair, split, atol=within, rtol=0), rate=rate, pair=pair, split=split)
 
 
@@ -134,63 +128,49 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         pairs=found,
         without=free,
         level=max(_level(case, free) for case in cases[::2]),
-        spring=100 * spring,
+        spring=spring,
     )
 
 
 def _level(case: CaseView, frequency: float) -> float:
     """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    found, amplitude = spectra.amplitude_spectrum(*case.signal("late", 0.0, np.inf))
+    signal = case.signal("late", 0.0, np.inf)
+    found, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
     near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
     return measures.ratio(near, every, f"the spectrum of case {case.name}")
 
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate = stick_slip_rate(case)
-    found = case.lines(*EARLY, above=LOW, below=HIGH, floor=1e-3)
-    power = sum(line.amplitude**2 for line in found)
+    found = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
     made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
-    percent = 100 * sum(line.amplitude**2 for line in made) / power
-    return Answer(percent > 100 * share, percent=percent, made=len(made), count=len(found), rate=rate, low=LOW)
+    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, found))
+    return Answer(theirs / power > share, part=theirs / power, made=len(made), count=len(found), rate=rate)
 
 
 def three_kinds(case: CaseView, *, factor: float) -> Answer:
-    spans = (EARLY, LATER, LATE)
-    ranges = [float(np.ptp(case.signal(*span)[1])) for span in spans]
-    filled = [_fuzziness(case, *span) for span in spans]
-    rates = [case.slope("P", max(start, 1), stop) for _, start, stop in spans]
-    grown = [max(rate, STILL) for rate in rates]
-    kinds = zip(ranges, filled, grown, strict=True)
-    differ = [
-        any(max(pair) >= factor * min(pair) for pair in zip(one, other, strict=True))
-        for one, other in combinations(kinds, 2)
-    ]
-    rows = [
-        {"start": start, "stop": stop, "mm": 1e3 * width, "percent": 100 * share, "rate": rate}
-        for (_, start, stop), width, share, rate in zip(spans, ranges, filled, rates, strict=True)
-    ]
+    spans = [case.signal(*span) for span in (EARLY, LATER, LATE)]
+    rates = [case.slope("P", max(span.start, 1), span.stop) for span in spans]
+    rows = [{"span": span, "rate": rate} for span, rate in zip(spans, rates, strict=True)]
+    kinds = [(span.width, span.filled, max(rate, STILL)) for span, rate in zip(spans, rates, strict=True)]
+    differ = [any(max(pair) >= factor * min(pair) for pair in zip(*two, strict=True)) for two in combinations(kinds, 2)]
     return Answer(all(differ), spans=rows)
 
 
 def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
     """Whether lines appear that, unlike all main ones, do not combine the stick-slip frequency and the drive's."""
     rate = stick_slip_rate(case)
-    early, later = (
-        sum(
-            _from_combination(case, line, rate) > COMBINED
-            for line in case.lines(*span, above=LOW, below=300.0, floor=floor)
-        )
-        for span in (EARLY, LATER)
-    )
+    found = [case.signal(*span).lines(above=LOW, below=300.0, floor=floor) for span in (EARLY, LATER)]
+    early, later = (sum(_from_combination(case, line, rate) > COMBINED for line in each) for each in found)
     return Answer(later > factor * max(early, 1), early=early, later=later)
 
 
 def higher(case: CaseView, bonded: CaseView, *, factor: float, floor: float) -> Answer:
     first = case["first_separation"]
     spans = (("spectrum_c", 50, first), ("spectrum_c", first, 60), LATE)
-    (before, after, late), ignored = ([_power_share(each, *span) for span in spans] for each in (case, bonded))
+    (before, after, late), ignored = ([each.signal(*span).high for span in spans] for each in (case, bonded))
     here, there = (b > max(factor * a, floor) for a, b in ((before, after), ignored[:2]))
-    return Answer(*_beside(here, there), high=HIGH, low=LOW, before=before, after=after, late=late, ignored=ignored)
+    return Answer(*_beside(here, there), before=before, after=after, late=late, ignored=ignored)
 
 
 def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
@@ -201,23 +181,21 @@ def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
 def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
     rows, found = [], []
     for case in pair:
-        before, after = _fuzziness(case, *LATER), _fuzziness(case, *LATE)
-        first, second = (case.lines("spectrum_d", *span, above=LOW, floor=1e-2) for span in ((100, 105), (105, 110)))
+        before, after = (case.signal(*span).filled for span in (LATER, LATE))
+        first, second = (
+            case.signal("spectrum_d", *span).lines(above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
+        )
         drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
         found.append(after < part * before and drift < within)
-        rows.append({"case": case, "before": 100 * before, "after": 100 * after, "drift": drift})
+        rows.append({"case": case, "before": before, "after": after, "drift": drift})
     return Answer(*_beside(*found), stretches=rows)
 
 
 def slider_settles(*pair: CaseView, part: float) -> Answer:
     first = pair[0]["first_separation"]
-    length = first - 50
-    begins = {"before": ("spectrum_c", 50.0), "after": ("spectrum_c", first), "late": ("spectrum_d", 100.0)}
-    filled = [
-        [100 * _fuzziness(case, window, start, start + length, "psi") for window, start in begins.values()]
-        for case in pair
-    ]
-    rows = [{"case": case} | dict(zip(begins, each, strict=True)) for case, each in zip(pair, filled, strict=True)]
+    length, begins = first - 50, (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
+    filled = [[case.signal(window, at, at + length, "psi").filled for window, at in begins] for case in pair]
+    rows = [{"case": case, "before": each[0], "after": each[1]} for case, each in zip(pair, filled, strict=True)]
     (before, after, _), (ignored, control, late) = filled
     found = _beside(after < part * before, control < part * ignored)
     return Answer(*found, stretches=rows, later=late < part * ignored and late)
@@ -225,17 +203,22 @@ def slider_settles(*pair: CaseView, part: float) -> Answer:
 
 def multiples(case: CaseView, *, bound: float) -> Answer:
     first = case["first_separation"]
-    late = _lines_of_psi(case, *LATE)
+    late, before, after = (
+        case.signal(*span).lines(above=LOW, below=HIGH, floor=1e-2)
+        for span in ((*LATE, "psi"), ("spectrum_c", 50.0, first, "psi"), ("spectrum_c", first, 60.0, "psi"))
+    )
     rate = late[0].frequency
-    before = _off_multiples(_lines_of_psi(case, "spectrum_c", 50, first), rate)
-    after = _off_multiples([*_lines_of_psi(case, "spectrum_c", first, 60), *late], rate)
+    off, early = (
+        [abs(line.frequency - max(round(line.frequency / rate), 1) * rate) for line in lines]
+        for lines in ([*after, *late], before)
+    )
     return Answer(
-        max(after) <= bound,
+        max(off) <= bound,
         rate=rate,
-        count=len(after),
-        worst=max(after),
-        others=sum(off > bound for off in before),
-        before=len(before),
+        count=len(off),
+        worst=max(off),
+        others=sum(each > bound for each in early),
+        before=len(early),
         releases=case.rate_of("stick_to_slip") / rate,
     )
 
@@ -252,26 +235,18 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
     after, ignored = (each.slope("w_point", each["time_reached"] - 20, np.inf) for each in (case, bonded))
     here, there = (abs(rate) < rest * sharp for rate in (after, ignored))
     stages = sharp > max(factor * slow, least) and last < sharp
-    free, kept = (1e3 * each.late_range("w_point").width for each in (case, bonded))
     numbers = {"slow": slow, "sharp": sharp, "at": starts[peak] + 2.5, "last": last, "after": after}
-    return Answer(*_beside(stages and here, stages and there), free=free, kept=kept, **numbers)
+    return Answer(*_beside(stages and here, stages and there), **numbers)
 
 
 def natural_lines(case: CaseView, *, share: float, near: float) -> Answer:
     span = ("spectrum_d", 143.0, 153.0)
-    drive, rate = case["Omega"] / (2 * np.pi), stick_slip_rate(case, *span)
-    found, every = (measures.loudest(case.lines(*span, above=above, floor=1e-3), 4) for above in (LOW, 0.5 * drive))
+    signal, rate = case.signal(*span), stick_slip_rate(case, *span)
+    found, every = (measures.loudest(signal.lines(above=above, floor=1e-3), 4) for above in (LOW, 0.5 * case.drive))
     ours, counted = (_natural_share(case, lines, rate, near) for lines in (found, every))
-    return Answer(
-        None if counted <= share < ours else ours > share,
-        "drive",
-        low=LOW,
-        lines=[line.frequency for line in found],
-        percent=100 * ours,
-        lowest=_natural(case)[0],
-        rate=rate,
-        counted=100 * counted,
-    )
+    holds = None if counted <= share < ours else ours > share
+    lines, lowest = [line.frequency for line in found], _natural(case)[0]
+    return Answer(holds, "drive", lines=lines, ours=ours, lowest=lowest, rate=rate, counted=counted)
 
 
 def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Answer:
@@ -279,25 +254,25 @@ def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Ans
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
     rows, found = [], []
     for case in pair:
-        before, after = (100 * _fuzziness(case, *span) for span in spans)
-        low, high = (_power_share(case, *span) for span in spans)
-        found.append(after > before / part and high > max(factor * low, floor))
-        rows.append({"case": case, "before": before, "after": after, "high_before": low, "high_after": high})
+        before, after = (case.signal(*span) for span in spans)
+        stays, rises = after.filled > before.filled / part, after.high > max(factor * before.high, floor)
+        found.append(stays and rises)
+        rows.append({"case": case, "before": before, "after": after})
     return Answer(*_beside(*found), stretches=rows)
 
 
 def no_high_line(case: CaseView, *, share: float) -> Answer:
-    omega = float(plate_modes(case.parameters)["omega"].max())
-    base = float(plate_modes(case.parameters.replace(E=150e9))["omega"].max())
+    p = case.parameters
+    omega, base = (float(plate_modes(each)["omega"].max()) for each in (p, p.replace(E=150e9)))
     spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
-    first, last = (_power_share(case, *span, omega / (2 * np.pi)) for span in spans)
-    return Answer(max(first, last) < share, omega=omega, low=LOW, first=first, last=last, base=base)
+    first, last = (case.signal(*span).power_above(omega / (2 * np.pi)) for span in spans)
+    return Answer(max(first, last) < share, omega=omega, first=first, last=last, base=base)
 
 
 def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
     """Whether weak lines of one stretch are missing in the next."""
     first, second = (
-        case.lines("spectrum_d", *span, above=LOW, below=600, floor=floor) for span in ((465, 470), (470, 475))
+        case.signal("spectrum_d", *span).lines(above=LOW, below=600, floor=floor) for span in ((465, 470), (470, 475))
     )
     weak = [line for line in first if line.amplitude < 0.1 * max(each.amplitude for each in first)]
     moved = [line for line in weak if min(abs(line.frequency - other.frequency) for other in second) > apart]
@@ -307,13 +282,12 @@ def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> A
 def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
     """Whether the spectrum is erratic; undecided if the number of frequencies depends on the resolution of lines."""
     rate = stick_slip_rate(case, "spectrum_d", 465, 475)
-    found = case.lines("spectrum_d", 465, 475, above=LOW, below=600, floor=1e-2)
+    found = case.signal("spectrum_d", 465, 475).lines(above=LOW, below=600, floor=1e-2)
     strongest = max(line.amplitude for line in found)
-    every, coarse = (_further(found, rate, case["Omega"] / (2 * np.pi), width) for width in (apart, 2 * apart))
+    every, coarse = (_further(found, rate, case.drive, width) for width in (apart, 2 * apart))
     further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
-    motion, _ = case.late_motion()
     second = further[1].amplitude / further[0].amplitude if len(further) > 1 else 1.0
-    holds, why = is_kind(Outcome.IRREGULAR, motion, len(further) >= several)
+    holds, why = is_kind(Outcome.IRREGULAR, case.late_motion()[0], len(further) >= several)
     depends = holds and len(fewer) < several
     return Answer(
         None if depends else holds,
@@ -330,16 +304,6 @@ def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Ans
     )
 
 
-def _lines_of_psi(case: CaseView, window: str, start: float, stop: float) -> list[spectra.Line]:
-    """Lines of psi above a hundredth of the strongest, by ascending frequency."""
-    return case.lines(window, start, stop, "psi", above=LOW, below=HIGH, floor=1e-2)
-
-
-def _off_multiples(lines: list[spectra.Line], rate: float) -> list[float]:
-    """Distance of each line from the nearest multiple of a rate, Hz."""
-    return [abs(line.frequency - max(round(line.frequency / rate), 1) * rate) for line in lines]
-
-
 def _natural(case: CaseView) -> Any:
     """Natural frequencies with the slider attached, Hz."""
     return coupled_natural_frequencies(case.parameters) / (2 * np.pi)
@@ -347,7 +311,7 @@ def _natural(case: CaseView) -> Any:
 
 def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
     """Distance of a line from the nearest n f_s + m f_Omega, Hz."""
-    return abs(spectra.identify(line.frequency, rate, case["Omega"] / (2 * np.pi)).deviation)
+    return abs(spectra.identify(line.frequency, rate, case.drive).deviation)
 
 
 def _from_natural(case: CaseView, line: spectra.Line) -> float:
@@ -357,7 +321,7 @@ def _from_natural(case: CaseView, line: spectra.Line) -> float:
 
 def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float, near: float) -> float:
     """Fraction of the lines' power in lines beside a natural frequency that are not near any n f_s + m f_Omega."""
-    within = 4 * case["Omega"] / (2 * np.pi)
+    within = 4 * case.drive
     own = [line for line in lines if _from_natural(case, line) <= within and _from_combination(case, line, rate) > near]
     return sum(line.amplitude**2 for line in own) / sum(line.amplitude**2 for line in lines)
 
@@ -375,17 +339,3 @@ def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float)
             further.append(line)
             known = np.concatenate([known, *(sums + p * line.frequency for p in (-2, -1, 1, 2))])
     return further
-
-
-def _fuzziness(case: CaseView, window: str, start: float, stop: float, name: str = "w_point") -> float:
-    """Fraction of 20..300 Hz where a variable's amplitude exceeds 1e-4 of the strongest there.
-
-    Only stretches of equal length, with equal resolution, can be compared.
-    """
-    return spectra.coverage(*case.signal(window, start, stop, name), LOW, 300.0, floor=1e-4)
-
-
-def _power_share(case: CaseView, window: str, start: float, stop: float, above: float = HIGH) -> float:
-    """Ratio of the power above a frequency in Hz to that above `LOW`."""
-    case.lines(window, start, stop, above=LOW)  # raises Missing without any line
-    return spectra.power_share(*case.signal(window, start, stop), above, LOW)

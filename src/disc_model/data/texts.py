@@ -29,8 +29,15 @@ class Part(_Templates):
     empty: str = ""
 
 
+UNITS = {"%": 100, "mm": 1e3, "ms": 1e3, "GPa": 1e-9}
+"""Units that a format may name after a space, ``{width:.1f mm}``, by how many of them are one of the number's own."""
+
+
 class Sentences(string.Formatter):
-    """`str.format` that also takes lists: of numbers, ``{values:.2f}``, and of rows, by the part of their name."""
+    """`str.format` that also takes units, see `UNITS`, and lists.
+
+    Lists of numbers are formatted as one, ``{values:.2f}``, and lists of rows by the part of their name.
+    """
 
     def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
         self.parts, self.values = parts, values
@@ -49,8 +56,9 @@ class Sentences(string.Formatter):
 
     def format_field(self, value: Any, spec: str) -> str:
         if isinstance(value, list | np.ndarray):
-            return ", ".join(format(each, spec) for each in value)
-        return format(value, spec)
+            return ", ".join(self.format_field(each, spec) for each in value)
+        spec, _, unit = spec.partition(" ")
+        return f"{format(UNITS[unit] * value, spec)} {unit}" if unit else format(value, spec)
 
 
 class Passage(_Templates):
