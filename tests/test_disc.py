@@ -179,6 +179,15 @@ def test_the_command_line_says_which_column_is_wrong(tmp_path: Path) -> None:
     assert "frequency_Hz='x': must be a number (mode 1)" in faults[0]
 
 
+def test_a_cell_of_the_last_shape_is_named(tmp_path: Path) -> None:
+    """The search for its place ended behind the table, in an IndexError."""
+    (tmp_path / "disc.csv").write_text(
+        "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.05_m,shape_at_0.1_m\n1,500,2,1,x\n"
+    )
+    with pytest.raises(dm.ParameterError, match=r"^disc\.csv\.shape_at_0\.1_m='x': must be a number \(mode 1\)$"):
+        dm.read_disc(tmp_path / "disc.csv")
+
+
 @pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])
 def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
     with pytest.raises(dm.ParameterError, match="must be a text file that can be read"):
