@@ -39,9 +39,7 @@ from disc_model.simulation.recorder import Checkpoint, Collector, Contents, faul
 from disc_model.simulation.result import (
     Result,
     State,
-    Workspace,
     engine_case,
-    give_back,
     is_finite,
     read_state,
     series_order,
@@ -155,12 +153,12 @@ def simulate(
         with simulating(execution.progress, end) as tell:
             while code == exit_codes.PAUSED:
                 if kept is not None and kept.due:
-                    kept.save(run.contents())
+                    kept.save(run.carried | run.collector.contents())
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
-    give_back(run.case, run.order, run.workspace)
+    run.case.idle[run.order].append(run.workspace)
     if kept is not None:
         kept.remove()
     return result
@@ -266,7 +264,7 @@ class _Run:
         kept = kept._replace(samplers=kept.samplers[:0], sampled=kept.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), kept)
         state.x[layout.TIME_LOW], state.x[layout.PROPAGATED] = low, 0.0
-        for counted in (self.workspace.counters, self.workspace.phase_times, self.workspace.sums):
+        for counted in (kept.counters, kept.phase_times, kept.audit):
             counted.fill(0)
 
     @property
@@ -300,37 +298,29 @@ class _Run:
         if code == exit_codes.TIME_OVER and self.pieces[place].end < self.asked.t_end:
             self._enter(place + 1)
             code = exit_codes.PAUSED
-        self.collector.drain(self.workspace.counters)
+        self.collector.drain()
         self.wall_time[0] += clock.perf_counter() - began
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `event_loop.run`."""
-        work, keep, asked = self.workspace, self.collector, self.asked
+        work, asked = self.workspace, self.asked
         limits = event_loop.Limits(
             self.order, self.tolerance, min(asked.t_end, self.pieces[self.place[0]].end), asked.stop_at is not None,
             self.max_steps, self.pause_after, self.audit_every,
         )  # fmt: skip
-        kept = event_loop.RunBuffers(
-            work.counters, work.phase_times, work.sums,
-            keep.samplers, keep.sampled, keep.rows, keep.capacity, keep.event_rows,
-        )  # fmt: skip
-        return self.model, work.series, work.state, work.probe, limits, kept
+        return self.model, work.series, work.state, work.probe, limits, self.collector.buffers
 
-    def _changing(self) -> dict[str, np.ndarray]:
-        """Arrays that carry the run from one call of the engine to the next."""
+    @property
+    def carried(self) -> Contents:
+        """Arrays that carry the run from one call of the engine to the next, by name."""
         state = {f"state_{name}": array for name, array in self.state._asdict().items()}
-        sums = {name: getattr(self.workspace, name) for name in ("counters", "phase_times", "sums")}
-        return state | sums | {"place": self.place, "wall_time": self.wall_time}
-
-    def contents(self) -> Contents:
-        """The state that the rest of the run depends on and all rows recorded so far, for `restore`."""
-        return self._changing() | self.collector.contents()
+        return self.collector.carried | state | {"place": self.place, "wall_time": self.wall_time}
 
     def restore(self, contents: Contents) -> None:
-        """Continue from the point at which `contents` was called."""
-        for name, array in self._changing().items():
-            array[:] = contents[name]
+        """Continue from `carried` and the recorded rows as they were when a checkpoint was made."""
+        for name, array in self.carried.items():
+            array[...] = contents[name]
         self._enter(int(self.place[0]))
         self.collector.restore(contents)
 
@@ -346,10 +336,10 @@ class _Run:
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
-            first_separation=self.collector.first_separation,
+            first_separation=float(self.collector.first_separation),
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.workspace, asked.record.audit_every_step, float(self.wall_time[0])),
+            statistics=_statistics(self.collector.buffers, asked.record.audit_every_step, float(self.wall_time[0])),
             samples=samples,
             poincare=poincare,
             ramps=asked.ramps,
@@ -389,7 +379,7 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
     return text
 
 
-def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[str, float]:
+def _statistics(kept: event_loop.RunBuffers, audit_every_step: bool, wall: float) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
         size = total[scale] + total[turnover]
@@ -397,8 +387,8 @@ def _statistics(work: Workspace, audit_every_step: bool, wall: float) -> dict[st
             return math.nan
         return abs(total[residual]) / size if size > 0 else 0.0
 
-    count, total = work.counters.tolist(), work.sums.tolist()
-    stick, slip, separation = work.phase_times.tolist()
+    count, total = kept.counters.tolist(), kept.audit.tolist()
+    stick, slip, separation = kept.phase_times.tolist()
     return {
         "steps": count[event_loop.STEPS],
         "events": count[event_loop.EVENTS],

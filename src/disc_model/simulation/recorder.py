@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, sampling
+from disc_model.engine.audit import N_SUMS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters, canonical_json, content_key, is_number
 from disc_model.simulation.case import Poincare, Record, Window
@@ -157,84 +158,82 @@ _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", 
 
 
 class Collector:
-    """Provides the engine's buffers, empties them at each pause, and assembles the recorded arrays."""
+    """Provides the engine's `buffers`, empties them at each pause, and assembles the recorded arrays."""
 
     def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
-        # samples in a bin of an envelope; None where single samples are kept
-        self._folds = [window.envelope for window in record.windows]
-        grids: list[tuple[float, float, float, float]] = []
-        per_step = self.capacity = 0
         if record.windows or record.poincare is not None:
             _check_room(record, p.Omega, start, t_end, longest_step)
-            grids += [_uniform(window, start, t_end) for window in record.windows]
-            if record.poincare is not None:
-                grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-                self._folds.append(None)
-            # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-            longest = longest_step + sampling.SAME_INSTANT * t_end
-            per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
-            self.capacity = BUFFER
-        self.samplers: Array = np.array([(*grid, t_end) for grid in grids]) if grids else np.zeros((0, 5))
-        self.sampled = np.zeros(len(grids), np.int64)
-        self.rows = np.empty((self.capacity + per_step, len(sampling.ROW)))
-        self.event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
-        self._keep_events = record.events
-        # recorded arrays in order of time; these lists only grow
-        self._events: list[Array] = []
-        self._parts: list[list[Array]] = [[] for _ in grids]
-        self._rest: list[list[Array]] = [[] for _ in grids]  # rows of bins that are not full
-        self._poincare = record.poincare is not None
-        self.first_separation = math.nan
+        # samples in a bin of an envelope; None where single samples are kept
+        self._record, self._folds = record, [window.envelope for window in record.windows]
+        grids = [_uniform(window, start, t_end) for window in record.windows]
+        if record.poincare is not None:
+            grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
+            self._folds.append(None)
+        capacity = BUFFER if grids else 0
+        # the engine pauses between steps only, so one step's samples must fit above ``capacity``
+        longest = longest_step + sampling.SAME_INSTANT * t_end
+        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
+        self.buffers = event_loop.RunBuffers(
+            counters=np.zeros(event_loop.N_COUNTERS, np.int64),
+            phase_times=np.zeros(3),
+            audit=np.zeros(N_SUMS),
+            samplers=np.array(grids).reshape(-1, 5),
+            sampled=np.zeros(len(grids), np.int64),
+            sample_rows=np.empty((capacity + per_step, len(sampling.ROW))),
+            sample_capacity=capacity,
+            event_rows=np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW))),
+        )
+        self.first_separation = np.array(math.nan)
         """Time of the first loss of contact, s; nan if there was none."""
+        # recorded arrays in order of time; those of the rest, rows of bins that are not full
+        self._events: list[Array] = []
+        self._samples: list[list[Array]] = [[] for _ in grids]
+        self._rest: list[list[Array]] = [[] for _ in grids]
 
     def _lists(self) -> Iterator[tuple[str, list[Array]]]:
         yield "events", self._events
-        for name, lists in (("samples", self._parts), ("rest", self._rest)):
+        for name, lists in (("samples", self._samples), ("rest", self._rest)):
             yield from ((f"{name}_{i}", parts) for i, parts in enumerate(lists))
 
+    @property
+    def carried(self) -> Contents:
+        """Arrays that carry a run from one call of the engine to the next, by name."""
+        names = ("counters", "phase_times", "audit", "sampled")
+        return {"first_separation": self.first_separation} | {name: getattr(self.buffers, name) for name in names}
+
     def contents(self) -> Contents:
-        """The collector's part of a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
-        rows = {f"{name}/{i}": part for name, parts in self._lists() for i, part in enumerate(parts)}
-        return {"sampled": self.sampled, "first_separation": np.array([self.first_separation]), **rows}
+        """Recorded rows for a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
+        return {f"{name}/{i}": part for name, parts in self._lists() for i, part in enumerate(parts)}
 
     def restore(self, contents: Contents) -> None:
         """Continue from `contents`."""
-        self.sampled[:], self.first_separation = contents["sampled"], float(contents["first_separation"][0])
         for name, parts in self._lists():
             parts[:] = [part for entry, part in contents.items() if entry.startswith(f"{name}/")]
 
-    def drain(self, counters: NDArray[np.int64]) -> None:
+    def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
-        n_events, n_rows = int(counters[event_loop.EVENT_ROWS]), int(counters[event_loop.SAMPLE_ROWS])
+        counters, event_rows = self.buffers.counters, self.buffers.event_rows
+        events = event_rows[: counters[event_loop.EVENT_ROWS]]
+        rows = self.buffers.sample_rows[: counters[event_loop.SAMPLE_ROWS]]
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
-        if n_events:
-            events = self.event_rows[:n_events]
-            if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
-                lost = events[events[:, 1] == event_loop.LOSS_OF_CONTACT]
-                self.first_separation = float(lost[0, 0]) if len(lost) else math.nan
-            if self._keep_events:
-                self._events.append(events.copy())
-        if n_events > len(self.event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
-            self.event_rows = np.empty((BUFFER, len(event_loop.EVENT_ROW)))
-        rows = self.rows[:n_rows]
-        for i in range(len(self.sampled)):
+        if counters[event_loop.SEPARATIONS] > 0 and np.isnan(self.first_separation):
+            self.first_separation[...] = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0]
+        if self._record.events and len(events):
+            self._events.append(events.copy())
+        if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
+            self.buffers = self.buffers._replace(event_rows=np.empty((BUFFER, len(event_loop.EVENT_ROW))))
+        for i in range(len(self._samples)):
             self._take(i, rows[rows[:, 0] == i])
 
     def _take(self, i: int, rows: Array) -> None:
-        if not len(rows):
-            return
-        fold = self._folds[i]
-        if fold is None:
-            self._parts[i].append(rows.copy())
-            return
-        rest = self._rest[i]
-        rest.append(rows.copy())  # a view would keep the buffer
-        if sum(map(len, rest)) < fold:
-            return
-        rows = np.concatenate(rest)
-        whole = len(rows) // fold * fold
-        self._rest[i] = [rows[whole:].copy()]
-        self._parts[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
+        fold, rest = self._folds[i], self._rest[i]
+        if len(rows):
+            (self._samples[i] if fold is None else rest).append(rows.copy())  # a view would keep the buffer
+        if fold is not None and sum(map(len, rest)) >= fold:
+            rows = np.concatenate(rest)
+            whole = len(rows) // fold * fold
+            rest[:] = [rows[whole:].copy()]
+            self._samples[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
 
     def events(self) -> Array:
         """All recorded events, shape (n, len(EVENT_ROW))."""
@@ -245,10 +244,10 @@ class Collector:
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
         """Samples of each window, and the Poincare samples."""
         names = [sampling.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
-        shaped = list(map(_columns, self._parts, names))
+        shaped = list(map(_columns, self._samples, names))
         for samples in shaped:
             samples.pop("sampler", None)
-        poincare = shaped.pop() if self._poincare else None
+        poincare = shaped.pop() if self._record.poincare is not None else None
         return tuple(shaped), poincare
 
 
@@ -303,22 +302,22 @@ def _memory() -> float:
         return math.inf
 
 
-def _uniform(window: Window, start: float, t_end: float) -> tuple[float, float, float, float]:
-    """Sampling grid of a window: first time, interval, number of samples within the run, theta."""
+def _uniform(window: Window, start: float, t_end: float) -> tuple[float, ...]:
+    """Sampling grid of a window, as `sampling.sample_step` has it."""
     interval = min(1 / window.rate, sys.float_info.max)
     skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
     reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)
     if not skipped <= reached < math.inf:
-        return start, interval, 0, window.theta
+        return start, interval, 0, window.theta, t_end
     skip = math.ceil(skipped)
-    return window.start + skip * interval, interval, max(0, math.floor(reached) - skip + 1), window.theta
+    return window.start + skip * interval, interval, max(0, math.floor(reached) - skip + 1), window.theta, t_end
 
 
-def _stroboscopic(poincare: Poincare, Omega: float, start: float, t_end: float) -> tuple[float, float, float, float]:
-    """Sampling grid at whole multiples of the drive's period, as in `_uniform`; no samples if the drive rests."""
+def _stroboscopic(poincare: Poincare, Omega: float, start: float, t_end: float) -> tuple[float, ...]:
+    """Sampling grid at whole multiples of the drive's period, as `_uniform`; no samples if the drive rests."""
     if Omega == 0:
-        return 0.0, 1.0, 0, poincare.theta
+        return 0.0, 1.0, 0, poincare.theta, t_end
     period = min(2 * math.pi / Omega, sys.float_info.max)
     first = math.ceil(max(poincare.start, start) / period - 1e-9)
     last = math.floor(min(poincare.stop, t_end) / period + 1e-9)
-    return first * period, period, max(0, last - first + 1), poincare.theta
+    return first * period, period, max(0, last - first + 1), poincare.theta, t_end

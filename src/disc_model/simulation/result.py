@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 import re
+from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
@@ -18,8 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
 from disc_model.engine import layout
-from disc_model.engine.audit import N_SUMS
-from disc_model.engine.event_loop import EVENT_ROW, N_COUNTERS
+from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, violations
 from disc_model.flexibility import contact_compliance
@@ -353,15 +353,11 @@ class Workspace(NamedTuple):
 
     state, probe : current state of the run, and state at a trial time ahead of it
     series : Taylor series of one step; the next step overwrites them
-    counters, phase_times, sums : as in `event_loop.RunBuffers`
     """
 
     state: layout.EngineState
     probe: layout.EngineState
     series: layout.Series
-    counters: np.ndarray
-    phase_times: np.ndarray
-    sums: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -384,7 +380,7 @@ class EngineCase:
     present: np.ndarray
     places: np.ndarray
     point: np.ndarray
-    idle: dict[int, list[Workspace]]
+    idle: defaultdict[int, list[Workspace]]
 
     @cached_property
     def key(self) -> str:
@@ -415,7 +411,7 @@ def engine_case(p: Parameters) -> EngineCase:
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
     present = np.flatnonzero(places >= 0)
     point, start = _point(model), layout.build_state(model)
-    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, {})
+    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
 
 
 def _point(model: layout.Model) -> np.ndarray:
@@ -430,26 +426,17 @@ def _point(model: layout.Model) -> np.ndarray:
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace for one run, at the static start, with counters at 0; `give_back` returns it.
+    """A workspace for one run, at the static start; the run gives it back to `EngineCase.idle` at its end.
 
     Workspaces are reused, because making one takes as long as 30 steps.
     """
-    try:
-        found = case.idle[order].pop()
-    except LookupError:
+    if not case.idle[order]:
         state, probe = layout.build_state(case.model), layout.build_state(case.model)
-        series, counters = layout.build_series(case.model, order), np.zeros(N_COUNTERS, np.int64)
-        return Workspace(state, probe, series, counters, np.zeros(3), np.zeros(N_SUMS))
+        return Workspace(state, probe, layout.build_series(case.model, order))
+    found = case.idle[order].pop()
     for state in (found.state, found.probe):
         state.disc[:], state.x[:] = case.start.disc, case.start.x
-    for counted in (found.counters, found.phase_times, found.sums):
-        counted.fill(0)
     return found
-
-
-def give_back(case: EngineCase, order: int, workspace: Workspace) -> None:
-    """Return a workspace for use by later runs."""
-    case.idle.setdefault(order, []).append(workspace)
 
 
 def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
