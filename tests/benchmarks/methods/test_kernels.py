@@ -27,7 +27,7 @@ def test_nothing_is_violated_within_a_phase(p, phase, direction):
     _, y, modes, c = vector(lively(phase, direction, p), p)
     out = np.full(3, np.nan)
     count = kernels.switch_values(modes, c, PHASES.index(phase), direction, y, out)
-    assert count == np.isfinite(out).sum() == ENDS[phase]
+    assert count == np.isfinite(out).sum() == ENDS[PHASES.index(phase)]
     assert kernels.violated(out, count) == -1
 
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import METHODS, RunStatus
+from disc_model.benchmarks.methods import METHODS, RunStatus, kernels
 from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
 from disc_model.benchmarks.methods.base import GaveUp, Meter
@@ -25,12 +25,12 @@ from tests.benchmarks.methods.problems import task
 def test_what_ends_a_run_of_phases(what, outcome, words):
     problem = task()
 
-    def advance(phase, t, y, t_end):
+    def advance(phase, direction, t, y, t_end):
         if what == "fails":
             raise GaveUp("gave up")
         if what == "overflows":
             return None, t, y * math.nan
-        return 1 if phase.name == "slip" else 0, t, y  # one switch after the other, at once
+        return 1 if phase == kernels.SLIP else 0, t, y  # one switch after the other, at once
 
     result = run_phases(advance, Meter(problem, math.inf))
     assert result.outcome is outcome

@@ -17,7 +17,7 @@ from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
-from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
+from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
 
@@ -44,10 +44,10 @@ class Cvode(Method):
         falling = (ctypes.c_int * 3)(-1, -1, -1)
         call, switches = _library(), _callbacks()[1]
 
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            state[:], given[:2], time.value = y, (phase.code, phase.direction), t
+        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+            state[:], given[:2], time.value = y, (phase, direction), t
             call.CVodeReInit(memory, ctypes.c_double(t), vector)
-            call.CVodeRootInit(memory, ENDS[phase.name], switches)
+            call.CVodeRootInit(memory, ENDS[phase], switches)
             call.CVodeSetRootDirection(memory, falling)
             call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
             flag, how, path = 0, ONE_STEP if problem.watched else NORMAL, [(t, y.copy())]

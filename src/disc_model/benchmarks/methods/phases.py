@@ -5,7 +5,6 @@ A method supplies ``advance``; `run_phases` carries out the events and records t
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,39 +18,25 @@ CROWD = 50
 NOT_FINITE = "the state is no longer finite"
 INSTANT = 1e-12
 """s; two events closer than this count as at one instant."""
-ENDS = {"stick": 3, "slip": 2, "separation": 1}
-"""Number of functions of the state that end a phase where they fall through zero. The first is the contact force (1 if
-bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards in stick. Ties are
-decided in that order.
+ENDS = (3, 2, 1)
+"""By the number of a phase in `kernels`: functions of the state that end it where they fall through zero. The first is
+the contact force (1 if bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards
+in stick. Ties are decided in that order.
 """
-
-
-class Phase(NamedTuple):
-    """A phase, the sign of f in it (0 except in slip), and its number in `kernels`."""
-
-    name: str
-    direction: int
-    code: int
-
-
-PHASE = {
-    (code, direction): Phase(name, direction, code) for code, name in enumerate(PHASES) for direction in (-1, 0, 1)
-}
-"""By number and direction."""
 Ended = tuple[int | None, float, Array]
 """End of ``advance``: index of the function that stopped it (None at t_end), local time (s), and the state, which the
 caller may change.
 """
-Advance = Callable[[Phase, float, Array, float], Ended]
-"""Integrates a phase ``(phase, t, y, t_end)`` from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``;
-``y`` is not changed.
+Advance = Callable[[int, int, float, Array, float], Ended]
+"""Integrates a phase ``(phase, direction, t, y, t_end)``, given by its number in `kernels` and the sign of f in it (0
+except in slip), from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` is not changed.
 """
 
 
 def run_phases(advance: Advance, meter: Meter) -> MethodResult:
     """Integrate phase by phase to the end of the problem."""
     problem, physics, modes, c = meter.problem, meter.physics, meter.modes, meter.c
-    phase = PHASE[PHASES.index(problem.start.phase), problem.start.direction]
+    phase, direction = PHASES.index(problem.start.phase), problem.start.direction
     t, y, span = 0.0, physics.pack(problem.start), problem.span
     new = np.zeros(2, np.int64)
     for compiled in (kernels.rate, kernels.switch_values):
@@ -65,21 +50,20 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
         while True:
             if len(times) & 15 == 0:  # the clock takes as long as a phase of some methods
                 meter.check()
-            cause, t, y = advance(phase, t, y, span)
+            cause, t, y = advance(phase, direction, t, y, span)
             if cause is None:
                 break
-            number, direction, added = kernels.switch(modes, c, phase.code, cause, y, new)
+            phase, direction, added = kernels.switch(modes, c, phase, cause, y, new)
             if added < 0:
                 raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
-            phase = PHASE[number, direction]
             crowd = crowd + 1 if times and t - times[-1] < INSTANT else 0
             for place in range(added):
                 times.append(t)
                 kinds.append(EVENT_KINDS[new[place]])
-            if problem.stop and phase.name == "separation":
+            if problem.stop and phase == kernels.SEPARATION:
                 break
             if crowd > CROWD:
                 raise GaveUp(f"more than {CROWD} events at one instant", RunStatus.STALLED)
         if not math.isfinite(y.sum()):
             raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
-    return meter.result(times, kinds, physics.unpack(problem.start.time + t, phase.name, phase.direction, y))
+    return meter.result(times, kinds, physics.unpack(problem.start.time + t, PHASES[phase], direction, y))

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
-from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
+from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 
 FLOOR = 2.3e-14
@@ -27,8 +27,8 @@ class SolveIvp(Method):
         meter = Meter(problem, budget)
         scale = absolute_scale(meter.physics)
 
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
-            rate, slopes, events = _functions(meter, phase)
+        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+            rate, slopes, events = _functions(meter, phase, direction)
             more = {"jac": slopes} if self.algorithm in IMPLICIT else {"max_step": problem.max_step}
             with np.errstate(over="ignore", invalid="ignore"):
                 found = solve_ivp(
@@ -44,28 +44,28 @@ class SolveIvp(Method):
         return run_phases(advance, meter)
 
 
-def _functions(meter: Meter, phase: Phase) -> tuple[Function, Function, list[Function]]:
+def _functions(meter: Meter, phase: int, direction: int) -> tuple[Function, Function, list[Function]]:
     """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
-    modes, c, code, direction, values = meter.modes, meter.c, phase.code, phase.direction, np.empty(3)
+    modes, c, values = meter.modes, meter.c, np.empty(3)
 
     def rate(_t: float, y: Array) -> Array:
         dy = np.empty_like(y)
-        kernels.rate(modes, c, code, direction, y, dy)
+        kernels.rate(modes, c, phase, direction, y, dy)
         return dy
 
     def slopes(_t: float, y: Array) -> Array:
         J = np.empty((len(y), len(y)))
-        kernels.jacobian(modes, c, code, direction, y, J)
+        kernels.jacobian(modes, c, phase, direction, y, J)
         return J
 
     def event(place: int) -> Function:
         def value(_t: float, y: Array) -> float:
-            kernels.switch_values(modes, c, code, direction, y, values)
+            kernels.switch_values(modes, c, phase, direction, y, values)
             return float(values[place])
 
         return crossing(value, -1, last=True)
 
-    return rate, slopes, [event(place) for place in range(ENDS[phase.name])]
+    return rate, slopes, [event(place) for place in range(ENDS[phase])]
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:

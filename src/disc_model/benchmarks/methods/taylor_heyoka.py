@@ -21,7 +21,7 @@ import numpy as np
 
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
 from disc_model.benchmarks.methods.kernels import SHIFT
-from disc_model.benchmarks.methods.phases import ENDS, Ended, Phase, run_phases
+from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
@@ -56,20 +56,20 @@ class Heyoka(Method):
 
         # called at every step, which takes longer than some steps
         seen = {"callback": note} if problem.watched else {}
-        prepared = {}
-        for name, integrator in _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact).items():
+        prepared = []
+        for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact), strict=True):
             integrator.pars[:2] = given
             # with fewer events, the last ones of ENDS
             state = integrator.state
-            skipped = ENDS[name] - len(integrator.t_events)
-            prepared[name] = (integrator, integrator.propagate_until, state, len(state), skipped)
+            skipped = ends - len(integrator.t_events)
+            prepared.append((integrator, integrator.propagate_until, state, len(state), skipped))
 
-        def advance(phase: Phase, t: float, y: Array, t_end: float) -> Ended:
+        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
             nonlocal inside
-            integrator, propagate, state, size, skipped = prepared[phase.name]
+            integrator, propagate, state, size, skipped = prepared[phase]
             integrator.time, state[:] = t, y[:size]
-            if phase.direction:
-                integrator.pars[2] = phase.direction
+            if direction:
+                integrator.pars[2] = direction
             path.clear()
             began = clock.perf_counter()
             outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
@@ -80,7 +80,7 @@ class Heyoka(Method):
             inside += clock.perf_counter() - began
             meter.work += steps
             cause = None if stop == at_end else skipped - stop - 1
-            if cause is not None and not skipped <= cause < ENDS[phase.name]:
+            if cause is not None and not skipped <= cause < ENDS[phase]:
                 raise GaveUp(str(outcome))
             if problem.watched:
                 note(integrator)
@@ -95,16 +95,16 @@ class Heyoka(Method):
 
 
 @lru_cache(maxsize=32)
-def _integrators(p: Parameters, tol: float, compact: bool) -> dict[str, Any]:
+def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
     """Compiled integrators by phase; cases that differ in load and speed of the drive share them, see `system`."""
     import heyoka as hy
 
-    made = {}
+    made = []
     for phase in PHASES:
         rows, functions = system(Physics(p), phase)
         falling = [hy.t_event(g, direction=hy.event_direction.negative, cooldown=0.0) for g in functions]
         options = {"tol": tol, "compact_mode": compact, "fast_math": True}
-        made[phase] = hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options)
+        made.append(hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options))
     return made
 
 
