@@ -1,6 +1,7 @@
 """Speed against accuracy: what is measured, how often, and what is made of it."""
 
 import json
+import logging
 import math
 
 import numpy as np
@@ -38,12 +39,14 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
     ]
 
 
-def test_every_point_is_reported_and_slow_ones_are_not_repeated(known: dict[str, Known]) -> None:
+def test_every_point_is_reported_and_slow_ones_are_not_repeated(
+    known: dict[str, Known], caplog: pytest.LogCaptureFixture
+) -> None:
     known["RK4"].cost = lambda h: 5.0
-    seen = []
-    work_precision.work_precision(
-        {"stick_slip": SETTINGS["stick_slip"]}, rounds=3, progress=lambda point, seconds: seen.append(point.method)
-    )
+    caplog.set_level(logging.INFO, work_precision.log.name)
+    work_precision.work_precision({"stick_slip": SETTINGS["stick_slip"]}, rounds=3)
+    assert "stick_slip RK4 0.0004: 5 s" in caplog.messages
+    seen = [message.split()[1] for message in caplog.messages]
     assert seen.count("RK4") == 4
     assert seen.count("series") == 9
 

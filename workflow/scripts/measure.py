@@ -3,28 +3,18 @@
 part : such as truncation, answers/RK4 or failure_maps/RK4_stick_slip
 """
 
-import logging
-
 import xarray as xr
 
-from disc_model.benchmarks.answers.measure import Row, measure
+from disc_model.benchmarks.answers.measure import measure
 from disc_model.benchmarks.failure_maps import answer_map, failure_map
 from disc_model.benchmarks.truncation import contact_study, truncation_study
 from disc_model.data.dataset import save
 from disc_model.errors import script
 
-
-def report(row: Row) -> None:
-    logging.info(
-        "%(answer)s %(line)s %(setting)g: %(found).10g, error %(error).3g, %(seconds).4g s, %(status)s %(message)s",
-        row | {"status": row["status"].name},
-    )
-
-
 PARTS = {
     "truncation": lambda _: truncation_study(),
     "contact_truncation": lambda _: contact_study(),
-    "answers": lambda method: measure(method, progress=report),
+    "answers": measure,
     "answer_maps": answer_map,
     "failure_maps": lambda name: failure_map(*name.split("_", 1)),
 }

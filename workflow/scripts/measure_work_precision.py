@@ -1,23 +1,18 @@
 """Measure speed against accuracy; write the dataset, and the table as CSV and Markdown."""
 
-import logging
 from pathlib import Path
 
 import xarray as xr
 
 from disc_model.benchmarks.table import table, to_markdown
-from disc_model.benchmarks.work_precision import Point, work_precision
+from disc_model.benchmarks.work_precision import work_precision
 from disc_model.data.dataset import save
 from disc_model.errors import script
 
 
-def report(point: Point, seconds: float) -> None:
-    logging.info("%s %s %g: %.4g s", point.scene, point.method, point.value, seconds)
-
-
 @script
 def main(output: str, csv: str, md: str) -> None:
-    dataset = work_precision(progress=report)
+    dataset = work_precision()
     save(xr.DataTree(dataset), output)
     table(dataset).to_csv(csv, index=False)
     Path(md).write_text(to_markdown(dataset), encoding="utf-8")

@@ -32,8 +32,6 @@ TRUNCATIONS = (1, 2, 4, 6, 8)
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
 REFERENCE_TOL = 1e-14
-RESOLUTION = 2e-3
-"""Relative precision of the largest stable step."""
 
 VARIABLES = variables("failure_maps", verdict=Verdict)
 FACTS = variables("map_facts")
@@ -122,12 +120,12 @@ def engine_answer(scene: str, diameters: int) -> Answer:
 def observed_step_limit(diameters: int) -> float:
     """Largest step (s) at which RK4 completes a second of stick-slip without diverging energy, by bisection.
 
-    Compare with 2 sqrt(2)/omega_max.
+    Compare with 2 sqrt(2)/omega_max.  Its relative precision is 2e-3.
     """
     problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
     theory = _step_limit(problem.parameters)
     low, high = 0.7 * theory, 1.5 * theory
-    while high / low > 1.0 + RESOLUTION:
+    while high / low > 1.0 + 2e-3:
         middle = math.sqrt(low * high)
         unstable = scenes.errors(problem, answer, METHODS["RK4"].solve(problem, middle)).verdict is Verdict.UNSTABLE
         low, high = (low, middle) if unstable else (middle, high)
@@ -144,8 +142,6 @@ HORIZON = 25.0
 ANSWER_TRUNCATIONS = (1, 2, 4, 8)
 BUDGET = 3.0
 """Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
-VALUES = 6
-"""Greatest number of settings by default: the method's first, its last, and some between."""
 ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=AnswerStatus)
 
 
@@ -177,8 +173,8 @@ def answer_map(
         judged = {"verdict": verdict("first_separation", found, right), "error": abs(found.value - right)}
         return judged | {"status": found.status, "found": found.value, "seconds": found.seconds}
 
-    if values is None:
-        places = np.linspace(0, len(own.map_values) - 1, min(VALUES, len(own.map_values))).round().astype(int)
+    if values is None:  # six at most: the first, the last, and some between
+        places = np.linspace(0, len(own.map_values) - 1, min(6, len(own.map_values))).round().astype(int)
         values = [own.map_values[place] for place in places]
     about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
     return _map_of(method, values, ANSWER_VARIABLES, measure, facts, about)

@@ -4,10 +4,11 @@ Each round measures all points in turn, so that a disturbance of the machine aff
 value is the median over the rounds.  Slow points are measured less often (``repeats`` is the number).
 """
 
+import logging
 import math
 import time as clock
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -25,17 +26,14 @@ from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
 from disc_model.simulation.api import simulate
 
-BUDGET = 12.0
-"""Budget of a method for a point, s."""
-BUDGETS = {"rigid": 4.0}
-"""Budgets in s of scenes that methods in Python cannot finish."""
-ROUNDS = 11
+log = logging.getLogger(__name__)
+
+BUDGET, RIGID_BUDGET = 12.0, 4.0
+"""Budget of a method for a point, s, and on the rigid disc, which methods in Python cannot finish."""
 LONG = 0.5
 """Longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds."""
 FURTHER = 4.0
 """Extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second."""
-CALLS = 21
-"""Number of whole calls of `simulate` in a round."""
 FLOOR = 1e-13
 """Errors below this (s, or relative) are rounding and are left out of the fit of the order."""
 Settings = Mapping[str, Mapping[str, Sequence[float]]]
@@ -55,19 +53,13 @@ class Point(NamedTuple):
 
 
 @one_core()
-def work_precision(
-    settings: Settings | None = None,
-    *,
-    rounds: int = ROUNDS,
-    progress: Callable[[Point, float], object] | None = None,
-) -> xr.Dataset:
-    """Measure all points; a method that gives up at a coarse setting is not tried at finer ones.
+def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
+    """Measure all points, and log each of them; a method that gives up at a coarse setting is not tried at finer ones.
 
     Parameters
     ----------
     settings : those of all methods if not given
     rounds : number of measurements of quick points
-    progress : called with each point and the seconds it took
 
     Returns
     -------
@@ -93,7 +85,7 @@ def work_precision(
         for point in todo:
             if point[:2] in hopeless if not turn else not _again(walls[point], turn):
                 continue
-            problem, limit = scenes.problem(point.scene), BUDGETS.get(point.scene, BUDGET)
+            problem, limit = scenes.problem(point.scene), RIGID_BUDGET if point.scene == "rigid" else BUDGET
             result = METHODS[point.method].solve(problem, point.value, limit)
             if not turn and result.seconds < LONG:  # the first call compiles and warms caches
                 result = METHODS[point.method].solve(problem, point.value, limit)
@@ -115,8 +107,7 @@ def work_precision(
                 "separations": result.separations,
             }
             rows.append(point._asdict() | row)
-            if progress is not None:
-                progress(point, result.seconds)
+            log.info("%s %s %g: %.4g s", point.scene, point.method, point.value, result.seconds)
         calls.append({scene: _whole_call(scene) if scene in JUDGED else math.nan for scene in settings})
     each = pd.DataFrame(rows).groupby(["scene", "method", "place"])
     spread = each["seconds"].max() - each["seconds"].min()
@@ -139,7 +130,7 @@ def _whole_call(scene: str) -> float:
     """
     problem = scenes.problem(scene)
     start, seconds = scenes.users_start(scene), []
-    for _ in range(CALLS):
+    for _ in range(21):
         began = clock.thread_time()
         simulate(problem.parameters, problem.t_end, initial_state=start)
         seconds.append(clock.thread_time() - began)
@@ -175,9 +166,7 @@ def _dataset(settings: Settings, rows: pd.DataFrame, whole_calls: Sequence[float
     for error in ("event", "state"):
         orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in settings]
         lines[f"order_{error}"] = (("scene", "solver"), orders)
-    for name, (dims, values) in lines.items():
-        dataset[name] = (dims, values, OF_LINES[name].attributes)
-    return dataset
+    return dataset.assign({name: (dims, values, OF_LINES[name].attributes) for name, (dims, values) in lines.items()})
 
 
 def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:

@@ -9,7 +9,8 @@ Kinds of lines:
   that of the model, against the richest one.  No tolerance makes up for it.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import logging
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,8 @@ from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
+
+log = logging.getLogger(__name__)
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Tolerances of the search for a cycle."""
@@ -44,9 +47,8 @@ def measure(
     *,
     asked: Sequence[str] = tuple(simulated.ASKED),
     models: Sequence[int] = modelled.DIAMETERS,
-    progress: Callable[[Row], object] | None = None,
 ) -> xr.Dataset:
-    """Measure the points of a method, of the cycle itself, or of models.
+    """Measure the points of a method, of the cycle itself, or of models, and log each of them.
 
     Parameters
     ----------
@@ -54,19 +56,13 @@ def measure(
     settings : of a method, from coarse to fine; those of the scene ``stick_slip``, or of its maps, if not given
     asked : questions put to a method
     models : numbers of nodal diameters, for each contact
-    progress : called with each row
 
     Returns
     -------
     Dataset along ``row``, the columns of `VARIABLES`.
     """
     others = {"cycle": _of_the_cycle, "models": lambda: _of_models(models)}
-    rows = []
-    for row in others[part]() if part in others else _of_method(part, settings, asked):
-        rows.append(row)
-        if progress is not None:
-            progress(row)
-    return _dataset(rows)
+    return _dataset([*(others[part]() if part in others else _of_method(part, settings, asked))])
 
 
 def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
@@ -106,7 +102,10 @@ def _row(answer: str, line: str, setting: float, right: float, found: Found) -> 
     label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
     row = {"answer": answer, "line": line, "label": label, "varies": varies, "setting": setting, "right": right}
     row |= {"error": abs(found.value - right), "verdict": verdict(answer, found, right), "found": found.value}
-    return found._asdict() | row
+    row |= found._asdict()
+    phrase = "%(answer)s %(line)s %(setting)g: %(found).10g, error %(error).3g, %(seconds).4g s, %(status)s %(message)s"
+    log.info(phrase, row | {"status": found.status.name})
+    return row
 
 
 def _dataset(rows: Sequence[Row]) -> xr.Dataset:

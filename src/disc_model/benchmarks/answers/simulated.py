@@ -31,10 +31,6 @@ REPEATS = 3
 """Number of repeated quick runs; the fastest counts, since disturbances only add time."""
 QUICK = 0.3
 """Longest time of a run that is repeated, s."""
-ALIKE = 1e-3
-"""Two release intervals are equal if they differ by less, as a fraction of the range of all of them."""
-SEED = 20
-"""Seed of the order of cells if only some are examined."""
 TRIED = 4
 """Number of cells from which the affordable number is estimated."""
 FEWEST = 16
@@ -101,8 +97,8 @@ def period(releases: Array) -> float:
 
     releases : times of the releases from stick, s
     """
-    gaps = np.diff(releases)
-    return float(shortest_period(gaps, ALIKE * np.max(gaps, initial=0.0), near_return=np.inf) or np.nan)
+    gaps = np.diff(releases)  # equal if they differ by less than a thousandth of the largest
+    return float(shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or np.nan)
 
 
 def onset(solve: Solve, budget: float, within: float = questions.ONSET_WITHIN) -> Answers:
@@ -187,8 +183,8 @@ def region(solve: Solve, budget: float) -> Answers:
 
 
 def drawn() -> NDArray[np.int64]:
-    """Indices of the cells, in the order of examination."""
-    return np.random.default_rng(SEED).permutation(SIDE * SIDE)
+    """Indices of the cells, in the order of examination: random, with a fixed seed."""
+    return np.random.default_rng(20).permutation(SIDE * SIDE)
 
 
 def judged(

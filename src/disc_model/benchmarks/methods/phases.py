@@ -16,8 +16,6 @@ from disc_model.data.variables import EVENT_KINDS, PHASES
 CROWD = 50
 """Greatest number of events at one instant; with more the method is stuck."""
 NOT_FINITE = "the state is no longer finite"
-INSTANT = 1e-12
-"""s; two events closer than this count as at one instant."""
 ENDS = (3, 2, 1)
 """By the number of a phase in `kernels`: functions of the state that end it where they fall through zero. The first is
 the contact force (1 if bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards
@@ -56,7 +54,7 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
             phase, direction, added = kernels.switch(modes, c, phase, cause, y, new)
             if added < 0:
                 raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
-            crowd = crowd + 1 if times and t - times[-1] < INSTANT else 0
+            crowd = crowd + 1 if times and t - times[-1] < 1e-12 else 0  # s, at one instant
             for place in range(added):
                 times.append(t)
                 kinds.append(EVENT_KINDS[new[place]])
