@@ -20,7 +20,7 @@ from docs.make_gallery import shrink
 from disc_model.benchmarks import truncation_pages
 from disc_model.benchmarks.answers import report
 from disc_model.benchmarks.answers.questions import QUESTIONS
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
 from disc_model.benchmarks.texts import as_markdown

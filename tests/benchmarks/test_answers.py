@@ -9,8 +9,8 @@ import xarray as xr
 from disc_model.benchmarks import failure_maps
 from disc_model.benchmarks.answers import measure, modelled, questions, report, simulated
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, AnswerVerdict, Found, verdict
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.registry import METHODS, Method
 from disc_model.figures import benchmark as figures
 from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
 from tests.references.stored import load
@@ -23,13 +23,13 @@ def result(problem: Problem, times, kind="separation", outcome=RunStatus.FINISHE
 class Late(Method):
     """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes too long."""
 
-    label = "late"
-
-    def _solve(self, problem, value, budget):
+    def solve(self, problem, value, budget=math.inf):
         times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
         outcome = RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW
         return result(problem, times, outcome=outcome, seconds=2.0 if value > 1e-3 else 3.0)
 
+
+LATE = Late(name="late", label="late", place="", settings={})
 
 # ----------------------------------------------------------------------------------------------------
 # Judging
@@ -113,7 +113,7 @@ def judged(wrong: int, seconds: float, budget: float = 64.0) -> Found:
     """``wrong`` of the cells that are looked at first are judged wrong."""
     right = questions.region().ravel()
     bad = set(simulated.drawn()[:wrong].tolist())
-    return simulated.judged(lambda place: (bool(right[place]) != (place in bad), seconds), right, budget)
+    return simulated.judged(lambda place: (bool(right[place]) != (place in bad), seconds), right.__getitem__, budget)
 
 
 def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
@@ -146,7 +146,7 @@ def test_what_breaks_off_has_a_status_and_a_reason() -> None:
 
 @pytest.fixture
 def dataset(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
-    monkeypatch.setitem(METHODS, "late", Late())
+    monkeypatch.setitem(METHODS, "late", LATE)
     monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
 
     def ask(model):
@@ -191,7 +191,7 @@ def test_it_is_written(dataset: xr.Dataset) -> None:
 
 
 def test_maps_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(METHODS, "late", Late())
+    monkeypatch.setitem(METHODS, "late", LATE)
     monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
     monkeypatch.setattr(failure_maps, "_right", lambda count: 54.42 if count < 4 else math.nan)
     found = failure_maps.answer_map("late", (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks import failure_maps
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
@@ -41,7 +41,7 @@ def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
 
 
 def test_heyoka_is_compiled_compactly_for_maps() -> None:
-    assert METHODS["heyoka"].economical().compact
+    assert METHODS["heyoka"].economical().arguments == ("compact",)
 
 
 @pytest.mark.compiled

@@ -10,8 +10,7 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.answers import measure
 from disc_model.benchmarks.grid import words
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.registry import SCENES
+from disc_model.benchmarks.registry import METHODS, SCENES
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 from tests.benchmarks.conftest import dataset, known

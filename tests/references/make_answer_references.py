@@ -17,8 +17,8 @@ import numpy as np
 from disc_model.benchmarks.answers import questions, simulated
 from disc_model.benchmarks.answers.questions import Found
 from disc_model.benchmarks.answers.simulated import Solve
-from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.registry import METHODS
 from disc_model.errors import script
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate

@@ -1,18 +1,18 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.registry import RIVALS, SCENES, absent
+from disc_model.benchmarks.registry import METHODS, SCENES, absent
 
 BENCH = "results/bench"
 MEASURED = [
-    rival
-    for rival in RIVALS
-    if rival.maps and (not rival.requires or not (CONDA or absent(rival.requires)))
+    method
+    for method in METHODS.values()
+    if method.maps and (not method.requires or not (CONDA or absent(method.requires)))
 ]
-QUESTIONED = [rival.name for rival in MEASURED]
+QUESTIONED = [method.name for method in MEASURED]
 FAILURE_MAPS = [
-    f"{rival.name}_{scene}"
-    for rival in sorted(MEASURED, key=lambda rival: "stick_slip" not in rival.maps)
-    for scene in rival.maps
+    f"{method.name}_{scene}"
+    for method in sorted(MEASURED, key=lambda method: "stick_slip" not in method.maps)
+    for scene in method.maps
 ]
 BENCH_FIGURES = [
     "overview",

@@ -18,9 +18,9 @@ from disc_model.benchmarks.answers import simulated
 from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.grid import measured, variables
 from disc_model.benchmarks.hardware import machine, one_core
-from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
+from disc_model.benchmarks.registry import METHODS, Method
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
@@ -31,6 +31,8 @@ TRUNCATIONS = (1, 2, 4, 6, 8)
 """Highest number of nodal diameters of each row."""
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
+STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())
+"""Fixed steps of a map, s."""
 REFERENCE_TOL = 1e-14
 
 VARIABLES = variables("failure_maps", verdict=Verdict)
@@ -64,11 +66,15 @@ def failure_map(
         for diameters in truncations:
             facts[diameters]["observed_limit"] = observed_step_limit(diameters)
     about = {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
-    return _map_of(method, own.map_values if values is None else values, VARIABLES, measure, facts, about)
+    return _map_of(own, _settings(own) if values is None else values, VARIABLES, measure, facts, about)
+
+
+def _settings(own: Method) -> Sequence[float]:
+    return STEPS if own.setting == "step" else own.map_values
 
 
 def _map_of(
-    method: str,
+    own: Method,
     values: Sequence[float],
     variables: Mapping[str, Variable],
     measure: Callable[[int, float], Mapping[str, float]],
@@ -76,13 +82,12 @@ def _map_of(
     about: Mapping[str, Any],
 ) -> xr.Dataset:
     """Results of ``measure`` for a method along (diameters, value), and facts for each number of diameters."""
-    own = METHODS[method]
     found = measured({"diameters": [*facts], "value": values}, variables, measure)
     for name in next(iter(facts.values())):
         found[name] = ("diameters", [fact[name] for fact in facts.values()], FACTS[name].attributes)
     found["diameters"].attrs = FACTS["diameters"].attributes
     found["value"].attrs = {"long_name": f"setting: {own.setting}"}
-    return found.assign_attrs(method=method, label=own.label, setting=own.setting, machine=machine(), **about)
+    return found.assign_attrs(method=own.name, label=own.label, setting=own.setting, machine=machine(), **about)
 
 
 def _facts(scene: str, diameters: int) -> dict[str, float]:
@@ -91,15 +96,10 @@ def _facts(scene: str, diameters: int) -> dict[str, float]:
     return {
         "modes": float(real_modes(diameters, 0)),
         "omega_max": top,
-        "step_limit": _step_limit(p),
+        "step_limit": STABILITY_LIMIT / top,
         "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
         "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
     }
-
-
-def _step_limit(p: Parameters) -> float:
-    """Linear stability limit of RK4, s."""
-    return STABILITY_LIMIT / float(mode_arrays(p).omega.max())
 
 
 @lru_cache(maxsize=64)
@@ -123,7 +123,7 @@ def observed_step_limit(diameters: int) -> float:
     Compare with 2 sqrt(2)/omega_max.  Its relative precision is 2e-3.
     """
     problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
-    theory = _step_limit(problem.parameters)
+    theory = _facts("stick_slip", diameters)["step_limit"]
     low, high = 0.7 * theory, 1.5 * theory
     while high / low > 1.0 + 2e-3:
         middle = math.sqrt(low * high)
@@ -174,10 +174,11 @@ def answer_map(
         return judged | {"status": found.status, "found": found.value, "seconds": found.seconds}
 
     if values is None:  # six at most: the first, the last, and some between
-        places = np.linspace(0, len(own.map_values) - 1, min(6, len(own.map_values))).round().astype(int)
-        values = [own.map_values[place] for place in places]
+        every = _settings(own)
+        places = np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)
+        values = [every[place] for place in places]
     about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
-    return _map_of(method, values, ANSWER_VARIABLES, measure, facts, about)
+    return _map_of(own, values, ANSWER_VARIABLES, measure, facts, about)
 
 
 def _right(diameters: int) -> float:

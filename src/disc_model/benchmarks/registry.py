@@ -1,19 +1,31 @@
-"""Registry of the methods, from ``rivals.toml``: each is an entry there and a class in `disc_model.benchmarks.methods`.
+"""Registry of the methods, from ``rivals.toml``: each has an entry there, and a function in a module of `methods`.
 
 The module imports nothing heavy: the workflow reads it at every start.
 """
 
+from __future__ import annotations
+
 import math
 import tomllib
 from collections.abc import Iterable
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict
 
+from disc_model.errors import DiscModelError
+
+if TYPE_CHECKING:
+    from disc_model.benchmarks.methods.base import MethodResult, Problem
+
 SCENES = ("stick_slip", "separating", "many_modes", "rigid")
 """Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
+
+
+class MethodUnavailable(DiscModelError, ImportError):
+    """A method whose optional package is not installed."""
 
 
 def absent(packages: Iterable[str]) -> list[str]:
@@ -21,8 +33,8 @@ def absent(packages: Iterable[str]) -> list[str]:
     return [name for name in packages if find_spec(name) is None]
 
 
-class Rival(BaseModel):
-    """A method as the file declares it; the file explains the keys."""
+class Method(BaseModel):
+    """A method that integrates a problem, as the file declares it; the file explains the keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     name: str
@@ -32,11 +44,41 @@ class Rival(BaseModel):
     setting: Literal["tol", "step", "epsilon"] = "tol"
     order: float = math.nan
     settings: dict[str, tuple[float, ...]]
-    map_values: tuple[float, ...] = ()
+    map_values: tuple[float, ...] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
     map_budget: float = 1.0
+    map_arguments: tuple[str, ...] | None = None
     maps: tuple[str, ...] = ()
     requires: tuple[str, ...] = ()
 
+    def unavailable(self) -> str:
+        """Reason why the method cannot be used here; "" if it can."""
+        missing = absent(self.requires)
+        if not missing:
+            return ""
+        return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
+
+    def economical(self) -> Method:
+        """The variant of the method for maps, where every run has other modes and another setting."""
+        return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
+
+    def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
+
+        Failures on the way are not raised: the status of the result reports them.
+
+        Raises
+        ------
+        MethodUnavailable
+            If the package that the method stands for is not installed.
+        """
+        if reason := self.unavailable():
+            raise MethodUnavailable(reason)
+        module, _, name = self.place.partition(":")
+        function = getattr(import_module(f"disc_model.benchmarks.methods.{module}"), name)
+        result: MethodResult = function(problem, value, budget, *self.arguments)
+        return result
+
 
 _DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
-RIVALS = tuple(Rival(name=name, **given) for name, given in _DECLARED.items())
+METHODS = {name: Method(name=name, **given) for name, given in _DECLARED.items()}
+"""All of them by name."""

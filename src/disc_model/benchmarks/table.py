@@ -7,7 +7,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.grid import TABLES, words
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.benchmarks.texts import TEXTS, report
 

@@ -38,6 +38,8 @@ AFTER = 1.0
 WINDOW = (5.0, 7.0)
 """Stretch over which the range of the contact force is taken, s."""
 VARIABLES = variables("truncation")
+ABOUT = {"Conventions": "CF-1.11", "band": BAND, "compared_with": json.dumps(RICH)}
+"""Attributes of both studies."""
 
 
 def truncation_study(
@@ -63,19 +65,8 @@ def truncation_study(
         return {name: value for name, value in row.items() if name in VARIABLES}
 
     study = measured({"normalization": normalizations, "circles": circles, "diameters": diameters}, VARIABLES, measure)
-    return _described(study, "What a study needs of the modes", {name: CASES[name] for name in normalizations})
-
-
-def _described(study: xr.Dataset, title: str, cases: Mapping[str, Any], **more: Any) -> xr.Dataset:
-    attrs = {
-        "Conventions": "CF-1.11",
-        **more,
-        "title": title,
-        "cases": json.dumps(cases, sort_keys=True),
-        "band": BAND,
-        "compared_with": json.dumps(RICH),
-    }
-    return study.assign_attrs(attrs)
+    cases = json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True)
+    return study.assign_attrs(ABOUT, title="What a study needs of the modes", cases=cases)
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
@@ -109,7 +100,8 @@ def contact_study(
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
     study = measured({"case": [*cases], "contact": [*CONTACTS], "model": sizes}, CONTACT_VARIABLES, measure)
     about = {"late": json.dumps(LATE), "most_growth": MOST_GROWTH, "horizon": horizon, "machine": machine()}
-    return _described(study, "What residual flexibility changes", dict(cases), **about)
+    known = json.dumps(dict(cases), sort_keys=True)
+    return study.assign_attrs(ABOUT | about, title="What residual flexibility changes", cases=known)
 
 
 def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]:

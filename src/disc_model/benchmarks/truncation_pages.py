@@ -37,8 +37,6 @@ ALL = {name: Column(*given) for name, given in TABLES["contact_truncation_tables
 TABLED = {name: column for name, column in ALL.items() if column.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
-OPEN = ("case", "contact", "quantity", "values", "with so many modes")
-"""Head of the table of quantities that have not converged."""
 FEWEST = 3
 """Number of models that must agree: one, and two larger ones."""
 NOT = "**not**"
@@ -94,6 +92,7 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
                 open_rows.append((_upper(str(case)), contact, column.title, ", ".join(map(column.shown, last)), modes))
         rows.append(row)
     table = pd.DataFrame(rows)
+    undecided = pd.DataFrame(open_rows, columns=("case", "contact", "quantity", "values", "with so many modes"))
     found = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
     counts = [{"contact": contact, "settled": part["sum"], "count": part["size"]} for contact, part in found.iterrows()]
     most = f"{study['modes'].iloc[-1]:g}"
@@ -102,7 +101,7 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
             horizon=run["horizon"], start=start, stop=start + length, machine=run["machine"], tables=tables
         ),
         "truncation_settled": TEXTS["truncation_settled"].fill(table=as_markdown(table), most=most, contacts=counts),
-        "truncation_open": f"\n\n{as_markdown(pd.DataFrame(open_rows, columns=OPEN))}\n",
+        "truncation_open": f"\n\n{as_markdown(undecided)}\n",
     }
 
 

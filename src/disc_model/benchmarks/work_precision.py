@@ -19,8 +19,8 @@ import xarray as xr
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.grid import measured, variables
 from disc_model.benchmarks.hardware import machine, one_core
-from disc_model.benchmarks.methods import METHODS, RunStatus
-from disc_model.benchmarks.registry import SCENES
+from disc_model.benchmarks.methods import RunStatus
+from disc_model.benchmarks.registry import METHODS, SCENES
 from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions

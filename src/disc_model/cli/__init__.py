@@ -39,10 +39,6 @@ def _all(
 ) -> None: ...
 
 
-OF_STUDIES = ("matplotlib", "cmcrameri", "yaml", "snakemake")
-"""Modules that an installation without the extra `workflow` lacks."""
-
-
 def _fail(message: str) -> NoReturn:
     """Print a fault on stderr and exit with code 2."""
     if message:  # empty after a help text
@@ -60,7 +56,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except DiscModelError as error:
         _fail(str(error))
     except ModuleNotFoundError as error:
-        if error.name not in OF_STUDIES:
+        if error.name not in ("matplotlib", "cmcrameri", "yaml", "snakemake"):  # which only the extra `workflow` brings
             raise
         _fail(f"there is no module {error.name}: pip install 'disc_model[workflow]' brings all that studies need")
     except Exception as error:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Meter, Problem
+from disc_model.benchmarks.registry import METHODS
 from tests.benchmarks.methods.problems import BASE
 
 ONE_MODE = SimpleNamespace(
@@ -34,14 +34,14 @@ def test_turning_points_between_steps_are_seen() -> None:
     seen = Meter(Problem(BASE, None, 1.0, watched=True), math.inf)
     seen.physics = ONE_MODE
     assert math.isnan(seen.low)
-    seen.path(times, states)
+    seen.steps(times, states)
     # 6 x^2 - 6 x + 1 = 0
     turns = (3 + np.array([-1, 1]) * math.sqrt(3)) / 6
     ends = cubic(times)
     assert seen.high == pytest.approx(max(cubic(turns[0]), ends.max()), abs=1e-14)
     assert seen.low == pytest.approx(min(cubic(turns[1]), ends.min()), abs=1e-14)
-    seen.path(times[:1], states[:1])  # one instant only
-    seen.path(np.array([0.0, 0.0]), states[:2])  # no time at all
+    seen.steps(times[:1], states[:1])  # one instant only
+    seen.steps(np.array([0.0, 0.0]), states[:2])  # no time at all
 
 
 @pytest.mark.compiled

@@ -6,11 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import METHODS, RunStatus, kernels
+from disc_model.benchmarks.methods import RunStatus, kernels
 from disc_model.benchmarks.methods import regularised as regularised_module
 from disc_model.benchmarks.methods import solve_ivp as solve_ivp_module
 from disc_model.benchmarks.methods.base import GaveUp, Meter
 from disc_model.benchmarks.methods.phases import run_phases
+from disc_model.benchmarks.registry import METHODS
 from tests.benchmarks.methods.problems import task
 
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from disc_model import simulate
-from disc_model.benchmarks.methods import METHODS, RunStatus
+from disc_model.benchmarks.methods import RunStatus
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.registry import METHODS
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import MOTIONS, P, Printed, lively
 

@@ -20,7 +20,7 @@ from disc_model.benchmarks.answers import modelled, questions, simulated
 from disc_model.benchmarks.answers.questions import AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.grid import variables
 from disc_model.benchmarks.hardware import machine, one_core
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
@@ -53,7 +53,7 @@ def measure(
     Parameters
     ----------
     part : name of a method, ``cycle`` or ``models``
-    settings : of a method, from coarse to fine; those of the scene ``stick_slip``, or of its maps, if not given
+    settings : of a method, from coarse to fine; those of the scene ``stick_slip`` if not given
     asked : questions put to a method
     models : numbers of nodal diameters, for each contact
 
@@ -73,7 +73,7 @@ def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
 def _of_method(name: str, values: Sequence[float] | None, asked: Sequence[str]) -> Iterator[Row]:
     """Measure a method; a question for which it is too slow is skipped at finer settings."""
     own, hopeless = METHODS[name], set[str]()
-    for value in values or own.settings.get("stick_slip", own.map_values):
+    for value in values or own.settings["stick_slip"]:
         for question in asked:
             if question in hopeless:
                 continue

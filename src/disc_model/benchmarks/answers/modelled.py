@@ -10,13 +10,10 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache, partial, wraps
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from disc_model.benchmarks.answers import questions, simulated
-from disc_model.benchmarks.answers.questions import SIDE, Found
+from disc_model.benchmarks.answers.questions import Found
 from disc_model.benchmarks.answers.simulated import found
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.registry import METHODS
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -44,7 +41,7 @@ def ask(model: Model) -> Iterator[tuple[str, Found]]:
     yield from after_separation(questions.SETTLED.replace(**model)).items()
     yield "onset", onset(questions.SEPARATING.replace(**model), DEFAULT)
     yield "growth_rate", growth_rate(questions.GROWING.replace(**model), DEFAULT)
-    yield "region", simulated.judged(partial(_cell, model), _richest_region(), NEVER, CELLS)
+    yield "region", simulated.judged(partial(_cell, model), _right_cell, NEVER, CELLS)
 
 
 def after_separation(p: Parameters) -> simulated.Answers:
@@ -98,10 +95,7 @@ def _cell(model: Model, place: int) -> tuple[bool, float]:
     return simulated.cell(solve, questions.cell(place).replace(**model), NEVER)
 
 
-@lru_cache(maxsize=1)
-def _richest_region() -> NDArray[np.bool_]:
-    """Separation in the drawn cells under the richest model; all others are False."""
-    separates = np.zeros(SIDE * SIDE, bool)
-    for place in simulated.drawn()[:CELLS]:
-        separates[place], _ = _cell(RICHEST, int(place))
-    return separates
+@lru_cache(maxsize=CELLS)
+def _right_cell(place: int) -> bool:
+    """Separation in a cell under the richest model."""
+    return _cell(RICHEST, place)[0]

@@ -16,7 +16,8 @@ from disc_model.analysis.classify import shortest_period
 from disc_model.analysis.sobol import share
 from disc_model.benchmarks.answers import questions
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, Found
-from disc_model.benchmarks.methods.base import Method, MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.registry import Method
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import static_start
 from disc_model.simulation.result import State
@@ -33,8 +34,6 @@ QUICK = 0.3
 """Longest time of a run that is repeated, s."""
 TRIED = 4
 """Number of cells from which the affordable number is estimated."""
-FEWEST = 16
-"""Least number of cells for an answer."""
 
 
 def by(method: Method, value: float) -> Solve:
@@ -179,7 +178,7 @@ def region(solve: Solve, budget: float) -> Answers:
     then has Wilson's interval of 95 %.  The time is extrapolated to all cells.
     """
     right = questions.region().ravel()
-    return {"region": judged(lambda place: cell(solve, questions.cell(place), budget), right, budget)}
+    return {"region": judged(lambda place: cell(solve, questions.cell(place), budget), right.__getitem__, budget)}
 
 
 def drawn() -> NDArray[np.int64]:
@@ -188,11 +187,11 @@ def drawn() -> NDArray[np.int64]:
 
 
 def judged(
-    judge: Callable[[int], tuple[bool, float]], right: NDArray[np.bool_], budget: float, most: int = SIDE * SIDE
+    judge: Callable[[int], tuple[bool, float]], right: Callable[[int], bool], budget: float, most: int = SIDE * SIDE
 ) -> Found:
     """The answer as of `region`, for any function that judges a cell by its index: separation, and seconds taken.
 
-    right : (`SIDE`^2,), separation in each cell
+    right : whether a cell separates, by its index
     most : number of cells to examine
     """
     places = drawn()
@@ -201,13 +200,13 @@ def judged(
         verdicts += [judge(int(place)) for place in places[:TRIED]]
         each = sum(seconds for _, seconds in verdicts) / TRIED
         count = min(most, 2 ** int(math.log2(max(1.0, budget / max(each, 1e-9)))))
-        if count < FEWEST:
+        if count < 16:  # too few for an answer
             why = f"{each:.3g} s a cell"
             return Found(math.nan, each * len(places), AnswerStatus.TOO_SLOW, why, cells=TRIED)
         verdicts += [judge(int(place)) for place in places[TRIED:count]]
     except Broken as broken:
         return broken.found(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
-    wrong = sum(apart != right[place] for (apart, _), place in zip(verdicts, places, strict=False))
+    wrong = sum(apart != right(int(place)) for (apart, _), place in zip(verdicts, places, strict=False))
     part = float(wrong) / count
     low = high = part
     if count < len(places):

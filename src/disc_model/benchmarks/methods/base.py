@@ -1,5 +1,8 @@
 """The contract of a method: its input and its result.
 
+A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
+``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way.
+
 Only the integration is timed: modes, compiling and setting up are left out for every method.  Times are processor
 times. On a core of its own these equal wall-clock times, and elsewhere other processes do not distort them.
 """
@@ -9,8 +12,7 @@ from __future__ import annotations
 import enum
 import math
 import time as clock
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -19,14 +21,8 @@ from scipy.interpolate import CubicHermiteSpline
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.physics import Array, Physics
-from disc_model.benchmarks.registry import absent
-from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-
-
-class MethodUnavailable(DiscModelError, ImportError):
-    """A method whose optional package is not installed."""
 
 
 class RunStatus(enum.StrEnum):
@@ -100,47 +96,6 @@ class MethodResult:
         return self.kinds.count("separation")
 
 
-class Method(ABC):
-    """A method that integrates a problem; its attributes are those that ``benchmarks/rivals.toml`` declares."""
-
-    name: str = ""
-    label: str
-    setting: str = "tol"
-    order: float = math.nan
-    requires: tuple[str, ...] = ()
-    settings: Mapping[str, Sequence[float]]
-    map_values: Sequence[float] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
-    map_budget: float = 1.0  # beyond it a method gave up: the engine needs a ten-thousandth of it
-
-    def unavailable(self) -> str:
-        """Reason why the method cannot be used here; "" if it can."""
-        missing = absent(self.requires)
-        if not missing:
-            return ""
-        return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
-
-    def economical(self) -> Method:
-        """The variant of the method for maps, where every run has other modes and another setting."""
-        return self
-
-    def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
-
-        Failures on the way are not raised: the status of the result reports them.
-
-        Raises
-        ------
-        MethodUnavailable
-            If the package that the method stands for is not installed.
-        """
-        if reason := self.unavailable():
-            raise MethodUnavailable(reason)
-        return self._solve(problem, value, budget)
-
-    @abstractmethod
-    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult: ...
-
-
 class GaveUp(Exception):
     """Raised inside a run that cannot go on."""
 
@@ -178,14 +133,14 @@ class Meter:
         return MethodResult(*found, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
-        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size)."""
+        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size).
+
+        If it is requested, they extend the range of w (m): between two it is the cubic with its values and rates there.
+        """
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
-        if self.problem.watched:
-            self.path(times, states)
-
-    def path(self, times: Array, states: Array) -> None:
-        """Extend the range of w (m) by such steps; between two it is the cubic with its values and rates at both."""
+        if not self.problem.watched:
+            return
         q = self.physics
         w = states[:, q.a] @ q.shape
         rate = states[:, q.alpha] @ q.shape + states[:, q.f] * (states[:, q.b] @ q.slope)

@@ -16,7 +16,7 @@ import numpy as np
 from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem
 from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale
@@ -30,44 +30,39 @@ HEAD = 3
 """Number of entries before the scalars in the callbacks' data: phase, direction, modes."""
 
 
-class Cvode(Method):
+def solve(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
     """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
+    meter = Meter(problem, budget)
+    n, scale = meter.physics.n, value * absolute_scale(meter.physics)
+    state, given = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
+    time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
+    falling = (ctypes.c_int * 3)(-1, -1, -1)
+    call, switches = _library(), _callbacks()[1]
 
-    def __init__(self, family: str) -> None:
-        self.family = family
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        state[:], given[:2], time.value = y, (phase, direction), t
+        call.CVodeReInit(memory, ctypes.c_double(t), vector)
+        call.CVodeRootInit(memory, ENDS[phase], switches)
+        call.CVodeSetRootDirection(memory, falling)
+        call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
+        flag, how, path = 0, ONE_STEP if problem.watched else NORMAL, [(t, y.copy())]
+        while flag in (0, TOO_MUCH_WORK):
+            meter.check()
+            flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
+            path.append((time.value, state.copy()))
+        if problem.watched:
+            meter.steps(np.array([time for time, _ in path]), np.array([state for _, state in path]))
+        call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
+        meter.work += evaluations.value
+        if flag < 0:
+            raise GaveUp(f"CVODE returned {flag}")
+        if flag == REACHED:
+            return None, time.value, state
+        call.CVodeGetRootInfo(memory, roots)
+        return next(i for i, found in enumerate(roots) if found), time.value, state
 
-    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        meter = Meter(problem, budget)
-        n, scale = meter.physics.n, value * absolute_scale(meter.physics)
-        state, given = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
-        time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
-        falling = (ctypes.c_int * 3)(-1, -1, -1)
-        call, switches = _library(), _callbacks()[1]
-
-        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
-            state[:], given[:2], time.value = y, (phase, direction), t
-            call.CVodeReInit(memory, ctypes.c_double(t), vector)
-            call.CVodeRootInit(memory, ENDS[phase], switches)
-            call.CVodeSetRootDirection(memory, falling)
-            call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
-            flag, how, path = 0, ONE_STEP if problem.watched else NORMAL, [(t, y.copy())]
-            while flag in (0, TOO_MUCH_WORK):
-                meter.check()
-                flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
-                path.append((time.value, state.copy()))
-            if problem.watched:
-                meter.path(np.array([time for time, _ in path]), np.array([state for _, state in path]))
-            call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
-            meter.work += evaluations.value
-            if flag < 0:
-                raise GaveUp(f"CVODE returned {flag}")
-            if flag == REACHED:
-                return None, time.value, state
-            call.CVodeGetRootInfo(memory, roots)
-            return next(i for i, found in enumerate(roots) if found), time.value, state
-
-        with _solver(self.family, state, value, scale, given) as (memory, vector):
-            return run_phases(advance, meter)
+    with _solver(family, state, value, scale, given) as (memory, vector):
+        return run_phases(advance, meter)
 
 
 @cache

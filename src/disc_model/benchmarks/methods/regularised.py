@@ -16,7 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.physics import Array, Physics
 from disc_model.benchmarks.methods.solve_ivp import absolute_scale, crossing
 from disc_model.simulation.result import State
@@ -77,38 +77,34 @@ def _excess(mu_s: float, mu_k: float) -> float:
     return excess
 
 
-class Regularised(Method):
-    """LSODA on the regularised model."""
-
-    algorithm = "LSODA"
-
-    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        meter = Meter(problem, budget)
-        physics, law = meter.physics, Law(meter.physics, value)
-        y = law.start(problem.start)
-        law.rate(y)  # compiles
-        events = [
-            crossing(lambda _t, z: abs(z[physics.f]) - CREEP * value, 0, last=False),
-            crossing(lambda _t, z: law.force(z), 0, last=False),
-        ]
-        if problem.stop:
-            events.append(crossing(lambda _t, z: law.force(z), -1, last=True))
-        switches: list[tuple[float, str]] = []
-        t = 0.0
-        with meter.running(), np.errstate(over="ignore", invalid="ignore"):
-            found = solve_ivp(
-                meter.counted(lambda _t, z: law.rate(z)), (t, problem.span), y,
-                method=self.algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
-            )  # fmt: skip
-            meter.steps(found.t, found.y.T)
-            t, y = float(found.t[-1]), found.y[:, -1]
-            switches = _read_off(law, found.t_events, found.y_events)
-            if found.status < 0:
-                raise GaveUp(found.message)
-        if not np.all(np.isfinite(y)):
-            meter.outcome = RunStatus.NON_FINITE
-        times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
-        return meter.result(times, kinds, law.state(problem.start.time + t, y))
+def solve(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
+    """An algorithm of scipy on the regularised model; ``value`` is eps."""
+    meter = Meter(problem, budget)
+    physics, law = meter.physics, Law(meter.physics, value)
+    y = law.start(problem.start)
+    law.rate(y)  # compiles
+    events = [
+        crossing(lambda _t, z: abs(z[physics.f]) - CREEP * value, 0, last=False),
+        crossing(lambda _t, z: law.force(z), 0, last=False),
+    ]
+    if problem.stop:
+        events.append(crossing(lambda _t, z: law.force(z), -1, last=True))
+    switches: list[tuple[float, str]] = []
+    t = 0.0
+    with meter.running(), np.errstate(over="ignore", invalid="ignore"):
+        found = solve_ivp(
+            meter.counted(lambda _t, z: law.rate(z)), (t, problem.span), y,
+            method=algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
+        )  # fmt: skip
+        meter.steps(found.t, found.y.T)
+        t, y = float(found.t[-1]), found.y[:, -1]
+        switches = _read_off(law, found.t_events, found.y_events)
+        if found.status < 0:
+            raise GaveUp(found.message)
+    if not np.all(np.isfinite(y)):
+        meter.outcome = RunStatus.NON_FINITE
+    times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
+    return meter.result(times, kinds, law.state(problem.start.time + t, y))
 
 
 def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[float, str]]:

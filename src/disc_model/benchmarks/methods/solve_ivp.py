@@ -7,41 +7,33 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem
 from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
 
-FLOOR = 2.3e-14
-"""Least relative tolerance that scipy accepts."""
-IMPLICIT = ("LSODA", "Radau")
 Function = Callable[[float, Array], Any]
 
 
-class SolveIvp(Method):
+def solve(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
     """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
+    meter = Meter(problem, budget)
+    scale, least = absolute_scale(meter.physics), 2.3e-14  # scipy accepts no smaller relative tolerance
 
-    def __init__(self, algorithm: str) -> None:
-        self.algorithm = algorithm
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        rate, slopes, events = _functions(meter, phase, direction)
+        more = {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = solve_ivp(
+                meter.counted(rate), (t, t_end), y,
+                method=algorithm, rtol=max(value, least), atol=value * scale, events=events, **more,
+            )  # fmt: skip
+        meter.steps(found.t, found.y.T)
+        if found.status == -1:
+            raise GaveUp(found.message)
+        cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
+        return cause, float(found.t[-1]), found.y[:, -1].copy()
 
-    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        meter = Meter(problem, budget)
-        scale = absolute_scale(meter.physics)
-
-        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
-            rate, slopes, events = _functions(meter, phase, direction)
-            more = {"jac": slopes} if self.algorithm in IMPLICIT else {"max_step": problem.max_step}
-            with np.errstate(over="ignore", invalid="ignore"):
-                found = solve_ivp(
-                    meter.counted(rate), (t, t_end), y,
-                    method=self.algorithm, rtol=max(value, FLOOR), atol=value * scale, events=events, **more,
-                )  # fmt: skip
-            meter.steps(found.t, found.y.T)
-            if found.status == -1:
-                raise GaveUp(found.message)
-            cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
-            return cause, float(found.t[-1]), found.y[:, -1].copy()
-
-        return run_phases(advance, meter)
+    return run_phases(advance, meter)
 
 
 def _functions(meter: Meter, phase: int, direction: int) -> tuple[Function, Function, list[Function]]:

@@ -12,14 +12,13 @@ from __future__ import annotations
 
 import time as clock
 from collections.abc import Iterable
-from copy import copy
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Method, MethodResult, Problem
+from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem
 from disc_model.benchmarks.methods.kernels import SHIFT
 from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
 from disc_model.benchmarks.methods.physics import Array, Physics
@@ -30,68 +29,58 @@ STEPS_PER_LOOK = 100_000
 """Number of steps between two checks of the clock."""
 
 
-class Heyoka(Method):
-    """heyoka's adaptive Taylor integrator."""
+def solve(problem: Problem, value: float, budget: float, mode: str = "") -> MethodResult:
+    """heyoka's adaptive Taylor integrator; ``mode`` "compact": it compiles sooner and takes longer."""
+    import heyoka as hy
 
-    compact = False
+    meter, p = Meter(problem, budget), problem.parameters
+    given = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
+    at_end, no_more = int(hy.taylor_outcome.time_limit), int(hy.taylor_outcome.step_limit)
+    path: list[tuple[float, Array]] = []
+    inside = 0.0
 
-    def economical(self) -> Heyoka:
-        """The method in compact mode: a map compiles it for every truncation and tolerance."""
-        smaller = copy(self)
-        smaller.compact = True
-        return smaller
+    def note(integrator: Any) -> bool:
+        path.append((float(integrator.time), integrator.state.copy()))
+        return True
 
-    def _solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
-        import heyoka as hy
+    # called at every step, which takes longer than some steps
+    seen = {"callback": note} if problem.watched else {}
+    prepared = []
+    for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True):
+        integrator.pars[:2] = given
+        # with fewer events, the last ones of ENDS
+        state = integrator.state
+        skipped = ends - len(integrator.t_events)
+        prepared.append((integrator, integrator.propagate_until, state, len(state), skipped))
 
-        meter, p = Meter(problem, budget), problem.parameters
-        given = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
-        at_end, no_more = int(hy.taylor_outcome.time_limit), int(hy.taylor_outcome.step_limit)
-        path: list[tuple[float, Array]] = []
-        inside = 0.0
-
-        def note(integrator: Any) -> bool:
-            path.append((float(integrator.time), integrator.state.copy()))
-            return True
-
-        # called at every step, which takes longer than some steps
-        seen = {"callback": note} if problem.watched else {}
-        prepared = []
-        for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, self.compact), strict=True):
-            integrator.pars[:2] = given
-            # with fewer events, the last ones of ENDS
-            state = integrator.state
-            skipped = ends - len(integrator.t_events)
-            prepared.append((integrator, integrator.propagate_until, state, len(state), skipped))
-
-        def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
-            nonlocal inside
-            integrator, propagate, state, size, skipped = prepared[phase]
-            integrator.time, state[:] = t, y[:size]
-            if direction:
-                integrator.pars[2] = direction
-            path.clear()
-            began = clock.perf_counter()
-            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
-            while (stop := int(outcome)) == no_more:
-                meter.work += steps
-                meter.check()
-                outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
-            inside += clock.perf_counter() - began
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        nonlocal inside
+        integrator, propagate, state, size, skipped = prepared[phase]
+        integrator.time, state[:] = t, y[:size]
+        if direction:
+            integrator.pars[2] = direction
+        path.clear()
+        began = clock.perf_counter()
+        outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
+        while (stop := int(outcome)) == no_more:
             meter.work += steps
-            cause = None if stop == at_end else skipped - stop - 1
-            if cause is not None and not skipped <= cause < ENDS[phase]:
-                raise GaveUp(str(outcome))
-            if problem.watched:
-                note(integrator)
-                states = np.tile(y, (len(path) + 1, 1))
-                states[1:, : len(state)] = [state for _, state in path]
-                meter.path(np.array([t, *(time for time, _ in path)]), states)
-            y[:size] = state
-            return cause, integrator.time, y
+            meter.check()
+            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=STEPS_PER_LOOK, **seen)
+        inside += clock.perf_counter() - began
+        meter.work += steps
+        cause = None if stop == at_end else skipped - stop - 1
+        if cause is not None and not skipped <= cause < ENDS[phase]:
+            raise GaveUp(str(outcome))
+        if problem.watched:
+            note(integrator)
+            states = np.tile(y, (len(path) + 1, 1))
+            states[1:, : len(state)] = [state for _, state in path]
+            meter.steps(np.array([t, *(time for time, _ in path)]), states)
+        y[:size] = state
+        return cause, integrator.time, y
 
-        result = run_phases(advance, meter)
-        return replace(result, glue=result.seconds * (1.0 - inside / meter.wall))
+    result = run_phases(advance, meter)
+    return replace(result, glue=result.seconds * (1.0 - inside / meter.wall))
 
 
 @lru_cache(maxsize=32)
