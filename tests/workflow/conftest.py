@@ -13,7 +13,7 @@ from typing import Self
 
 import pytest
 
-from tests.processes import run
+from tests.processes import python, run
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
@@ -40,30 +40,14 @@ class Project:
     config: str | None = None
     variables: Mapping[str, str] = field(default_factory=dict)
 
-    def snakemake(self, *options: str) -> subprocess.CompletedProcess[str]:
-        """Run Snakemake as a user would, with the copy's own sources; all that it says is in ``stdout``."""
-        return subprocess.run(
-            self.command(*options),
-            cwd=self.folder,
-            env=self.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            check=False,
-            timeout=900,
-        )
-
-    def complete(self, *options: str) -> str:
-        """Run Snakemake, which must succeed; what it says."""
-        done = self.snakemake(*options)
-        assert done.returncode == 0, done.stdout
-        return done.stdout
+    def complete(self, *options: str, fails: bool = False) -> str:
+        """Run Snakemake as a user would, with the copy's own sources; it must succeed, or fail; what it says."""
+        done = run(*self.command(*options), cwd=self.folder, fails=fails, timeout=900, **self.own)
+        return done.stdout + done.stderr
 
     def refused(self, *options: str) -> str:
         """Run Snakemake, which must not succeed; what it says."""
-        done = self.snakemake(*options)
-        assert done.returncode != 0
-        return done.stdout
+        return self.complete(*options, fails=True)
 
     def command(self, *options: str) -> list[str]:
         """The command of such a run."""
@@ -71,10 +55,9 @@ class Project:
         return [sys.executable, "-m", "snakemake", *options, *named]
 
     @property
-    def environment(self) -> dict[str, str]:
-        """The environment of such a run."""
-        own = {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-        return os.environ | own | self.variables
+    def own(self) -> dict[str, str]:
+        """Variables of the environment of such a run."""
+        return {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1", **self.variables}
 
     def start(
         self,
@@ -97,7 +80,7 @@ class Project:
             return subprocess.Popen(
                 self.command(*options),
                 cwd=self.folder,
-                env=self.environment,
+                env=os.environ | self.own,
                 stdout=file,
                 stderr=file,
                 start_new_session=True,
@@ -106,8 +89,7 @@ class Project:
 
     def python(self, code: str) -> str:
         """What a piece of code prints that is run with the copy's own sources."""
-        own = {"PYTHONPATH": str(self.folder / "src")} | self.variables
-        return run(sys.executable, "-c", code, cwd=self.folder, **own).stdout
+        return python(code, cwd=self.folder, **self.own).stdout
 
     def products(self) -> dict[str, bytes]:
         """Content of every file that the study is about; no logs."""

@@ -78,21 +78,13 @@ def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str,
     assert project.planned() == jobs(project)
 
 
-@pytest.mark.parametrize(
-    ("file", "old", "new", "count"),
-    [
-        (MAP, "N: [100, 200.0, 300]", "N: [250, 100, 200, 300]", 1),
-        (MAP, "Omega: [10, 15, 20, 25]", "Omega: {blocks: [[10, 15, 20, 25], [30]]}", 3),
-        (SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:", 1),
-    ],
-    ids=["a value", "a block", "a value laid over"],
-)
-def test_what_is_added_runs_its_own_batches(project: Project, file: str, old: str, new: str, count: int) -> None:
+def test_a_value_laid_over_runs_its_own_batch(project: Project) -> None:
+    """Batches of other values that are added: tests/studies/grids/test_batches.py."""
     before = batches(project, "small_map")
-    project.edit(file, old, new)
+    project.edit(SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:")
     jobs = project.planned()
     assert jobs > MAP_TAIL
-    assert len(jobs - MAP_TAIL) == count
+    assert len(jobs - MAP_TAIL) == 1
     assert not jobs & before
 
 
