@@ -52,35 +52,23 @@ def test_editors_show_meanings_and_units() -> None:
     assert SCHEMA["$defs"]["SomeWindow"]["description"].startswith("Samples at a fixed rate")
 
 
-def grid(**changes: Any) -> dict[str, Any]:
-    phrase = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
-    return phrase | changes
-
-
-def cases(**changes: Any) -> dict[str, Any]:
-    case = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 5}
-    return {"study": "s", "cases": {"A": case | changes}}
+GRID = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
+CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 5, "record": {"windows": {"w": {"rate": 3}}}}
+MAP = {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome", "by": None}
 
 
 @pytest.mark.parametrize(
     "right",
     [
-        grid(),
-        grid(axes={"N": {"start": 1, "stop": 2, "count": 3, "extra": [1.7]}, "Omega": {"blocks": [[1], [2]]}}),
-        {"study": "s", "quantity": "floquet", "zip": {"N": [1, 2], "Omega": [1, 2]}},
-        grid(base={"n_diameters": "auto", "truncation_tolerance": 1e-3}),
-        grid(starts={"k": {"perturbation": {"u": 1e-4}}}, axes={"N": [1], "Omega": [1], "start": ["static", "k"]}),
-        grid(options={"horizon": 10, "perturbation": {"u": 1e-4}}),
-        grid(
-            figures={"f": {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome", "by": None}},
-            axes={"N": [1, 2], "Omega": [2, 3]},
-        ),
-        cases(record={"windows": {"w": {"rate": 10}}, "poincare": None, "events": {"last": 2}}),
-        {"record": {"windows": {"w": {"theta": 2}}}} | cases(record={"windows": {"w": {"rate": 3}}}),
-        cases(start={"prerun": {"parameters": {"N": 3}, "time": 1}}),
+        *(entry["study"] for entry in TEXTS["planted"]),
+        GRID | {"base": {"n_diameters": "auto", "truncation_tolerance": 1e-3}},
+        GRID | {"starts": {"k": {"perturbation": {"u": 1e-4}}}, "axes": GRID["axes"] | {"start": ["static", "k"]}},
+        GRID | {"figures": {"f": MAP}, "axes": {"N": [1, 2], "Omega": [2, 3]}},
+        {"study": "s", "record": {"windows": {"w": {"theta": 2}}}, "cases": {"A": CASE}},
     ],
 )
 def test_what_a_study_may_say_fits(right: dict[str, Any]) -> None:
+    """Beside what the shipped files say."""
     assert [error.message for error in CHECK.iter_errors(right)] == []
     parse_study(right)
 
@@ -104,7 +92,7 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
     ],
 )
 def test_values_of_an_axis(given: Any, values: list[float]) -> None:
-    study = parse_study(grid(axes={"N": [100], "Omega": [10], "c": given}))
+    study = parse_study(GRID | {"axes": {"N": [100], "Omega": [10], "c": given}})
     assert study.grid.values["c"] == tuple((value,) for value in values)
 
 

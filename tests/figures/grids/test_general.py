@@ -10,7 +10,6 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
 from disc_model.figures import parts
-from disc_model.figures.kinds import MOST_PANELS, HeatMap
 from disc_model.figures.parts import save
 from tests.figures.grids.reading import draw, labels, lines
 
@@ -134,13 +133,3 @@ def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
     assert ax.get_xscale() == "log"
     # The symbol of a parameter that is picked stood between two dollar signs on either side: no figure was drawn.
     ax.get_figure().draw_without_rendering()
-
-
-def test_what_has_too_many_values_for_panels_is_refused() -> None:
-    plot = HeatMap(variable="v", x="a", y="b", by="c")
-    many = {"a": [1, 2], "b": [1, 2], "c": list(range(MOST_PANELS + 1))}
-    (fault,) = plot.faults_among(many, {"v": tuple(many)})
-    assert (fault.path, fault.rule) == (("by",), "has 5 values, and there is room for 4")
-    assert not list(plot.faults_among(many | {"c": [1]}, {"v": tuple(many)}))
-    words = [*plot.faults_among(many | {"a": ["x", "y"], "b": [1], "c": [1]}, {"v": tuple(many)})]
-    assert [fault.rule for fault in words] == ["must be one parameter, and a number", "must have two values or more"]

@@ -16,7 +16,7 @@ from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.study import GridStudy
 from tests.studies.grids.conftest import computed, study
-from tests.studies.refused import faults_of, parse_grid
+from tests.studies.refused import parse_grid
 
 STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
 
@@ -91,14 +91,8 @@ def span_of(count: int) -> dict[str, float]:
     return {"start": 10, "stop": 50, "count": count}
 
 
-def test_a_growth_map_is_one_batch_whatever_its_axes() -> None:
-    """Each value of all axes but the last had batches of its own: a map of 41 x 41 points made 41 or even 1681 jobs."""
-    plane = {"N": span_of(41), "Omega": span_of(41)}
-    assert len(parse_grid(growth(**plane)).batches) == 1
-    assert len(parse_grid(growth(**plane, normalization=["as_published"])).batches) == 1
-
-
 def test_batches_hold_whole_values_and_about_the_same_work() -> None:
+    """Each value of all axes but the last had batches of its own: a map of 41 x 41 points made 41 or even 1681 jobs."""
     grid = parse_grid(growth(N=span_of(9), Omega=span_of(41), k=span_of(41)))
     room = QUANTITIES["floquet"].batch_size(grid.options)
     assert [len(batch) for batch in points(grid)] == [4 * 41 * 41, 4 * 41 * 41, 41 * 41]
@@ -129,28 +123,22 @@ def test_a_point_costs_about_what_its_quantity_says(quantity: str, options: dict
     assert 0.2 < (time.process_time() - began) / 9 / QUANTITIES[quantity].seconds(grid.options) < 5
 
 
-@pytest.mark.parametrize("scale", ["linear", "log"])
-def test_finer_resolution_keeps_all_batches(scale: str) -> None:
-    axes = {"N": [100], "Omega": {"start": 10, "stop": 20, "count": 4, "scale": scale}}
+@pytest.mark.parametrize(
+    ("given", "counts"),
+    [
+        ({"start": 10, "stop": 20, "count": 4}, [4, 7, 13]),
+        ({"start": 10, "stop": 20, "count": 4, "scale": "log"}, [4, 7, 13]),
+        ({"blocks": [[1.0, 9.0], {"start": 2, "stop": 4, "count": 3}]}, [5, 7, 11]),
+    ],
+)
+def test_finer_resolution_keeps_all_batches_and_divides_ranges_alone(given: dict[str, Any], counts: list[int]) -> None:
+    axes = {"N": [100], "Omega": given}
     coarse, fine, finest = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2, "4"))
-    assert [grid.n_points for grid in (coarse, fine, finest)] == [4, 7, 13]
+    assert [grid.n_points for grid in (coarse, fine, finest)] == counts
     assert coarse.batches.keys() < fine.batches.keys() < finest.batches.keys()
 
 
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
-
-
-def test_a_resolution_that_makes_too_many_values_is_refused() -> None:
-    raw = study(axes={"N": [1], "Omega": {"start": 1, "stop": 2, "count": 11}})
-    assert faults_of(parse_grid, raw, 100_000) == ["axes.Omega: must be at most 100000 values, and not 1000001"]
-
-
-def test_resolution_divides_the_ranges_in_blocks_too() -> None:
-    axes = {"N": [100], "Omega": {"blocks": [[1.0, 9.0], {"start": 2, "stop": 4, "count": 3}]}}
-    coarse, fine = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2))
-    assert [value for (value,) in coarse.dims[-1].values] == [1, 2, 3, 4, 9]
-    assert [value for (value,) in fine.dims[-1].values] == [1, 2, 2.5, 3, 3.5, 4, 9]
-    assert coarse.batches.keys() < fine.batches.keys()
 
 
 def cycles(axes: dict[str, Any], **base: Any) -> xr.Dataset:

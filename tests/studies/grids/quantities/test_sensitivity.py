@@ -17,7 +17,7 @@ from disc_model.studies.grids.points import SAMPLE_CYCLES, Row
 from disc_model.studies.grids.quantities import sensitivity
 from disc_model.studies.grids.quantities.sensitivity import quantile, unit_draws, variants
 from tests.studies.grids.conftest import SMALL, computed
-from tests.studies.refused import faults_of, parse_grid
+from tests.studies.refused import parse_grid
 
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
 TURN = {"distribution": "uniform", "low": 0.0, "high": 2 * np.pi}
@@ -178,10 +178,8 @@ def test_what_is_found_is_what_floquet_finds() -> None:
 
 
 def test_probabilities_can_be_drawn_as_any_variable() -> None:
-    raw = study({"k": UNIFORM}, figures={"p": {"kind": "curve", "variable": "probability_unstable", "x": "N"}})
-    assert parse_grid(raw).plots
-    raw["figures"]["p"]["x"] = "sample"
-    assert "is no dimension of probability_unstable" in faults_of(parse_grid, raw)[0]
+    plot = {"kind": "curve", "variable": "probability_unstable", "x": "N"}
+    assert parse_grid(study({"k": UNIFORM}, figures={"p": plot})).plots
 
 
 def made_up() -> xr.Dataset:
