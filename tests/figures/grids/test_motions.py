@@ -8,12 +8,13 @@ import xarray as xr
 
 from disc_model.figures.grids import motions as drawn
 from disc_model.figures.grids.growth_map import Curve, crossings
-from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.grids.points import STATUSES
-from disc_model.studies.grids.quantities import basins, ramps
+from disc_model.studies.grids.quantities import ramps
 from tests.figures.grids.reading import crosses, draw, labels, lines
 from tests.studies.grids.conftest import computed, growth_over, in_base, made_up_samples, with_failed
-from tests.studies.grids.quantities.test_basins import APART, QUIET
+from tests.studies.grids.quantities.test_basins import Made, made
+
+__all__ = ["made"]
 
 # ---- bifurcation diagrams
 
@@ -79,19 +80,9 @@ def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
 
 
 @pytest.fixture
-def shares(monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
+def shares(made: None, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     """All quiet at 12 rad/s, some at 13 and 14, none at 15."""
-
-    class Made:
-        def __init__(self, p, *_, **__) -> None:
-            self.least = {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
-
-        def reached(self, energy: float) -> OutcomeResult:
-            attractor = APART if energy > self.least else QUIET
-            return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
-
-    monkeypatch.setattr(basins, "Basins", Made)
-    monkeypatch.setattr(basins, "random_perturbation", lambda p, state, energy, key: energy)
+    monkeypatch.setattr(Made, "least", lambda _, p, i: {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega])
     options = {"energies": [0.01, 0.1, 1], "n_starts": 4}
     return computed(quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]})
 

@@ -28,18 +28,22 @@ APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 
 
 class Made:
-    """Of a start i, what is kicked by more than 0.02 (i + 1) J separates; further starts are as said."""
+    """Of a start i, what is kicked by more than `least` separates, in J; further starts are as said."""
 
     classes: ClassVar[dict[int, OutcomeResult]] = {}
 
     def __init__(self, p, horizon, **_) -> None:
-        self.known = [QUIET, APART]
+        self.p, self.known = p, [QUIET, APART]
+
+    @staticmethod
+    def least(p: Parameters, i: int) -> float:
+        return 0.02 * (i + 1)
 
     def reached(self, state: tuple[float, int]) -> OutcomeResult:
         energy, i = state
         if i in self.classes:
             return self.classes[i]
-        attractor = APART if energy > 0.02 * (i + 1) else QUIET
+        attractor = APART if energy > self.least(self.p, i) else QUIET
         return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
 
 
