@@ -10,25 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import (
-    Disc,
-    ParameterError,
-    Parameters,
-    Poincare,
-    Record,
-    Result,
-    Window,
-    simulate,
-)
-from disc_model.data.dataset import (
-    DamagedFile,
-    InputsError,
-    WriteError,
-    load,
-    load_inputs,
-    save,
-    verify_checksum,
-)
+from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Result, Window, simulate
+from disc_model.data.dataset import DamagedFile, InputsError, WriteError, load, load_inputs, save, verify_checksum
 from disc_model.data.variables import STATUSES, attributes, flag_names
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec

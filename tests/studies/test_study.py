@@ -39,13 +39,6 @@ def with_case(name: str = "A", **changes: Any) -> Study:
 # ---- kinds of studies
 
 
-def test_a_grid_alone_is_a_study() -> None:
-    study = parse_study(GRID)
-    assert (study.specs, study.claims, study.figures) == ({}, False, ())
-    grids, asked = study.grids()
-    assert (grids["mine"].n_points, asked) == (6, ("mine",))
-
-
 def test_cases_alone_are_a_study_without_claims() -> None:
     study = parse_study(CASES)
     assert (list(study.specs), study.grid, study.claims) == (["A", "B"], None, False)

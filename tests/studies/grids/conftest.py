@@ -70,6 +70,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def final_segment(p, state, duration, late, tol):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
+        assert (duration, late) == (60, 2)
         apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
         share = 0.25 if apart else 0.0
         values = dict.fromkeys(Segment.__dataclass_fields__, 0.0)

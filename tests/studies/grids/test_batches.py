@@ -44,12 +44,6 @@ def test_zipped_pairs_are_one_dimension() -> None:
     assert points(grid) == [[[200.0, 20.0, 0.0], [200.0, 20.0, 1e-5]], [[385.0, 10.0, 0.0], [385.0, 10.0, 1e-5]]]
 
 
-def test_all_kinds_of_parameters_can_vary() -> None:
-    axes = {"N": [1], "Omega": [1], "n_diameters": ["4", 3.0], "contact": ["bonded"]}
-    grid = parse_grid(study(axes=axes, batch={"over": ["N"]}))
-    assert points(grid) == [[[1.0, 1.0, 3, "bonded"]], [[1.0, 1.0, 4, "bonded"]]]
-
-
 def test_the_laws_of_contact_are_those_of_its_points() -> None:
     both = {"contact_compliance": [0, 1e-7], "contact_force": ["vertical", "normal"]}
     axes = {"N": [100], "Omega": [10]}

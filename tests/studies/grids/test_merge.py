@@ -26,12 +26,15 @@ def batches() -> list[xr.Dataset]:
     return [run_batch(text) for text in parse_grid(STILL).batches.values()]
 
 
-def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset]) -> None:
+def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], tmp_path: Path) -> None:
     study = parse_grid(STILL)
-    merged = merge_batches(batches[::-1], study.grid, {"title": "t"})
+    merge_batches(batches[::-1], study.grid, {"title": "t"}).to_netcdf(tmp_path / "still.nc")
+    merged = xr.load_dataset(tmp_path / "still.nc")
     assert dict(merged["status"].sizes) == {"N": 2, "Omega": 2}
     assert merged["N"].values.tolist() == [100, 200]
     assert merged.attrs["title"] == "t"
+    assert json.loads(merged.attrs["base"])["normalization"] == "as_published"
+    assert (merged["Omega"].attrs["units"], merged["growth_rate"].attrs["units"]) == ("rad s-1", "s-1")
     lines = list(failures(merged))
     assert len(lines) == 4
     assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
@@ -56,26 +59,13 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
 
 
 @pytest.mark.compiled
-def test_merged_study_has_every_point_with_units(tmp_path: Path) -> None:
-    merged = computed(**study())
-    merged.to_netcdf(tmp_path / "small.nc")
-    with xr.open_dataset(tmp_path / "small.nc") as read:
-        assert dict(read["status"].sizes) == {"N": 3, "Omega": 3}
-        assert (read["status"] == 0).all()
-        assert read["Omega"].attrs["units"] == "rad s-1"
-        assert read["P_max"].attrs["units"] == "N"
-        assert (read["P_max"].diff("N") > 0).all()
-        assert json.loads(read.attrs["base"])["normalization"] == "as_published"
-    assert list(failures(merged)) == []
-
-
-@pytest.mark.compiled
 def test_zips_and_two_normalizations_keep_their_order() -> None:
     axes = {"normalization": ["orthonormal", "as_published"]}
     zipped = {"N": [300, 100], "Omega": [20, 10]}
     merged = computed(**study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
     assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
     assert merged["N"].dims == ("N_Omega",)
+    assert list(failures(merged)) == []
     base = {"normalization": "orthonormal"}
     alone = computed(**study(quantity="floquet", options={}, base=base, axes={"N": [300], "Omega": [20]}))
     assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == alone["growth_rate"].item()

@@ -13,12 +13,7 @@ from disc_model.stability.attractor import outcome as attractor_outcome
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
-from tests.studies.grids.conftest import SCAN, Table, compute
-
-
-def swept(N: float, scan: dict[str, float]) -> Table:
-    options = HysteresisOptions.model_validate({"scan": scan, "dwell": 60, "evaluation_time": 2})
-    return compute(hysteresis, [Point(Parameters(N=N, Omega=0))], options)
+from tests.studies.grids.conftest import SCAN, compute
 
 
 def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
@@ -47,7 +42,8 @@ def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
         return whole(p, *how)
 
     monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
-    table = swept(200, SCAN)
+    options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "evaluation_time": 2})
+    table = compute(hysteresis, [Point(Parameters(N=200, Omega=0))], options)
     found = table.arrays
     assert list(table.messages) == [f"Omega={breaks_at:g}: why"]
     np.testing.assert_array_equal([found["onset_speed"][0], found["offset_speed"][0]], [onset, offset])
@@ -55,13 +51,3 @@ def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
     assert hysteresis.STATUSES[found["status"][0]] == statuses[way, round((breaks_at - 12) / 0.5)] == "stalled"
     assert (statuses[way] == "failed").sum() == (3 if way == 0 else round((breaks_at - 12) / 0.5))
     assert np.array_equal(np.isnan(found["P_min"][0]), statuses != "ok")
-
-
-@pytest.mark.compiled
-def test_hysteresis_at_385_N() -> None:
-    """Separation begins beyond the fold at 15.09 rad/s and persists below it on the way down."""
-    found = swept(385, {"start": 12, "stop": 16, "step": 0.5}).arrays
-    assert found["onset_speed"][0] == 15.5
-    assert found["offset_speed"][0] < 15
-    assert found["separation_rate"].shape == (1, 2, 9)
-    assert (found["sweep_status"] == 0).all()
