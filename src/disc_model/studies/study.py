@@ -861,8 +861,8 @@ class GridStudy:
         """
         if not isinstance(options := self.options, SensitivityOptions):
             return
-        place, dims, numbers = ("options", "distributions"), self.dims[:-1], self._numbers()
-        varied = {name for dim in dims for name in dim.names}
+        place, numbers = ("options", "distributions"), self._numbers()
+        varied = {name for dim in self.dims for name in dim.names}
         varied |= {*numbers}.difference(NUMBERS) if "disc" in varied else set()
         for name, given in options.distributions.items():
             own = _own(name, self.base)
@@ -875,7 +875,7 @@ class GridStudy:
                 self._add((*place, name), f"must not be relative to {as_text(own)}")
         if self.faults:
             return
-        for fault in first_of_each(self._out_of_reach(options, dims)):
+        for fault in first_of_each(self._out_of_reach(options)):
             at = place if fault.path[0] in options.distributions else ("base",)
             self.faults.append(Fault((*at, *fault.path), fault.value, f"{fault.rule}; distributions reach that far"))
 
@@ -888,11 +888,10 @@ class GridStudy:
         common = [name for name in discs[0].numbers if all(name in disc.numbers for disc in discs)]
         return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
-    def _out_of_reach(self, options: SensitivityOptions, dims: Sequence[Dimension]) -> Iterator[str]:
+    def _out_of_reach(self, options: SensitivityOptions) -> Iterator[str]:
         """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        wanted = [dim for dim in self._needed([*options.distributions, *RELATED]) if dim in dims]
-        for point in points(wanted, self.where, self.base):
+        for point in points(self._needed([*options.distributions, *RELATED]), self.where, self.base):
             here = case_of({**self.base, **point}, self.discs)
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():

@@ -52,6 +52,8 @@ def test_tiles_and_samples_keep_the_rule() -> None:
     )
     uncertain = {"distributions": {"k": {"distribution": "uniform", "low": 1e4, "high": 2e4}}, "samples": 2}
     assert len(points(raw(quantity="sensitivity", options=uncertain))) == 12
+    rules = ["mu_k <= mu_s", "sample < 1"]
+    assert len(points(raw(quantity="sensitivity", options=uncertain, where=rules))) == 6
 
 
 def test_what_cannot_be_compared_does_not_hold() -> None:
