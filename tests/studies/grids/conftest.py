@@ -39,7 +39,7 @@ def study(**changes: Any) -> dict[str, Any]:
 
 def computed(**raw) -> xr.Dataset:
     study = parse_grid({"study": "small", **raw})
-    return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, {})
+    return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, study.attrs)
 
 
 class Table(NamedTuple):

@@ -100,6 +100,17 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["excluded_fraction"].sel(output="growth_rate") == np.mean(np.isnan(rates).any(axis=1))
 
 
+def test_what_a_rule_leaves_out_has_no_probability(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It had one of 0 as if all of its samples had been found stable, and these counted as known."""
+    evaluating(monkeypatch, lambda values: cycle_row("unstable", 1.0))
+    found = computed(**study({"k": UNIFORM}, where="N < 300 and sample < 6"))
+    assert found["n_known_cycles"].values.tolist() == [12, 0]
+    assert found["n_known_outcomes"].values.tolist() == [0, 0]
+    np.testing.assert_array_equal(found["probability_unstable"], [1, np.nan])
+    assert found["cycle_fraction"].sel(N=385).isnull().all()
+    assert found["excluded_fraction"].sel(N=200, output="growth_rate") == 0
+
+
 def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch) -> None:
     def function(values: dict[str, float]) -> Row:
         if values["k"] > 5e4:
