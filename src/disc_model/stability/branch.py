@@ -313,9 +313,7 @@ def continue_curve(
     start: AnyPlace,
     take: Callable[[AnyPlace, float], AnyPlace],
     steps: StepControl,
-    *,
-    meet: Callable[[AnyPlace, AnyPlace], None],
-    leaves: Callable[[list[AnyPlace], float], str],
+    ends: Callable[[list[AnyPlace], AnyPlace, float], str],
 ) -> tuple[list[AnyPlace], str]:
     """Places along a curve, and the reason for which the curve ends.
 
@@ -323,19 +321,19 @@ def continue_curve(
     ----------
     take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
         step may succeed
-    meet : receives both ends of each step; raises `CorrectorFailed` if the curve has to end at the first one
-    leaves : returns why the curve ends at the last place, "" if it continues; it also receives the last arclength
+    ends : receives the places so far, a new one and the arclength between; returns why the curve ends at the new one,
+        "" if it continues; raises `CorrectorFailed` if it has to end before
     """
     places, ds = [start], steps.step
     while len(places) < steps.max_points:
         here = places[-1]
         try:
             new, ds = _step(take, here, ds, steps)
-            meet(here, new)
+            reason = ends(places, new, ds)
         except CorrectorFailed as lost:
             return places, str(lost)
         places.append(new)
-        if reason := leaves(places, ds):
+        if reason:
             return places, reason
         if new.tangent @ here.tangent > steps.easy:
             ds = min(steps.longest, steps.growth * ds)

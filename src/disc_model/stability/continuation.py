@@ -6,7 +6,7 @@ regular point of that curve. `continue_border` follows neutral curves and folds 
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
@@ -90,18 +90,17 @@ def continue_cycle(
     low, high = (bound / problem.scales[0] for bound in bounds)
     folds: list[float] = []
 
-    def meet(before: Place, after: Place) -> None:
-        if after.tangent[-1] * before.tangent[-1] < 0:
+    def ends(places: list[Place], new: Place, ds: float) -> str:
+        before = places[-1]
+        if new.tangent[-1] * before.tangent[-1] < 0:
             try:
-                folds.append(_locate_fold(problem, before.point, after.point, before.tangent) * problem.scales[0])
+                folds.append(_locate_fold(problem, before.point, new.point, before.tangent) * problem.scales[0])
             except CorrectorFailed as lost:
                 where = before.point.z[-1] * problem.scales[0]
                 raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
+        return "" if low <= new.point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
 
-    def leaves(places: list[Place], ds: float) -> str:
-        return "" if low <= places[-1].point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
-
-    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, meet=meet, leaves=leaves)
+    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
     if ended.startswith(REORDERED):
         last = places[-1].point
         ended += f"; {grazing(problem.case(last.z), problem.state(last.z), last.flight.period)}"
@@ -187,24 +186,22 @@ def continue_border(
     point = starting_point(problem, find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
     try:
-        point, mu = _reach(problem, point, kind, mu)
-        ways = _ways(problem, point, kind, mu)
+        first = _reach(problem, point, kind, mu)
     except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
-    lead = ways.along[problem.n] if abs(ways.along[problem.n]) > 1e-12 else ways.along[problem.n + 1]
-    tangent = ways.along * direction * math.copysign(1.0, lead)
+    lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
+    first = replace(first, tangent=first.tangent * direction * math.copysign(1.0, lead))
     limits = np.array([bounds[name] for name in names]) / problem.scales[:, None]
 
-    def leaves(places: list[_OnCurve], ds: float) -> str:
-        q = places[-1].point.z[problem.n :]
+    def ends(places: list[_OnBorder], new: _OnBorder, ds: float) -> str:
+        q = new.point.z[problem.n :]
         if np.any(q < limits[:, 0]) or np.any(q > limits[:, 1]):
             return f"{' or '.join(names)} has left the bounds"
-        if len(places) > 8 and np.linalg.norm(places[-1].point.z - places[0].point.z) < 0.6 * ds:
+        if len(places) >= 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
             return "the curve is closed"
         return ""
 
-    first, take = _OnCurve(point, tangent, mu, ways), partial(_next_on_border, problem, kind)
-    places, ended = continue_curve(first, take, steps, meet=lambda *_: None, leaves=leaves)
+    places, ended = continue_curve(first, partial(_next_on_border, problem, kind), steps, ends)
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
 
@@ -213,28 +210,21 @@ _DIFFERENCE = 1e-4
 
 
 @dataclass(frozen=True)
-class _Ways:
-    """Directions at a point of the curve, in the unknowns z: the unit tangent, and the gradients of the test function
-    and of the multiplier within the surface."""
-
-    along: Array
-    gradient: Array
-    multiplier: ComplexArray
-
-    def predicted(self, mu: complex, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return mu + complex(self.multiplier @ move)
-
-
-@dataclass(frozen=True)
-class _OnCurve(Place):
-    """A place with the multiplier that is followed, and its derivatives."""
+class _OnBorder(Place):
+    """A place with the multiplier that is followed, and the gradients of the test function and of that multiplier
+    within the surface, in the unknowns z."""
 
     mu: complex
-    ways: _Ways
+    gradient: Array
+    turning: ComplexArray
+
+    def predicted(self, move: Array) -> complex:
+        """The multiplier after a move, to first order."""
+        return self.mu + complex(self.turning @ move)
 
 
-def _ways(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _Ways:
+def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
+    """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
     basis = problem.tangents(point)
     slopes, turns = np.zeros(2), np.zeros(2, complex)
     for i, unit in enumerate(basis):
@@ -245,54 +235,52 @@ def _ways(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> 
     if not size > 0:
         raise CorrectorFailed("the multiplier does not depend on the parameters")
     along = np.array([-slopes[1], slopes[0]]) / size
-    return _Ways(along @ basis, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
+    return _OnBorder(point, along @ basis, mu, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
 
 
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
 """On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> tuple[CyclePoint, complex]:
+def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
     """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
     value, mu = _evaluate_test(kind, point.jacobian, mu)
     for _ in range(REACHES):
+        here = _place(problem, point, kind, mu)
         if abs(value) < 1e-10:
-            return point, mu
-        here = _ways(problem, point, kind, mu)
+            return here
         move = -value * here.gradient / (here.gradient @ here.gradient)
-        turn = abs(complex(here.multiplier @ move))
+        turn = abs(complex(here.turning @ move))
         move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
-        rows = np.vstack([here.along, here.gradient / np.linalg.norm(here.gradient)])
+        rows = np.vstack([here.tangent, here.gradient / np.linalg.norm(here.gradient)])
         for halvings in range(6):
-            guess = point.z + move * 0.5**halvings
+            guess = here.point.z + move * 0.5**halvings
             try:
-                new = problem.correct(guess, rows, rows @ guess)
-                new_value, new_mu = _evaluate_test(kind, new.jacobian, here.predicted(mu, move * 0.5**halvings))
+                point = problem.correct(guess, rows, rows @ guess)
+                value, mu = _evaluate_test(kind, point.jacobian, here.predicted(move * 0.5**halvings))
                 break
             except CorrectorFailed:
                 if halvings == 5:
                     raise
-        point, value, mu = new, new_value, new_mu
     raise CorrectorFailed("no point of the curve was found near the first cycle")
 
 
-def _next_on_border(problem: CycleProblem, kind: Kind, here: _OnCurve, ds: float) -> _OnCurve:
+def _next_on_border(problem: CycleProblem, kind: Kind, here: _OnBorder, ds: float) -> _OnBorder:
     """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-    expected = here.ways.predicted(here.mu, ds * here.tangent)
+    expected = here.predicted(ds * here.tangent)
     if abs(expected - here.mu) > 2 * LARGEST_TURN:
         raise CorrectorFailed("the multiplier turns too fast")
     guess = here.point.z + ds * here.tangent
     rows = here.tangent[None, :]
     point = problem.evaluate(guess)
     value, found = _evaluate_test(kind, point.jacobian, expected)
-    gradient = here.ways.gradient
+    gradient = here.gradient
     errors = [math.inf, math.inf]
     for _ in range(12):
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
         errors.append(float(np.linalg.norm(right)))
         if errors[-1] < 1e-10:
-            ways = _ways(problem, point, kind, found)
-            return _OnCurve(point, ways.along, found, ways)
+            return _place(problem, point, kind, found)
         if errors[-1] > 0.9 * errors[-3]:
             break
         before, last = point, value
