@@ -58,7 +58,7 @@ def wild(seed: int = 1) -> tuple[ReturnMap, np.ndarray]:
 
 def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
     with np.errstate(all="ignore"):
-        return map_.evaluate(x, tangent=False, **how)[0].outcome
+        return map_.evaluate(x, tangent=False, **how).outcome
 
 
 def test_flights_say_how_they_end() -> None:

@@ -173,9 +173,8 @@ def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatc
 
     class Separating(ToyMap):
         def evaluate(self, x, **how):
-            flight, *rest = super().evaluate(x, **how)
-            counts = flight.counts._replace(separations=1 + (self.parameters.Omega > 15.5))
-            return replace(flight, counts=counts), *rest
+            flight = super().evaluate(x, **how)
+            return replace(flight, counts=flight.counts._replace(separations=1 + (self.parameters.Omega > 15.5)))
 
         def next_release(self, near):
             return RETURNED, near.a

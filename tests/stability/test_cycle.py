@@ -11,12 +11,7 @@ from disc_model.data.variables import Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
 from disc_model.stability.attractor.neighbourhood import cycle_near
-from disc_model.stability.cycle import (
-    CycleError,
-    CycleStatus,
-    find_cycle,
-    find_cycle_near,
-)
+from disc_model.stability.cycle import CycleError, CycleStatus, find_cycle
 from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.tally import tried
@@ -58,7 +53,7 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     reference = np.linalg.eigvals(expected)
     distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
     assert np.max(distance) < 1e-6
-    assert np.max(np.abs(expected - map_.evaluate(x)[2])) < 1e-7
+    assert np.max(np.abs(expected - map_.evaluate(x).jacobian)) < 1e-7
     assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(reference))) / result.period, abs=1e-4)
 
 
@@ -95,14 +90,14 @@ def test_result_is_complete_and_consistent():
 def test_the_cycle_is_found_again_from_a_simulation():
     result = floquet(P)
     later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state
-    again = find_cycle_near(P, later, releases=1)
+    again = find_cycle(P, guess=later)
     assert again.status is CycleStatus.OK
     assert again.message.endswith("with 1 release")
     map_ = ReturnMap(P)
     x = map_.point(again.state)
     np.testing.assert_allclose(x, map_.point(result.state), atol=1e-9 * np.linalg.norm(x))
     # run through twice it is the same cycle
-    twice = find_cycle_near(P, later, releases=2)
+    twice = find_cycle(P, guess=later, releases=2)
     assert twice.period == pytest.approx(2 * result.period, rel=1e-9)
     assert twice.message.endswith("with 2 releases")
 
@@ -123,7 +118,7 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     # nor one that leaves it as the multipliers predict, unless that is asked for
     map_ = ReturnMap(P)
     x = map_.point(floquet(P).state)
-    values, vectors = np.linalg.eig(map_.evaluate(x)[2])
+    values, vectors = np.linalg.eig(map_.evaluate(x).jacobian)
     leaving = np.real(vectors[:, np.argmax(abs(values))])
     away = x + 0.001 * np.linalg.norm(map_.static) * leaving / np.linalg.norm(leaving)
     assert [cycle_near(map_, away, (0.0, 1), unstable=waits).follows_cycle for waits in ((), (0.0,))] == [False, True]
@@ -131,10 +126,10 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
 
 def test_no_cycle_near_a_state_is_said():
     state = simulate(P, 0.01, tol=1e-8).final_state
-    assert find_cycle_near(P.replace(Omega=0), state, 1).status is CycleStatus.AT_REST
+    assert find_cycle(P.replace(Omega=0), guess=state).status is CycleStatus.AT_REST
     slippery = P.replace(c_p=50.0)
     slipping = simulate(slippery, 0.01, tol=1e-8).final_state
-    found = find_cycle_near(slippery, slipping, 1)
+    found = find_cycle(slippery, guess=slipping)
     assert found.status is CycleStatus.NO_STICK_SLIP
     assert re.fullmatch(r"no_stick_slip: the slider does not stick within \d\.\d+ s of the given state", found.message)
 
@@ -179,10 +174,9 @@ ENDS = [
 @pytest.mark.parametrize(("outcome", "status", "words"), ENDS)
 def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words):
     code = next(code for code, name in return_map_module.ENDS.items() if name == outcome)
-    flight = Flight(code, 1.0, 0.0, Counts(0, 0, 0, 0, 0))
 
     def evaluate(self, x, **_):
-        return flight, x, np.eye(self.size), np.zeros((self.size, 0))
+        return Flight(code, 1.0, 0.0, Counts(0, 0, 0, 0, 0), x, x, np.eye(self.size), np.zeros((self.size, 0)))
 
     monkeypatch.setattr(ReturnMap, "evaluate", evaluate)
     result = floquet(P)
@@ -192,7 +186,7 @@ def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words)
         result.raise_for_status()
     started = simulate(P, 0.001, tol=1e-8).final_state
     monkeypatch.setattr(ReturnMap, "next_release", lambda self, start, **_: (code, self.static))
-    assert (find_cycle_near(P, started, 1).status is CycleStatus.NO_STICK_SLIP) == (outcome == "time_over")
+    assert (find_cycle(P, guess=started).status is CycleStatus.NO_STICK_SLIP) == (outcome == "time_over")
 
 
 def test_from_a_given_point_no_other_cycle_is_taken():
@@ -224,7 +218,7 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
     for found in (cycle for cycle in cycles if cycle.status is CycleStatus.OK):
         map_, how = ReturnMap(found.parameters), {"releases": found.releases}
         x = map_.point(found.state)
-        size, got = np.linalg.norm(x), map_.evaluate(x, **how)[2]
+        size, got = np.linalg.norm(x), map_.evaluate(x, **how).jacobian
         for step in (1e-4, 1e-6, 1e-8):
             rough, fine = (central_differences(map_, x, h * size, **how) for h in (step, 0.3 * step))
             error, scale = np.abs(rough - fine).max(), max(1.0, np.abs(fine).max())

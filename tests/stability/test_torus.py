@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,13 +23,13 @@ class TurningMap:
     """As `ReturnMap`: the motion turns by an irrational share about the unit circle, and its distance from it changes
     at a known rate; two further coordinates turn and decay."""
 
-    static = np.array([1.0, 0.0, 0.0, 0.0])
+    deflection = 1.0
 
     def __init__(self, rate: float, turn: float = (math.sqrt(5) - 1) / 2) -> None:
         self.factor, self.turn = math.exp(rate * PERIOD), 2 * math.pi * turn
 
-    def evaluate(self, x: np.ndarray, *, releases: int, **_: Any) -> tuple[Flight, np.ndarray, np.ndarray, np.ndarray]:
-        jacobian, decay = np.eye(4), 0.9 * rotation(1.0)
+    def evaluate(self, x: np.ndarray, *, releases: int, **_: Any) -> Flight:
+        start, jacobian, decay = x, np.eye(4), 0.9 * rotation(1.0)
         for _ in range(releases):
             radius, angle = math.hypot(x[0], x[1]), math.atan2(x[1], x[0])
             new = 1 + (radius - 1) * self.factor
@@ -37,11 +38,11 @@ class TurningMap:
             jacobian = block_diag(step, decay) @ jacobian
             x = np.concatenate([new * turned[:, 0], decay @ x[2:]])
         counts = Counts(releases, 0, 0, 0, releases)
-        return Flight(RETURNED, releases * PERIOD, 0.0, counts), x, jacobian, np.zeros((4, 0))
+        return Flight(RETURNED, releases * PERIOD, 0.0, counts, start, x, jacobian, np.zeros((4, 0)))
 
     def returns(self, x: np.ndarray, most: int, **_: Any) -> Iterator[np.ndarray]:
         for _ in range(most):
-            x = self.evaluate(x, releases=1)[1]
+            x = self.evaluate(x, releases=1).end
             yield x
 
 
@@ -79,11 +80,11 @@ def test_chaos_is_no_torus() -> None:
     # the positive exponent of Hénon's map is 0.42 an iteration
     class Henon(TurningMap):
         def evaluate(self, x: np.ndarray, *, releases: int, **_: Any) -> Any:
-            flight, jacobian = super().evaluate(self.static, releases=releases)[0], np.eye(4)
+            flight, jacobian = super().evaluate(np.eye(4)[0], releases=releases), np.eye(4)
             for _ in range(releases):
                 jacobian = block_diag([[-2.8 * x[0], 1.0], [0.3, 0.0]], 0.5, 0.5) @ jacobian
                 x = np.array([1 - 1.4 * x[0] ** 2 + x[1], 0.3 * x[0], 0.5 * x[2], 0.5 * x[3]])
-            return flight, x, jacobian, np.zeros((4, 0))
+            return replace(flight, end=x, jacobian=jacobian)
 
     test = TorusTest(Henon(0.0))  # type: ignore[arg-type]
     x = list(test.map.returns(np.array([0.1, 0.1, 0.0, 0.0]), 100))[-1]

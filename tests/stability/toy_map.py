@@ -54,19 +54,20 @@ class ToyMap:
     scale = np.ones(3)
     diameters = np.array([0, 1, 1])
     static = np.array([2.0, 0.0, 0.0])
+    deflection = 2.0
 
     def __init__(
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
-        self.parameters, self._names = p, parameters
+        self.parameters, self.tol, self._names = p, tol, parameters
 
     def evaluate(self, x, *, releases=1, tangent=True, may_separate=False, coarse=False):
         Omega, N = self.parameters.Omega, self.parameters.N
-        returned, lost = (Flight(code, PERIOD, 0.3 * PERIOD, Counts(1, 0, 0, 0, 1)) for code in (RETURNED, LOST))
+        known, start = (PERIOD, 0.3 * PERIOD, Counts(1, 0, 0, 0, 1)), x
         end, jacobian = np.asarray(x, float), np.eye(3)
         for _ in range(releases):
             if not np.all(np.abs(end) < 1e100):  # far beyond the fold
-                return lost, end, jacobian, np.zeros((3, len(self._names)))
+                return Flight(LOST, *known, start, end, jacobian, np.zeros((3, len(self._names))))
             turned = math.exp(0.1 * outside(Omega, N)) * ROTATION
             step = np.zeros((3, 3))
             step[0, 0], step[1:, 1:] = 1 - 0.6 * (end[0] - 1), turned
@@ -76,7 +77,8 @@ class ToyMap:
         turn = {"Omega": 0.2 * (Omega - 10) / 16, "N": 0.2 * (N - 300) / 1e4, "c": 0.0, "k": 0.0}
         rate = {"Omega": -0.03, "N": 6e-4, "c": 0.0, "k": 0.0}
         by = np.array([[rate[name], *(turn[name] * rest)] for name in self._names]).reshape(-1, 3).T
-        return returned if Omega <= 30 else lost, end, jacobian, by if Omega >= 2 else by * math.nan
+        outcome = RETURNED if Omega <= 30 else LOST
+        return Flight(outcome, *known, start, end, jacobian, by if Omega >= 2 else by * math.nan)
 
     def state(self, x):
         return np.array(x)

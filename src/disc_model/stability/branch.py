@@ -21,7 +21,6 @@ from disc_model.stability.return_map import (
     ENDS,
     PARAMETERS,
     PATIENT,
-    RETURNED,
     Array,
     ComplexArray,
     Counts,
@@ -77,7 +76,7 @@ class CycleProblem:
         self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
-        self.size = float(np.linalg.norm(reference.static))
+        self.size = reference.deflection
         self.scales = np.array(
             [default_scale(p, name) if parameter_scale is None else parameter_scale for name in names]
         )
@@ -106,8 +105,8 @@ class CycleProblem:
         map_ = ReturnMap(p, self.tol, self.names, patience=PATIENT if self.order else 1.0)
         x = z[: self.n] * self.size / self.scale * map_.scale
         releases = self.order.releases if self.order else 1
-        flight, end, jacobian, by = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
-        if flight.outcome != RETURNED:
+        flight = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
+        if not flight.returned:
             raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
@@ -115,11 +114,11 @@ class CycleProblem:
             raise CorrectorFailed(f"{REORDERED}: {', '.join(changes)}")
         # convert to the reference's coordinates, which differ if E is free
         turn = self.scale / map_.scale
-        jacobian = jacobian * turn[:, None] / turn[None, :]
-        residual = (end - x) * turn / self.size
-        if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
+        jacobian = flight.jacobian * turn[:, None] / turn[None, :]
+        residual = (flight.end - x) * turn / self.size
+        if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
             raise CorrectorFailed("the variational equations are singular: a switch is grazed")
-        parameters = by * turn[:, None] * self.scales[None, :] / self.size
+        parameters = flight.by * turn[:, None] * self.scales[None, :] / self.size
         return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
 
     def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:

@@ -94,8 +94,8 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     """Frequency, growth rate and mac, shape (3, n), for modes of the disc of frequencies and shapes."""
     assert cycle.state is not None
     map_ = ReturnMap(p, tol)
-    *_, jacobian, _ = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
-    multipliers, vectors = np.linalg.eig(jacobian)
+    flight = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
+    multipliers, vectors = np.linalg.eig(flight.jacobian)
     shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # two multipliers may match a mode: one resembles its shape, one the conjugate

@@ -31,7 +31,7 @@ from disc_model.stability.branch import (
     newton_step,
     starting_point,
 )
-from disc_model.stability.cycle import find_cycle, find_cycle_near, guess_faults
+from disc_model.stability.cycle import find_cycle, guess_faults
 from disc_model.stability.grazing import grazing
 from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
 
@@ -81,7 +81,7 @@ def continue_cycle(
         If an argument breaks a rule, or no cycle is found to start from.
     """
     check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases, points=True))
-    cycle = find_cycle_near(p, guess, releases, tol) if isinstance(guess, State) else find_cycle(p, tol, guess)
+    cycle = find_cycle(p, tol, guess, releases)
     order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if isinstance(guess, State) else None
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
     point = starting_point(problem, cycle)

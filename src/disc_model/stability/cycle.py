@@ -22,7 +22,7 @@ from disc_model.stability.return_map import (
     Array,
     ComplexArray,
     Counts,
-    FixedPoint,
+    Flight,
     ReturnMap,
     bifurcation_type,
     case_faults,
@@ -151,7 +151,7 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     raise_faults(
         [*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)]
     )
-    return find_cycle(p, tol) if guess is None else find_cycle_near(p, guess, releases, tol)
+    return find_cycle(p, tol, guess, releases)
 
 
 def guess_faults(guess: object, releases: object, *, points: bool = False) -> list[str]:
@@ -164,40 +164,58 @@ def guess_faults(guess: object, releases: object, *, points: bool = False) -> li
     )
 
 
-def find_cycle(p: Parameters, tol: float = 1e-12, guess: Array | None = None) -> FloquetResult:
+def find_cycle(
+    p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
+) -> FloquetResult:
     """The cycle that Newton's method finds from `guess`, a point of the section; the static equilibrium by default.
 
-    If it finds none from the equilibrium, the motion from there is simulated for some returns. Cycles of up to three
-    releases are then sought from the end of that motion.
+    Near the next release after a state the cycle has `releases` releases, and may lose contact.
     """
     if not may_stick_and_slip(p):
-        return _degenerate(p, tol)
-    map_ = ReturnMap(p, tol)
+        if never_pulls(p):
+            return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
+        return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+    near_state = isinstance(guess, State)
+    map_ = ReturnMap(p, tol, patience=PATIENT if near_state else 1.0)
     if guess is None:
-        return cycle_from_rest(map_, tol)
-    point = is_finite_array(guess, map_.size)
-    raise_faults(violations((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
-    found = newton(map_, np.asarray(guess, float), tol=tol)
-    if found is None:
-        return _none(p, tol, CycleStatus.NO_CYCLE, "no cycle near the given point of the section")
-    return cycle_of(map_, tol, found)
+        return cycle_from_rest(map_)
+    if isinstance(guess, State):
+        outcome, x = map_.next_release(guess)
+        if ENDS[outcome] == "time_over":
+            waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
+            return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
+        if outcome != RETURNED:
+            ended = f"the motion from the given state does not return: {ENDS[outcome]}"
+            return _none(p, tol, CycleStatus.NO_CYCLE, ended)
+        place = f"of {releases} releases near the given state"
+    else:
+        point = is_finite_array(guess, map_.size)
+        raise_faults(violations((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
+        x, place = np.asarray(guess, float), "near the given point of the section"
+    found = newton(map_, x, releases=releases, may_separate=near_state)
+    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {place}") if found is None else cycle_of(map_, found)
 
 
-def cycle_from_rest(map_: ReturnMap, tol: float) -> FloquetResult:
-    """The cycle that `find_cycle` finds from the static equilibrium; without one, the kind of the simulated motion."""
-    p, x = map_.parameters, map_.static
-    found = newton(map_, x, tol=tol)
+def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
+    """The cycle that Newton's method finds from the static equilibrium.
+
+    If it finds none, the motion from there is simulated for some returns. Cycles of up to three releases are then
+    sought from the end of that motion; without one, the status is the kind of the motion.
+    """
+    p, tol, x = map_.parameters, map_.tol, map_.static
+    found = newton(map_, x)
     if found is not None:
-        return cycle_of(map_, tol, found)
+        return cycle_of(map_, found)
     for _ in range(TRANSIENT):
-        flight, x, _, _ = map_.evaluate(x, tangent=False)
-        if flight.outcome != RETURNED:
+        flight = map_.evaluate(x, tangent=False)
+        if not flight.returned:
             status, why = _WITHOUT_RETURN[ENDS[flight.outcome]]
             return _none(p, tol, status, why.format(flight.period))
+        x = flight.end
     for releases in RETURNS_TRIED:
-        found = newton(map_, x, tol=tol, releases=releases)
+        found = newton(map_, x, releases=releases)
         if found is not None:
-            return cycle_of(map_, tol, run_through_once(map_, tol, found))
+            return cycle_of(map_, run_through_once(map_, found))
     tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 
@@ -214,30 +232,12 @@ _WITHOUT_RETURN = {
 """Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
 
 
-def find_cycle_near(p: Parameters, guess: State, releases: int, tol: float = 1e-12) -> FloquetResult:
-    """The cycle near the next release after a state; it may lose contact."""
-    if not may_stick_and_slip(p):
-        return _degenerate(p, tol)
-    map_ = ReturnMap(p, tol, patience=PATIENT)
-    outcome, x = map_.next_release(guess)
-    if ENDS[outcome] == "time_over":
-        waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
-        return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
-    if outcome != RETURNED:
-        ended = f"the motion from the given state does not return: {ENDS[outcome]}"
-        return _none(p, tol, CycleStatus.NO_CYCLE, ended)
-    found = newton(map_, x, tol=tol, releases=releases, may_separate=True)
-    if found is None:
-        return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle of {releases} releases near the given state")
-    return cycle_of(map_, tol, found)
-
-
-def run_through_once(map_: ReturnMap, tol: float, found: FixedPoint) -> FixedPoint:
-    """A fixed point with its shortest period: a cycle that is traversed several times is reduced to a single pass."""
-    times = found.flight.counts.releases
+def run_through_once(map_: ReturnMap, found: Flight) -> Flight:
+    """A cycle with its shortest period: one that is traversed several times is reduced to a single pass."""
+    times, x = found.counts.releases, found.start
     for releases in (n for n in range(1, times) if times % n == 0):
-        once = newton(map_, found.x, tol=tol, releases=releases, may_separate=found.flight.counts.separations > 0)
-        if once is not None and np.allclose(once.x, found.x, rtol=0, atol=1e-7 * np.linalg.norm(once.x)):
+        once = newton(map_, x, releases=releases, may_separate=found.counts.separations > 0)
+        if once is not None and np.allclose(once.start, x, rtol=0, atol=1e-7 * np.linalg.norm(once.start)):
             return once
     return found
 
@@ -252,13 +252,6 @@ def never_pulls(p: Parameters) -> bool:
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
-def _degenerate(p: Parameters, tol: float) -> FloquetResult:
-    """The result for a case that cannot have a stick-slip cycle."""
-    if never_pulls(p):
-        return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
-    return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
-
-
 def _counted(counts: Counts) -> str:
     """Numbers of events in words; those of sticks are left out."""
     named = zip(counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
@@ -270,16 +263,16 @@ def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> Floquet
     return FloquetResult(p, tol, status, f"{status}: {found}")
 
 
-def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
-    """The result for a fixed point that Newton's method has found to the tolerance."""
-    flight, values = found.flight, multipliers(found.jacobian)
+def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
+    """The result for a cycle that Newton's method has found to the tolerance."""
+    values = multipliers(flight.jacobian)
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
     for array in (values, exponents):
         array.setflags(write=False)
     return FloquetResult(
         parameters=map_.parameters,
-        tol=tol,
+        tol=map_.tol,
         status=CycleStatus.OK,
         message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {_counted(flight.counts)}",
         period=flight.period,
@@ -287,8 +280,8 @@ def cycle_of(map_: ReturnMap, tol: float, found: FixedPoint) -> FloquetResult:
         exponents=exponents,
         growth_rate=growth_rate(complex(values[0]), flight.period),
         stick_fraction=flight.stick_time / flight.period,
-        state=map_.state(found.x),
+        state=map_.state(flight.start),
         bifurcation_type=bifurcation_type(complex(values[0])),
         **flight.counts._asdict(),
-        residual=found.residual / max(float(np.linalg.norm(map_.static)), 1e-300),
+        residual=flight.residual / map_.deflection,
     )

@@ -7,8 +7,10 @@ variational equations (`disc_model.engine.variational`).
 """
 
 import math
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -120,14 +122,38 @@ class Counts(NamedTuple):
     sticks: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns: its outcome, durations (s) and numbers of events."""
+    """The motion between two returns to the section.
+
+    Attributes
+    ----------
+    outcome : exit code, one of `ENDS`
+    period, stick_time : s
+    counts : numbers of events
+    start, end : shape (n,), points of the section
+    jacobian, by : shapes (n, n) and (n, number of the map's parameters), derivatives of the end by the start and by the
+        parameters; meaningless if the flight did not return, or was followed without them
+    """
 
     outcome: int
     period: float
     stick_time: float
     counts: Counts
+    start: Array
+    end: Array
+    jacobian: Array
+    by: Array
+
+    @property
+    def returned(self) -> bool:
+        """Whether the motion came back to the section."""
+        return self.outcome == RETURNED
+
+    @property
+    def residual(self) -> float:
+        """Distance of the end from the start: 0 for a cycle."""
+        return float(np.linalg.norm(self.end - self.start))
 
 
 class ReturnMap:
@@ -140,6 +166,8 @@ class ReturnMap:
     scale : shape (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
     static : shape (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    deflection : norm of `static`, the unit of distances on the section
+    tol : tolerance of cycles: residual over deflection
     patience : factor on the time allowed for a return; see `PATIENT`
     """
 
@@ -147,7 +175,7 @@ class ReturnMap:
         self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
     ) -> None:
         raise_faults(case_faults(p, "the return map"))
-        tol = float(tol)  # kernels are compiled for the types of their arguments
+        self.tol = tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
@@ -178,6 +206,7 @@ class ReturnMap:
         jacobian = np.zeros((n, self._tangent.columns))
         self._section = variational.Section(rows, self.scale, np.zeros(n), jacobian)
         self.static = self._coordinates()
+        self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
     def _coordinates(self) -> Array:
         column = np.append(self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1])
@@ -192,12 +221,8 @@ class ReturnMap:
 
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
-    ) -> tuple[Flight, Array, Array, Array]:
-        """Follow the motion from `x` to the `releases`-th next release, with the map's tolerance or `COARSE`.
-
-        Returns flight, end (n,), Jacobian (n, n), derivatives by the map's parameters (n, number of parameters). The
-        last two are meaningless without `tangent` or if the flight did not return.
-        """
+    ) -> Flight:
+        """Follow the motion from `x` to the `releases`-th next release, with the map's tolerance or `COARSE`."""
         t = self._tangent
         order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
         finest = COLUMNS_COARSE if coarse else 10 * tolerance
@@ -209,9 +234,11 @@ class ReturnMap:
         code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[variational.DURATION, variational.STICK_TIME]].tolist()
         counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
-        derivatives, first = self._section.jacobian, self._first
-        by = derivatives[:, first : first + len(self._names)].copy()
-        return Flight(code, whole, stick, counts), self._section.end.copy(), derivatives[:, : self.size].copy(), by
+        by_start, by = (
+            self._section.jacobian[:, first : first + count].copy()
+            for first, count in ((0, self.size), (self._first, len(self._names)))
+        )
+        return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
 
     def next_release(self, start: State) -> tuple[int, Array]:
         """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
@@ -240,23 +267,14 @@ class ReturnMap:
     def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
         """Points of the motion from `x` at its next releases, at most `most`, as long as it returns."""
         for _ in range(most):
-            flight, x, _, _ = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
-            if flight.outcome != RETURNED:
+            flight = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
+            if not flight.returned:
                 return
-            yield x
+            yield (x := flight.end)
 
 
 # ----------------------------------------------------------------------------------------------------
 # Fixed points of the map, by Newton's method
-
-
-class FixedPoint(NamedTuple):
-    """A fixed point of the map, with the flight from it, the map's Jacobian, and the norm of the residual."""
-
-    x: Array
-    flight: Flight
-    jacobian: Array
-    residual: float
 
 
 MOST_JACOBIANS, COARSE_TRIES = 14, 3
@@ -270,51 +288,42 @@ def rounding(tol: float, factor: float) -> float:
     return max(tol, min(factor * tol, 1e-8))
 
 
-def newton(
-    map_: ReturnMap, x: Array, *, tol: float = 1e-12, releases: int = 1, may_separate: bool = False
-) -> FixedPoint | None:
-    """Fixed point of the map, by Newton's method with a line search and reused Jacobians; None if it finds none.
+def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False) -> Flight | None:
+    """The flight from a fixed point of the map, by Newton's method with a line search; None if it finds none.
 
-    The residual must fall below `tol` times the norm of the static deflection. If rounding stops it earlier, up to ten
-    thousand times as much is accepted, but never more than 1e-8.  The Jacobian is evaluated at the fixed point.
+    The residual must fall below the map's `tol`, over its deflection. If rounding stops it earlier, up to ten thousand
+    times as much is accepted, but never more than 1e-8.  Jacobians are reused; the result has that of the fixed point.
     """
-    size = max(float(np.linalg.norm(map_.static)), 1e-300)
-    identity = np.eye(map_.size)
-    flight, end, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=True)
-    used, fresh = 1, True
-    if flight.outcome != RETURNED:
+    follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
+    goal, identity = map_.tol * map_.deflection, np.eye(map_.size)
+    flight = follow(x, coarse=True)
+    jacobian, used, fresh = flight.jacobian, 1, True
+    if not flight.returned:
         return None
-    residual = float(np.linalg.norm(end - x))
-    while not residual <= tol * size:
-        if not math.isfinite(residual):
+    while not flight.residual <= goal:
+        if not math.isfinite(flight.residual):
             return None
-        step = _solve(jacobian - identity, end - x)
+        step, ratio = _solve(jacobian - identity, flight.end - flight.start), 1.0
         for shrink in range(7 if fresh else 1):
-            new = x - step * 0.5**shrink
-            trial, new_end, _, _ = map_.evaluate(new, releases=releases, tangent=False, may_separate=may_separate)
-            new_residual = float(np.linalg.norm(new_end - new))
-            if trial.outcome == RETURNED and new_residual < residual * (1 - 0.2 * 0.5**shrink):
-                ratio = new_residual / residual
-                x, end, residual, fresh = new, new_end, new_residual, False
+            trial = follow(flight.start - step * 0.5**shrink, tangent=False)
+            if trial.returned and trial.residual < flight.residual * (1 - 0.2 * 0.5**shrink):
+                ratio, flight, fresh = trial.residual / flight.residual, trial, False
                 break
         else:
-            if fresh and residual <= rounding(tol, 1e3) * size:
+            if fresh and flight.residual <= rounding(map_.tol, 1e3) * map_.deflection:
                 break
             if fresh:
                 return None
-            ratio = 1.0
-        if residual > tol * size and ratio > GOOD_STEP:
+        if flight.residual > goal and ratio > GOOD_STEP:
             if used >= MOST_JACOBIANS:
                 return None
-            coarse = used < COARSE_TRIES
-            flight, _, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=may_separate, coarse=coarse)
-            if flight.outcome != RETURNED:
+            again = follow(flight.start, coarse=used < COARSE_TRIES)
+            if not again.returned:
                 return None
-            used, fresh = used + 1, True
-    flight, end, jacobian, _ = map_.evaluate(x, releases=releases, may_separate=may_separate)
-    residual = float(np.linalg.norm(end - x))
-    converged = flight.outcome == RETURNED and residual <= rounding(tol, 1e4) * size and np.all(np.isfinite(jacobian))
-    return FixedPoint(x, flight, jacobian, residual) if converged else None
+            jacobian, used, fresh = again.jacobian, used + 1, True
+    found = follow(flight.start)
+    close = found.returned and found.residual <= rounding(map_.tol, 1e4) * map_.deflection
+    return found if close and np.all(np.isfinite(found.jacobian)) else None
 
 
 def _solve(matrix: Array, right: Array) -> Array:

@@ -22,7 +22,6 @@ from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.neighbourhood import (
-    CYCLE_TOL,
     LARGEST_PERIOD,
     NEAR,
     SAME_POINT,
@@ -81,8 +80,7 @@ class Basins:
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
         self.smallest = max(SMALLEST * self.static, sys.float_info.min)
-        self.map = ReturnMap(p, CYCLE_TOL, patience=PATIENT)
-        self.size = float(np.linalg.norm(self.map.static))
+        self.map = ReturnMap(p, patience=PATIENT)
         found = cycle_of_static_start(p)
         self.cycle = found if isinstance(found, NearCycle) and found.cycle.stable else None
         self.known: list[Attractor] = []
@@ -147,7 +145,7 @@ class Basins:
         if code == RETURNED:
             for at in chain([x], self.map.returns(x, near.cycle.releases - 1)):
                 distance = float(np.linalg.norm(at - near.x))
-                if distance <= NEAR * self.size:
+                if distance <= NEAR * self.map.deflection:
                     return distance < least and follows(near, at), min(distance, least)
         return False, least
 
@@ -200,7 +198,7 @@ class Basins:
         if near is not None and not near.cycle.stable:
             # near the cycle the motion hardly moves on the section over a period; on a torus it would move
             at = near.x + near.distance
-            if np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.size:
+            if np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.map.deflection:
                 return None
         return Attractor(Outcome.UNDECIDED, stretch)
 
@@ -208,7 +206,7 @@ class Basins:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
         if one.points is not None and other.points is not None:
             apart = min(float(np.linalg.norm(one.points[0] - point)) for point in other.points)
-            return apart <= SAME_POINT * self.size
+            return apart <= SAME_POINT * self.map.deflection
         return self._difference(one.segment, other.segment) <= SAME
 
     def _periodic(self, near: NearCycle, stretch: Segment) -> Attractor:
@@ -225,7 +223,7 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
     releases = int((stretch.events["kind"] == "stick_to_slip").sum())
     if not releases or not may_stick_and_slip(p):
         return None
-    map_ = ReturnMap(p, CYCLE_TOL, patience=PATIENT)
+    map_ = ReturnMap(p, patience=PATIENT)
     code, x = map_.next_release(stretch.final_state)
     if code != RETURNED:
         return None

@@ -27,11 +27,9 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import RETURNED, Array, ComplexArray, ReturnMap, newton
+from disc_model.stability.return_map import Array, ComplexArray, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
 
-CYCLE_TOL = 1e-12
-"""Tolerance of cycles and their multipliers, at the level of rounding errors."""
 TESTS = ((0.3, 1.2), (1.5, 6.0))
 """Times at which a motion is compared with the linear one, s; its growth rate is taken between them. The longer test
 follows if the shorter one fails, because it resolves slower rates."""
@@ -81,34 +79,29 @@ class NearCycle:
     waited: float = 0.0
 
     @property
-    def size(self) -> float:
-        """Norm of the static deflection."""
-        return float(np.linalg.norm(self.map.static))
-
-    @property
     def kind(self) -> Outcome:
         """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
-        if np.linalg.norm(self.x - self.map.static) <= NEAR * self.size:
+        if np.linalg.norm(self.x - self.map.static) <= NEAR * self.map.deflection:
             return Outcome.QUIET
-        own = find_cycle(self.cycle.parameters, CYCLE_TOL)
+        own = find_cycle(self.cycle.parameters)
         same = own.releases == self.cycle.releases and math.isclose(own.period, self.cycle.period, rel_tol=ARRIVED)
         return Outcome.QUIET if same else Outcome.OTHER_CYCLE
 
     def moved(self, at: Array, periods: int, *, coarse: bool = True) -> tuple[Array, float]:
         """Point of a motion on the section some periods later, and the time taken, s; nan if it does not return."""
         n, separates = periods * self.cycle.releases, self.cycle.separations > 0
-        flight, end, _, _ = self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
-        return end, flight.period if flight.outcome == RETURNED else math.nan
+        flight = self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
+        return flight.end, flight.period if flight.returned else math.nan
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     """The cycle near the static start, and whether the start follows it; without a cycle, the result of the search."""
     if not may_stick_and_slip(p):
-        return find_cycle(p, CYCLE_TOL)
-    map_ = ReturnMap(p, CYCLE_TOL)
-    cycle = cycle_from_rest(map_, CYCLE_TOL)
+        return find_cycle(p)
+    map_ = ReturnMap(p)
+    cycle = cycle_from_rest(map_)
     return _near(map_, cycle, map_.static) if cycle.status is CycleStatus.OK else cycle
 
 
@@ -126,10 +119,10 @@ def cycle_near(
     change, releases = again
     if not change <= NEARLY_PERIODIC:
         return None
-    found = newton(map_, x, tol=CYCLE_TOL, releases=releases, may_separate=may_separate)
-    if found is None or np.linalg.norm(found.x - x) > NEAR * np.linalg.norm(map_.static):
+    found = newton(map_, x, releases=releases, may_separate=may_separate)
+    if found is None or np.linalg.norm(found.start - x) > NEAR * map_.deflection:
         return None
-    cycle = cycle_of(map_, CYCLE_TOL, run_through_once(map_, CYCLE_TOL, found))
+    cycle = cycle_of(map_, run_through_once(map_, found))
     return _near(map_, cycle, x, WAITS if cycle.stable else unstable)
 
 
@@ -137,9 +130,8 @@ def recurrence(
     map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD, *, may_separate: bool = False
 ) -> tuple[float, int]:
     """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
-    size = float(np.linalg.norm(map_.static))
     later = map_.returns(x, most, may_separate=may_separate, coarse=True)
-    changes = [float(np.linalg.norm(now - x) / size) for now in later]
+    changes = [float(np.linalg.norm(now - x) / map_.deflection) for now in later]
     if not changes:
         return math.nan, 0
     # the shortest of those with about the least change
@@ -160,7 +152,7 @@ def departs_after(near: NearCycle, horizon: float) -> bool:
     leading = _left_vector(near.jacobian)
     right = _left_vector(near.jacobian.T)
     part = float(abs(leading @ near.distance)) / float(abs(leading @ right))
-    grown = math.log(max(part / near.size, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
+    grown = math.log(max(part / near.map.deflection, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
     return grown <= math.log(2 * AMPLITUDES[0]) and departure(near, room)[0] >= (room - 1) * near.cycle.period
 
 
@@ -173,8 +165,8 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
     """The motion at a point of the section in relation to a cycle."""
     assert cycle.state is not None
     x = map_.point(cycle.state)
-    _, _, jacobian, _ = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
-    near = NearCycle(cycle, False, map_, x, at - x, jacobian)
+    flight = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
+    near = NearCycle(cycle, False, map_, x, at - x, flight.jacobian)
     waited, moved = 0.0, at
     for wait in waits:
         if wait > waited:
@@ -192,13 +184,15 @@ def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> boo
     """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
     leading = _left_vector(jacobian)
-    least = ARRIVED * near.size if cycle.stable else 0.0
+    least = ARRIVED * near.map.deflection if cycle.stable else 0.0
     expected, moved, parts = distance, x + distance, list[float]()
     done = 0
     counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
     for count in counts:
         # the errors of coarse flights would matter at so small a distance
-        moved, took = near.moved(moved, count - done, coarse=bool(np.linalg.norm(distance) > SAME_POINT * near.size))
+        moved, took = near.moved(
+            moved, count - done, coarse=bool(np.linalg.norm(distance) > SAME_POINT * near.map.deflection)
+        )
         expected = np.linalg.matrix_power(jacobian, count - done) @ expected
         error = float(np.linalg.norm(moved - x - expected))
         if math.isnan(took) or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
@@ -238,7 +232,7 @@ def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tu
         n, distance = 0, near.distance
         for i in reversed(range(len(powers))):
             ahead = powers[i] @ distance
-            if n + 2**i <= room and np.linalg.norm(ahead) <= amplitude * near.size:
+            if n + 2**i <= room and np.linalg.norm(ahead) <= amplitude * near.map.deflection:
                 n, distance = n + 2**i, ahead
         if n == 0:
             break

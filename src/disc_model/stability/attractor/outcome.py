@@ -21,7 +21,6 @@ from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
     ARRIVED,
-    CYCLE_TOL,
     NEAR,
     SAME_POINT,
     WAITS,
@@ -237,7 +236,7 @@ class _OutcomeSearch:
     @cached_property
     def map(self) -> ReturnMap | None:
         has_section = not case_faults(self.p, "the return map") and may_stick_and_slip(self.p)
-        return ReturnMap(self.p, CYCLE_TOL) if has_section else None
+        return ReturnMap(self.p) if has_section else None
 
     @cached_property
     def torus(self) -> TorusTest:
@@ -255,7 +254,7 @@ class _OutcomeSearch:
                 if near.cycle.stable:
                     self.cycle = near.cycle
                     self.time += near.waited
-                    return self._ended(near.kind, distance=float(np.linalg.norm(near.distance)) / near.size)
+                    return self._ended(near.kind, distance=float(np.linalg.norm(near.distance)) / near.map.deflection)
                 if over or self._depart(near) >= self.horizon:
                     return self._ended(Outcome.GROWING)
             elif over:
@@ -357,9 +356,14 @@ class _OutcomeSearch:
     def _back(self, x: Array) -> NearCycle | None:
         """The unstable cycle near the start, if the motion follows it after it has passed another unstable one."""
         near, left = self.near_start, self.left
-        if near is None or left is None or near.cycle.stable or not np.linalg.norm(x - near.x) <= NEAR * near.size:
+        if (
+            near is None
+            or left is None
+            or near.cycle.stable
+            or not np.linalg.norm(x - near.x) <= NEAR * near.map.deflection
+        ):
             return None
-        if np.linalg.norm(left.x - near.x) <= SAME_POINT * near.size or not follows(near, x):
+        if np.linalg.norm(left.x - near.x) <= SAME_POINT * near.map.deflection or not follows(near, x):
             return None
         self.near_start = self.cycle = None
         return replace(near, follows_cycle=True, distance=x - near.x)

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import Array, ReturnMap
 
 RELEASES, FURTHER = 200, 400
 """Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
@@ -66,13 +66,13 @@ class TorusTest:
 
     def _attracts(self, x: Array, releases: int) -> bool:
         """Whether the motion is near a torus, and distances from it decay, by a near return."""
-        flight, end, jacobian, _ = self.map.evaluate(x, releases=releases, coarse=True)
-        if flight.outcome != RETURNED or not np.all(np.isfinite(jacobian)):
+        flight = self.map.evaluate(x, releases=releases, coarse=True)
+        if not flight.returned or not np.all(np.isfinite(flight.jacobian)):
             return False
-        values, vectors = np.linalg.eig(jacobian)
+        values, vectors = np.linalg.eig(flight.jacobian)
         growth = np.log(np.maximum(abs(values), 1e-300))
         slowest = -SLOWEST * flight.period
-        parts = np.linalg.lstsq(vectors, (end - x).astype(complex))[0]
+        parts = np.linalg.lstsq(vectors, (flight.end - x).astype(complex))[0]
         # a near return lies beside its point along the torus: this shift neither turns nor decays
         shifts = (values.imag == 0) & (values.real > 0) & (abs(growth) <= TURNED)
         along = int(np.argmax(np.where(shifts, abs(parts), -1.0)))
@@ -80,4 +80,4 @@ class TorusTest:
         if growth[others].max() > slowest:
             return False
         distance = vectors[:, others] @ (parts[others] / (1 - values[others]))
-        return bool(np.linalg.norm(distance) <= DISTANCE * np.linalg.norm(self.map.static))
+        return bool(np.linalg.norm(distance) <= DISTANCE * self.map.deflection)

@@ -20,7 +20,6 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
-    CYCLE_TOL,
     SAME_POINT,
     NearCycle,
     cycle_of_static_start,
@@ -245,7 +244,7 @@ class _Tile:
             return own
         if found.cycle is None or found.cycle.state is None:
             return None
-        map_ = ReturnMap(found.cycle.parameters, CYCLE_TOL)
+        map_ = ReturnMap(found.cycle.parameters)
         return _Followed(found.cycle, map_, map_.point(found.cycle.state))
 
     def _joined(self, here: Place, ahead: Place) -> str:
@@ -253,13 +252,13 @@ class _Tile:
         one, two = self.followed.get(here), self.followed.get(ahead)
         if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
             return "no"
-        size = float(np.linalg.norm(two.map.static))
+        size = two.map.deflection
         # in units of the static deflection, which varies with the parameters
-        x = one.x * size / float(np.linalg.norm(one.map.static))
+        x = one.x * size / one.map.deflection
         if np.linalg.norm(x - two.x) <= 0.002 * size:  # smoothly
             return "yes"
-        found = newton(two.map, x, tol=CYCLE_TOL, releases=two.cycle.releases)
-        return "yes" if found is not None and np.linalg.norm(found.x - two.x) <= SAME_POINT * size else "no"
+        found = newton(two.map, x, releases=two.cycle.releases)
+        return "yes" if found is not None and np.linalg.norm(found.start - two.x) <= SAME_POINT * size else "no"
 
     def _row(self, place: Place, others: int) -> tuple[Row, str]:
         start, found = self.starts[place], self.results.get(place)
@@ -315,17 +314,17 @@ class _Tile:
         start, there = self.starts[here], self.starts[before]
         if not (isinstance(start, NearCycle) and isinstance(there, NearCycle)) or start.x.shape != there.x.shape:
             return
-        size = float(np.linalg.norm(start.map.static))
+        size = start.map.deflection
         # in units of the static deflection, which varies with the parameters
-        scale = size / float(np.linalg.norm(there.map.static))
+        scale = size / there.map.deflection
         for cycle in known[before]:
             if len(known[here]) >= 4:  # further ones cost too much
                 return
             if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= 0.02 * size:  # not another one
                 continue
-            found = newton(start.map, scale * cycle, tol=CYCLE_TOL, releases=there.cycle.releases)
-            if found is not None and min(np.linalg.norm(found.x - x) for x in known[here]) > SAME_POINT * size:
-                known[here].append(found.x)
+            found = newton(start.map, scale * cycle, releases=there.cycle.releases)
+            if found is not None and min(np.linalg.norm(found.start - x) for x in known[here]) > SAME_POINT * size:
+                known[here].append(found.start)
 
 
 def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
