@@ -132,7 +132,7 @@ def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
     assert 1 < near.waited < 20
     # the distance is the one that is left by then
     *_, later = near.map.returns(at, round(near.waited / near.cycle.period))
-    assert np.linalg.norm(later - near.x - near.distance) < 1e-6 * near.size
+    assert np.linalg.norm(later - near.x - near.distance) < 1e-6 * near.map.deflection
 
 
 @pytest.mark.compiled

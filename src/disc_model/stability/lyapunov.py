@@ -19,7 +19,7 @@ from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, l
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.return_map import ENDS, Array, case_faults, longest_step
+from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
 
 
 class LyapunovStatus(StatusBase):
@@ -130,8 +130,8 @@ def lyapunov_exponents(
     if start is not None:
         write_state(case, start, state)
     t = tangent.build_tangent(model, layout.WIDTH, order)
-    columns, rows = t.now.reshape(-1, layout.WIDTH), _coordinates(model)
-    metric = _metric(model)[rows, None]
+    columns, rows = t.now.reshape(-1, layout.WIDTH), coordinate_rows(model)
+    metric = energy_scale(model)[rows, None]
     columns[:] = 0.0
     asked, count = count, count + leave_out_trivial
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
@@ -170,7 +170,7 @@ def _orthonormalise(
 ) -> tuple[Array, NDArray[np.intp]]:
     """Orthonormalise the remaining columns, and set those to zero that depend on the others.
 
-    rows, metric : rows of the coordinates, (n,), and their `_metric`, (n, 1)
+    rows, metric : rows of the coordinates, (n,), and their `energy_scale`, (n, 1)
     left : indices of the remaining columns
     vanished : length of an orthogonal part, relative to the column, below which it counts as zero
 
@@ -234,7 +234,7 @@ def _check(
     """Raise one ParameterError that lists every fault."""
     faults = case_faults(p, "lyapunov_exponents")
     lasts = _is_within(duration, sys.float_info.min)
-    most = layout.WIDTH if faults else min(layout.WIDTH, len(_coordinates(engine_case(p).model)))
+    most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
     counts = is_whole(count) and 1 <= count <= most
@@ -254,22 +254,6 @@ def _check(
 def _is_within(value: object, least: float) -> bool:
     """Whether a value is a finite number and not below `least`."""
     return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]
-
-
-def _coordinates(model: layout.Model) -> NDArray[np.intp]:
-    """Rows of a column without those of empty lanes, in which rounding errors would stay for ever."""
-    lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
-    return np.concatenate([lanes, width + lanes, np.arange(2 * width, tangent.n_rows(model))])
-
-
-def _metric(model: layout.Model) -> Array:
-    """Square root of twice the energy of a unit of each row of a column: (rows,)."""
-    one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
-    slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
-    contact = 1 / model.compliance[0] if len(model.compliance) == 1 else 0.0
-    height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
-    stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
-    return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
 
 
 def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:

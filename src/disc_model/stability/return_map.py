@@ -112,6 +112,22 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     return change
 
 
+def coordinate_rows(model: layout.Model) -> NDArray[np.intp]:
+    """Rows of a column without those of empty lanes, in which rounding errors would stay for ever."""
+    lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
+    return np.concatenate([lanes, width + lanes, np.arange(2 * width, columns.n_rows(model))])
+
+
+def energy_scale(model: layout.Model) -> Array:
+    """Square root of twice the energy of a unit of each row of a column: (rows,)."""
+    one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
+    slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
+    contact = 1 / model.compliance[0] if len(model.compliance) == 1 else 0.0
+    height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
+    stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
+    return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
+
+
 class Counts(NamedTuple):
     """Number of events of each kind in a flight, or in a period of a cycle."""
 
@@ -183,19 +199,13 @@ class ReturnMap:
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
-        width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
-        self._slider = 2 * width + 2 * n0  # first row of psi, f, u, u' in columns
-        used = np.flatnonzero(model.shift)
-        omega, omega0 = np.sqrt(model.stiffness[used]), np.sqrt(model.stiffness0)
-        single = np.arange(n0)
-        rows = np.concatenate([used, width + used, 2 * width + single, 2 * width + n0 + single])
-        self.scale = np.concatenate([omega, np.ones(len(used)), omega0, np.ones(n0)])
-        l, l0 = np.abs(model.shift[used]).astype(np.int64), np.zeros(n0, np.int64)
-        self.diameters = np.concatenate([l, l, l0, l0])
-        if len(model.compliance) == 1:
-            rows = np.append(rows, self._slider + np.array([columns.U_ROW, columns.V_ROW]))
-            # the norm is that of the energy of the slider between its spring and the contact
-            self.scale = np.append(self.scale, np.sqrt([1 / model.compliance[0] + model.k, model.m]))
+        modes, slider = np.split(coordinate_rows(model), [-columns.N_SLIDER_ROWS])
+        self._slider = int(slider[0])
+        l = np.abs(model.shift).astype(np.int64)
+        self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[modes]
+        height = slider[[columns.U_ROW, columns.V_ROW]]
+        rows = np.append(modes, height) if len(model.compliance) == 1 else modes
+        self.scale = energy_scale(model)[rows]
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
@@ -103,16 +103,16 @@ class Attractor:
     points: Array | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class OutcomeResult:
-    """The outcome of a motion.
+    """The outcome of a motion; while it is sought, what is known so far.
 
     Attributes
     ----------
     outcome : None if the simulation failed
     simulated : s, simulated time; 0 if multipliers decide
     attractor : one of the attractors of `disc_model.stability.attractor.classification.Basins`, or None
-    cycle : the stable cycle that the motion approaches, or else the unstable cycle from which it departs, or None
+    cycle : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
     departed : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all was
         simulated
     first_separation : s, nan if there was none
@@ -125,8 +125,8 @@ class OutcomeResult:
     segment : the last segment before the horizon, if it was requested and reached
     """
 
-    outcome: Outcome | None
-    simulated: float
+    outcome: Outcome | None = None
+    simulated: float = 0.0
     cycle: FloquetResult | None = None
     attractor: Attractor | None = None
     departed: FloquetResult | None = None
@@ -134,8 +134,8 @@ class OutcomeResult:
     time: float = 0.0
     state: State | None = None
     failed: Result | None = None
-    changes: Sequence[float] = ()
-    times: Sequence[float] = ()
+    changes: list[float] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)
     distance: float = math.nan
     segment: Segment | None = None
 
@@ -188,8 +188,8 @@ def find_outcome(
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
     """
-    course = _OutcomeSearch(p, horizon, tol, furthest, start, early, late)
-    first = None
+    found = OutcomeResult(state=start)
+    course, first = _OutcomeSearch(p, horizon, tol, furthest, early, late, found), None
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
         if isinstance(near, NearCycle):
@@ -197,7 +197,7 @@ def find_outcome(
                 first = near
             else:
                 course.near_start = near
-    found = course.run(first)
+    found.outcome = course.run(first)
     if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
         return found
     again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, start=start, early=early, late=late)
@@ -206,11 +206,10 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """State of a search: the present state of the motion, and the results so far.
+    """A search for the outcome of a motion.
 
-    cycle : the cycle that the motion follows linearly: the first one, or the stable one that it approaches
+    found : its results so far, with the present state of the motion
     left : the last unstable cycle from which the motion has departed
-    departed : the one of slowest growth from which a departure was computed by multipliers
     near_start : the cycle near the static start, while the motion does not follow it
     at : point of the section at the end of the last leg
     """
@@ -219,19 +218,12 @@ class _OutcomeSearch:
     horizon: float
     tol: float
     furthest: float
-    state: State | None
     early: bool
     late: float
-    time: float = 0.0
-    simulated: float = 0.0
-    cycle: FloquetResult | None = None
+    found: OutcomeResult
     left: NearCycle | None = None
-    departed: FloquetResult | None = None
     near_start: NearCycle | None = None
-    segment: Segment | None = None
     at: Array | None = None
-    changes: list[float] = field(default_factory=list)
-    times: list[float] = field(default_factory=list)
 
     @cached_property
     def map(self) -> ReturnMap | None:
@@ -243,97 +235,86 @@ class _OutcomeSearch:
         assert self.map is not None
         return TorusTest(self.map)
 
-    def run(self, near: NearCycle | None) -> OutcomeResult:
+    def run(self, near: NearCycle | None) -> Outcome | None:
+        """The outcome, None if a simulation failed; ``near`` is the cycle that the motion follows from its start."""
+        found, leg = self.found, FIRST_LEG
         if near is not None:
-            self.time = first_release(self.p)
-        leg = FIRST_LEG
+            found.time = first_release(self.p)
         while True:
-            over = self.time >= self.horizon
+            over = found.time >= self.horizon
             if near is not None:
-                self.cycle = self.cycle or near.cycle
+                found.cycle = found.cycle or near.cycle
                 if near.cycle.stable:
-                    self.cycle = near.cycle
-                    self.time += near.waited
-                    return self._ended(near.kind, distance=float(np.linalg.norm(near.distance)) / near.map.deflection)
+                    found.cycle = near.cycle
+                    found.time += near.waited
+                    found.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
+                    return near.kind
                 if over or self._depart(near) >= self.horizon:
-                    return self._ended(Outcome.GROWING)
+                    return Outcome.GROWING
             elif over:
-                return self._ended(Outcome.GROWING if self._grows else Outcome.UNDECIDED)
+                return Outcome.GROWING if self._grows else Outcome.UNDECIDED
             result = self._simulated(leg)
             leg = min(2 * leg, LONGEST_LEG)
             if result.status is Status.STOPPED:
-                return self._ended(Outcome.SEPARATION, first_separation=result.first_separation)
+                found.first_separation = result.first_separation
+                return Outcome.SEPARATION
             if not result.status.complete:
-                return self._ended(None, failed=result)
-            near = None
-            if self.early or self.time >= self.horizon:
+                found.failed = result
+                return None
+            if self.early or found.time >= self.horizon:
                 calm = at_rest(self.p, result, self.tol)
                 if calm is not None:
-                    self.cycle = None
-                    return self._ended(calm)
+                    found.cycle = None
+                    return calm
             near = self._look(result.final_state)
             if near is None and self._stays_in_contact():
-                return self._ended(Outcome.GROWING)
+                return Outcome.GROWING
 
     def _simulated(self, leg: float) -> Result:
         """Simulate for a time (s), or to the first separation; the segment to be described is a leg of its own."""
         marks = (self.horizon - self.late, self.horizon)
-        stop = next(min(self.time + leg, mark) for mark in marks if self.time < mark)
+        stop = next(min(self.found.time + leg, mark) for mark in marks if self.found.time < mark)
         record = Record(events=False)
         if self.late and stop == self.horizon:
-            record = Record(windows=(Window(start=self.time, stop=stop, rate=RATE),), events=False)
+            record = Record(windows=(Window(start=self.found.time, stop=stop, rate=RATE),), events=False)
         result = simulate(
-            self.p, stop, tol=self.tol, initial_state=self.state, record=record, stop_at="first_separation"
+            self.p, stop, tol=self.tol, initial_state=self.found.state, record=record, stop_at="first_separation"
         )
         if record.windows and result.status.complete:
-            self.segment = segment_of(result)
-        self.simulated += result.final_state.time - self.time
-        self.state, self.time = result.final_state, result.final_state.time
+            self.found.segment = segment_of(result)
+        self.found.simulated += result.final_state.time - self.found.time
+        self.found.state, self.found.time = result.final_state, result.final_state.time
         return result
 
     @property
     def _grows(self) -> bool:
-        return self.left is not None or growing(self.changes)
+        return self.left is not None or growing(self.found.changes)
 
     def _stays_in_contact(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
-        tested = self.early and self.simulated >= UNSETTLED and self.horizon - self.time >= LONGEST_LEG
+        tested = self.early and self.found.simulated >= UNSETTLED and self.horizon - self.found.time >= LONGEST_LEG
         if not tested or not self._grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
         # it may pass an unstable one, or a border of its phases that no derivative shows
-        result, segment = final_segment(self.p, self.state, WATCHED, WATCHED, self.tol)
-        self.simulated += result.final_state.time - self.time
+        result, segment = final_segment(self.p, self.found.state, WATCHED, WATCHED, self.tol)
+        self.found.simulated += result.final_state.time - self.found.time
         if segment is None or segment.P_min < LEAST_FORCE * self.p.N:
             return False
         code, x = self.torus.map.next_release(result.final_state)
         return code == RETURNED and self.torus.shows_no_change(x)
 
-    def _ended(self, outcome: Outcome | None, **more: Any) -> OutcomeResult:
-        return OutcomeResult(
-            outcome,
-            self.simulated,
-            self.cycle,
-            departed=self.departed,
-            time=self.time,
-            state=self.state,
-            changes=self.changes,
-            times=self.times,
-            segment=self.segment,
-            **more,
-        )
-
     def _depart(self, near: NearCycle) -> float:
         """Follow the linear map away from an unstable cycle, as far as it is valid; returns the time at its end, s."""
-        begun = self.time + near.waited
+        begun = self.found.time + near.waited
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = departure(near, room, self.furthest)
         self.left = near
-        if time and (self.departed is None or near.cycle.growth_rate < self.departed.growth_rate):
-            self.departed = near.cycle
-        if time or self.state is None:
-            self.time = begun + time
-            self.state = near.map.state(near.x + distance).replace(time=self.time)
-        return self.time
+        if time and (self.found.departed is None or near.cycle.growth_rate < self.found.departed.growth_rate):
+            self.found.departed = near.cycle
+        if time or self.found.state is None:
+            self.found.time = begun + time
+            self.found.state = near.map.state(near.x + distance).replace(time=self.found.time)
+        return self.found.time
 
     def _look(self, state: State) -> NearCycle | None:
         """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
@@ -343,29 +324,27 @@ class _OutcomeSearch:
             return None
         x = self.at
         again = recurrence(self.map, x)
-        self.times.append(self.time)
-        self.changes.append(again[0])
-        if not self.early and self.time < self.horizon:
+        self.found.times.append(self.found.time)
+        self.found.changes.append(again[0])
+        if not self.early and self.found.time < self.horizon:
             return None
         near = self._back(x)
         # after a departure, a motion that comes near a cycle changes less and less
-        if near is None and (self.left is None or not again[0] > max(self.changes[-2:][0], ARRIVED, ERRORS * self.tol)):
+        if near is None and (
+            self.left is None or not again[0] > max(self.found.changes[-2:][0], ARRIVED, ERRORS * self.tol)
+        ):
             near = cycle_near(self.map, x, again, unstable=WAITS if self.left is None else WAITS[:1])
         return near if near is not None and near.follows_cycle else None
 
     def _back(self, x: Array) -> NearCycle | None:
         """The unstable cycle near the start, if the motion follows it after it has passed another unstable one."""
         near, left = self.near_start, self.left
-        if (
-            near is None
-            or left is None
-            or near.cycle.stable
-            or not np.linalg.norm(x - near.x) <= NEAR * near.map.deflection
-        ):
+        if near is None or left is None or near.cycle.stable:
             return None
-        if np.linalg.norm(left.x - near.x) <= SAME_POINT * near.map.deflection or not follows(near, x):
+        size, apart = near.map.deflection, np.linalg.norm(x - near.x)
+        if not apart <= NEAR * size or np.linalg.norm(left.x - near.x) <= SAME_POINT * size or not follows(near, x):
             return None
-        self.near_start = self.cycle = None
+        self.near_start = self.found.cycle = None
         return replace(near, follows_cycle=True, distance=x - near.x)
 
 
