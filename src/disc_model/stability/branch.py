@@ -41,9 +41,6 @@ REORDERED = "the order of events changes"
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
 
-CORRECTIONS = 8
-"""Newton steps of a corrector before the arclength is halved."""
-
 
 class CorrectorFailed(Exception):
     """The corrector found no cycle, or the motion did not return; the message says which."""
@@ -122,10 +119,10 @@ class CycleProblem:
         return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
 
     def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:
-        """Solve F = 0 with `rows` z = `targets`."""
+        """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
         point = self.evaluate(z)
         last = math.inf
-        for _ in range(CORRECTIONS):
+        for _ in range(8):
             right = np.concatenate([point.residual, rows @ point.z - targets])
             error = float(np.linalg.norm(right))
             if error <= 30 * self.tol:

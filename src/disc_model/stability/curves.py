@@ -22,13 +22,9 @@ from disc_model.stability.return_map import Array, ReturnMap
 SAME_PLACE, SAME_PERIOD = 0.01, 0.004
 """A place lies on a known curve within this share of the parameters' ranges, if periods agree to this share. The
 periods of the two borders of one resonance differ by 1 % and more."""
-OTHERS_GROW = 1e-3
-"""1/s; a neutral curve is a border of stability if no other multiplier grows faster than this."""
 
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""
-SHORTEST = 1e-4
-"""Arclength of the shortest step: a curve ends where a shorter one would be needed, as where an event grazes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +96,8 @@ def stability_curves(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
-    steps = replace(BORDER, longest=longest, shortest=SHORTEST, max_points=max_points)
+    # a curve ends where a shorter step would be needed, as where an event grazes
+    steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
     check(p, 2, names, bounds, tol, steps=steps, more=other)
     how = {"steps": steps, "tol": tol}
     found: list[StabilityCurve] = []
@@ -210,7 +207,7 @@ def _trace(
     values, period = joined("values").astype(float), joined("period").astype(float)
     every, diameters = joined("multipliers").astype(complex), joined("diameters")
     leading = every[:, 0]
-    border = np.log(np.abs(leading)) / period < OTHERS_GROW
+    border = np.log(np.abs(leading)) / period < 1e-3  # 1/s; no other multiplier grows
     middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(period) // 2
     case = seed.case.replace(**dict(zip(names, map(float, values[middle]), strict=True)))
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])

@@ -14,12 +14,10 @@ from disc_model.simulation.result import Array, Result, State
 
 RATE = 1e5
 """Sampling rate, Hz; minima between samples are those of the parabola through three of them."""
-GRAZES = 1e-3
-"""An event grazes if it is missed, or occurs, by less than this share of its scale."""
 
 
 def grazing(p: Parameters, state: State, period: float) -> str:
-    """Description of the event that grazes along a cycle.
+    """Description of the event that grazes along a cycle: missed, or occurring, by less than a thousandth of its scale.
 
     Parameters
     ----------
@@ -29,7 +27,7 @@ def grazing(p: Parameters, state: State, period: float) -> str:
     window = Window(start=0.0, stop=period, rate=RATE)
     run = simulate(p, period, initial_state=state.replace(time=0.0), record=window)
     margin, what = min(margins(p, run.raise_for_status()), default=(math.inf, ""))
-    return f"{what} is missed by {margin:.1e}" if margin < GRAZES else "what grazes was not found"
+    return f"{what} is missed by {margin:.1e}" if margin < 1e-3 else "what grazes was not found"
 
 
 def margins(p: Parameters, run: Result) -> Iterator[tuple[float, str]]:

@@ -28,21 +28,9 @@ ComplexArray = NDArray[np.complex128]
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
-ROUGHEST = 1e-10
-"""Largest tolerance of flights, whatever residual is requested: a rougher map could not reach a residual of 1e-8."""
-
-FINER = 1 / 20
-"""Tolerance of flights relative to the cycle's: the Jacobian needs a more accurate series than event times do."""
-
 PATIENT = 60.0
 """Factor on the time allowed for a return if the motion may separate, because the slider may then slip for long. It
 allows about 5 s, the length of the segments that are examined."""
-
-COARSE, COARSE_ORDER, COLUMNS_COARSE = 1e-9, 20, 1e-5
-"""Tolerance and order of the series, and tolerance of the columns, for a Jacobian that only gives a direction."""
-
-USUAL_RATE = 1.25
-"""Rate relative to the disc's highest frequency up to which steps are not shortened: all published cases are below."""
 
 RETURNED = exit_codes.RETURNED
 ENDS = {
@@ -75,7 +63,8 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     stiffness = max(model.unit**-2, max(model.k, model.k_p) / model.m)
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
     rate = fastest * model.unit
-    return columns.longest_step(order, tolerance) / (rate if rate > USUAL_RATE else 1.0)
+    # all published cases are below 1.25, where steps are not shortened
+    return columns.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
 
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
@@ -195,7 +184,8 @@ class ReturnMap:
         self.parameters, self.patience = p, patience
         self._case = engine_case(p)
         self.model = model = self._case.model
-        flights = FINER * min(tol, ROUGHEST)
+        # the Jacobian needs a finer series than event times do, and no rougher one could reach a residual of 1e-8
+        flights = 1 / 20 * min(tol, 1e-10)
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
@@ -232,11 +222,12 @@ class ReturnMap:
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
     ) -> Flight:
-        """Follow the motion from `x` to the `releases`-th next release, with the map's tolerance or `COARSE`."""
+        """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a direction."""
         t = self._tangent
-        order, tolerance = (self.order, self.tolerance) if not coarse else (min(COARSE_ORDER, self.order), COARSE)
-        finest = COLUMNS_COARSE if coarse else 10 * tolerance
-        longest = longest_step(self.model, order, finest) if tangent else math.inf
+        order, tolerance, of_columns = self.order, self.tolerance, 10 * self.tolerance
+        if coarse:
+            order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
+        longest = longest_step(self.model, order, of_columns) if tangent else math.inf
         course = variational.IntegrationLimits(
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
@@ -287,12 +278,6 @@ class ReturnMap:
 # Fixed points of the map, by Newton's method
 
 
-MOST_JACOBIANS, COARSE_TRIES = 14, 3
-"""Largest number of Jacobians, and number of the first ones that are coarse, because they only give a direction."""
-GOOD_STEP = 0.05
-"""If a step leaves less than this share of the residual, the next step reuses its Jacobian."""
-
-
 def rounding(tol: float, factor: float) -> float:
     """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than 1e-8."""
     return max(tol, min(factor * tol, 1e-8))
@@ -324,10 +309,10 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
                 break
             if fresh:
                 return None
-        if flight.residual > goal and ratio > GOOD_STEP:
-            if used >= MOST_JACOBIANS:
+        if flight.residual > goal and ratio > 0.05:  # a better step is followed by another with its Jacobian
+            if used >= 14:
                 return None
-            again = follow(flight.start, coarse=used < COARSE_TRIES)
+            again = follow(flight.start, coarse=used < 3)
             if not again.returned:
                 return None
             jacobian, used, fresh = again.jacobian, used + 1, True

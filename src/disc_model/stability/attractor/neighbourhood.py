@@ -53,8 +53,6 @@ NEAR = AMPLITUDES[0]
 SAME_POINT = 1e-4
 """Fixed points nearer than this, over the static deflection, are the same. Distinct known cycles differ a thousand
 times as much, and residuals are a million times smaller."""
-NEARLY_PERIODIC = NEAR / 2
-"""Change over a period, over the static deflection, below which a cycle is sought."""
 LARGEST_PERIOD = 8
 """Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
 
@@ -117,7 +115,7 @@ def cycle_near(
     unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
     """
     change, releases = again
-    if not change <= NEARLY_PERIODIC:
+    if not change <= NEAR / 2:
         return None
     found = newton(map_, x, releases=releases, may_separate=may_separate)
     if found is None or np.linalg.norm(found.start - x) > NEAR * map_.deflection:
