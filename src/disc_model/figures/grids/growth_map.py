@@ -88,7 +88,10 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
             np.abs(rate[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
             for name in ("N", "Omega")
         )
-        own = _closed(there & beside[curve.kind][i, j]) & there
+        own = there & beside[curve.kind][i, j]
+        within = slice(own.argmax(), own.size - own[::-1].argmax())
+        if own[within].mean() >= 0.5:  # cells are coarser than the curve
+            own[within] = there[within]
         for found, stretch in ((shown, own), (other, there & ~own)):
             if stretch.any():
                 # one point more at each end, so that the parts of a curve meet
@@ -96,14 +99,6 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
                 Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
                 found.append(replace(curve, Omega=Omega, N=N, label=curve.label if found is shown else ""))
     return shown, other
-
-
-def _closed(own: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Close the gaps between parts that make up most of a curve: cells are coarser than the curve."""
-    at = np.flatnonzero(own)
-    if at.size and own[at[0] : at[-1] + 1].mean() >= 0.5:
-        own[at[0] : at[-1] + 1] = True
-    return own
 
 
 def crossings(curve: Curve, load: float) -> Array:

@@ -36,6 +36,8 @@ MARKS: dict[str, dict[str, Any]] = {
     "failed": {"marker": "X", "facecolor": BLACK, "s": 12},
 }
 """The mark of each outcome."""
+EDGE = [withStroke(linewidth=2.4, foreground=BLACK)]
+"""Black edges of the paper's marks."""
 
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
@@ -173,7 +175,7 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[
         _paper_mark(axes[0], plot, name, mark)
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
-    ring |= {"markeredgecolor": PAPER, "path_effects": [withStroke(linewidth=2.4, foreground=BLACK)]}
+    ring |= {"markeredgecolor": PAPER, "path_effects": EDGE}
     return [
         Line2D([], [], marker=look["marker"], label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
         for name, look in MARKS.items()
@@ -184,10 +186,9 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[
 def _paper_mark(ax: Axes, plot: StabilityMap, name: str, mark: Mark) -> None:
     """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
     at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
+    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": EDGE}
     shape = MARKS[mark.paper_outcome]["marker"]
-    for color, width in ((BLACK, 2.4), (PAPER, 1.4)):
-        ring: dict[str, Any] = {"facecolor": "none", "edgecolor": color, "linewidth": width}
-        ax.scatter(*at, 55.0, marker=shape, zorder=4, clip_on=False, **ring)
+    ax.scatter(*at, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
     across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
     offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
     parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=parts.halo(2.0))
