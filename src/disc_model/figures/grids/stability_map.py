@@ -203,7 +203,9 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> N
         if (scale := cells.scale_of(name, values)) != "linear":
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
-            axis.set_major_locator(FixedLocator(_round_values(values)))
+            ticks = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
+            ticks = ticks[ticks >= 0.999 * values[values > 0][0]]
+            axis.set_major_locator(FixedLocator([*[0.0] * (scale == "symlog"), *ticks]))
             axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(NullFormatter())
             if scale == "symlog":
@@ -215,15 +217,6 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> N
         for ax in axes:
             ax.set(**{f"{which}label": label})
             ax.label_outer()
-
-
-def _round_values(values: np.ndarray) -> list[float]:
-    """The values 1, 2 and 5 of each decade within the range, and its ends."""
-    positive = values[values > 0]
-    decades = 10.0 ** np.arange(np.floor(np.log10(positive[0])), np.ceil(np.log10(positive[-1])) + 1)
-    steps = np.outer(decades, [1.0, 2.0, 5.0]).ravel()
-    inside = steps[(steps >= 0.999 * positive[0]) & (steps <= 1.001 * positive[-1])]
-    return [*([0.0] if values[0] == 0 else []), *inside.tolist()]
 
 
 def _legend_above(figure: Figure, handles: Sequence[Artist]) -> None:
