@@ -33,8 +33,6 @@ COLOURS = cmc.vik
 """Colours of the deflection: blue below the plane of the disc at rest, red above it."""
 RADII, ANGLES = 25, 181
 """Points across and around the disc at which it is drawn."""
-INSTANTS = 4
-"""Number of instants, equally spaced from one loss of contact to the next."""
 
 
 class Motion(NamedTuple):
@@ -91,30 +89,34 @@ def motion_of(case: xr.DataTree) -> Motion:
 
 
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
-    """Draw the disc from above at instants between two losses of contact, and along its circle of radius r_0."""
+    """Draw the disc from above at four instants, and along its circle of radius r_0.
+
+    They are equidistant from the first loss of contact to the next, or over the whole stretch without two losses.
+    """
     (case,) = cases.values()
     figure = new_figure(PAGE, 4.2)
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
-    discs = above.subplots(1, INSTANTS)
+    discs = above.subplots(1, 4)
     circle = around.subplots()
     with parts.blank_if_missing(*discs, circle):
         motion = motion_of(case)
-        shown = _between_losses(motion)
+        losses = [first for first, _ in parts.stretches(motion.phase == SEPARATION) if first > 0]
+        first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
         scale = _scale(motion)
-        for letter, ax, i in zip("abcd", discs, shown, strict=True):
+        for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
+            i = first + j * (last - first) // len(discs)
             mesh = _disc(ax, motion, i, scale)
-            ax.set_title(f"({letter}) {1e3 * (motion.time[i] - motion.time[shown[0]]):.1f} ms, {motion.word(i)}")
+            after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
+            ax.set_title(f"({'abcd'[j]}) {after}, {motion.word(i)}")
+            _around(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
         bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
         bar.outline.set_visible(False)
-        _circle(circle, motion, shown)
+        circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
+        circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
+        circle.margins(y=0.08)
+        circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
+        circle.set_title("(e)", loc="left", x=-0.06)
     return figure
-
-
-def _between_losses(motion: Motion) -> list[int]:
-    """Equidistant samples from the first loss of contact to the next, or over the whole stretch without them."""
-    losses = [first for first, _ in parts.stretches(motion.phase == SEPARATION) if first > 0]
-    first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
-    return [int(first + share * (last - first)) for share in np.arange(INSTANTS) / INSTANTS]
 
 
 def _scale(motion: Motion) -> Normalize:
@@ -165,18 +167,6 @@ def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
     angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
     ax.plot(angle, height, "s", ms=size, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
-
-
-def _circle(ax: Axes, motion: Motion, shown: list[int]) -> None:
-    """Draw the circle of radius r_0 and the slider at some instants."""
-    for i, style in zip(shown, ("-", "--", "-.", ":"), strict=True):
-        after = 1e3 * (motion.time[i] - motion.time[shown[0]])
-        _around(ax, motion, i, 5, linestyle=style, label=f"disc, {after:.1f} ms")
-    ax.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
-    ax.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
-    ax.margins(y=0.08)
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
-    ax.set_title("(e)", loc="left", x=-0.06)
 
 
 def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:

@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.analysis.classify import closure
-from disc_model.analysis.poincare import Stages, stages
+from disc_model.analysis.poincare import stages
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES
@@ -54,8 +53,15 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
                 there = getattr(found, stage)
                 look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
                 ax.scatter(*(values[there] for values in at), **look)
+        names = BY_SEPARATION if found.divided_by_separation else BY_HALVES
+        names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
+        handles = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
         bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
-        _legend(figure, disc, found, first, bonded)
+        title = "Separation ignored:" if bonded else "No separation:"
+        if found.divided_by_separation:
+            title = f"First separation at {first:.2f} s:"
+        handles.insert(0, disc.scatter([], [], s=0, label=title))
+        figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
     return figure
 
 
@@ -64,17 +70,6 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     low, high = float(values.min()), float(values.max())
     margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
     return low - margin, high + margin
-
-
-def _legend(figure: Figure, ax: Axes, found: Stages, first: float, bonded: bool) -> None:
-    labels = BY_SEPARATION if found.divided_by_separation else BY_HALVES
-    names = [name for name in MARKS if getattr(found, name).any()]
-    handles = [ax.scatter([], [], label=labels[name], **(MARKS[name] | {"s": 14})) for name in names]
-    title = "Separation ignored:" if bonded else "No separation:"
-    if found.divided_by_separation:
-        title = f"First separation at {first:.2f} s:"
-    blank = ax.scatter([], [], s=0, label=title)
-    figure.legend(handles=[blank, *handles], loc="outside lower right", ncols=len(handles) + 1, handletextpad=0.2)
 
 
 def portrait(
