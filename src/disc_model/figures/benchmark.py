@@ -162,19 +162,27 @@ def answers(dataset: xr.Dataset) -> Figure:
     others, exact zeros among them, stand at the left edge.
     """
     enough = {name: own["enough"] for name, own in json.loads(dataset.attrs["questions"]).items()}
-    found = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
-    names = [name for name in ANSWERS if name in found]
+    answers = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
+    names = [name for name in ANSWERS if name in answers]
     figure, axes = _panels(len(names), "Time on one core (s)", columns=min(3, len(names)), row=2.1, more=0.7)
     handles: dict[str, Line2D] = {}
     for ax, name, letter in zip(axes, names, "abcdef", strict=False):
-        part = found[name]
+        part = answers[name]
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
         parts.letter(ax, letter)
         least = min(0.1 * enough[name], 0.3 * part["error"][part["error"] > 0].min())
         part = part.assign(error=part["error"].clip(lower=least))
         for line, points in part.groupby("line", sort=False):
-            handles |= _answer_line(ax, str(line), points)
+            look = LINES[str(line)] | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
+            found = points[points["error"].notna()]
+            denied = points["seconds"][points["error"].isna() & (points["verdict"] == WRONG)].dropna()
+            ax.plot(found["error"], found["seconds"], linewidth=0.9, **look)
+            if len(denied) and line not in MODELS:
+                edge = {"transform": ax.get_yaxis_transform(), "linestyle": "", "markerfacecolor": "white"}
+                ax.plot(np.full(len(denied), 0.97), denied, **look | edge)
+            if len(found) or len(denied):
+                handles[str(line)] = Line2D([], [], label=points["label"].iloc[0], **look)
         low, _ = ax.get_xlim()
         ax.axvspan(low, enough[name], color="#E4F1E4", zorder=0)
         ax.set_xlim(left=low)
@@ -182,18 +190,6 @@ def answers(dataset: xr.Dataset) -> Figure:
         _number_models(ax, part[part["line"].isin(MODELS) & part["error"].notna()])
     figure.legend(handles=list(handles.values()), loc="outside lower center", ncols=4)
     return figure
-
-
-def _answer_line(ax: Axes, line: str, points: pd.DataFrame) -> dict[str, Line2D]:
-    """Draw a line; returns its legend entry, if there is anything to draw."""
-    look = LINES[line] | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
-    found = points[points["error"].notna()]
-    denied = points["seconds"][points["error"].isna() & (points["verdict"] == WRONG)].dropna()
-    ax.plot(found["error"], found["seconds"], linewidth=0.9, **look)
-    if len(denied) and line not in MODELS:
-        edge = {"transform": ax.get_yaxis_transform(), "linestyle": "", "markerfacecolor": "white"}
-        ax.plot(np.full(len(denied), 0.97), denied, **look | edge)
-    return {line: Line2D([], [], label=points["label"].iloc[0], **look)} if len(found) or len(denied) else {}
 
 
 def _number_models(ax: Axes, points: pd.DataFrame) -> None:

@@ -1,6 +1,7 @@
 """Motions against one parameter: bifurcation and continuation diagrams, ramps of the speed, and basins."""
 
 from collections.abc import Mapping
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from matplotlib.lines import Line2D
 from disc_model.data.variables import flag_names, stated_in, values_text
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patches
-from disc_model.figures.grids.growth_map import Curve, crossings, curves_of
+from disc_model.figures.grids.growth_map import crossings, curves_of
 from disc_model.figures.kinds import BasinShares, Bifurcation, Branches, RampedSpeeds
 from disc_model.figures.parts import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, panels
 
@@ -75,7 +76,7 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
-    parts.note(figure, plot, _start(options))
+    parts.note(figure, plot, f"Each point from {_start(options)}; other motions may exist beside.")
     return figure
 
 
@@ -92,11 +93,9 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
 
 def _start(options: Mapping[str, Any]) -> str:
     """Description of the start that all points share."""
-    prerun = options.get("prerun")
-    if not prerun:
-        return "Each point from the static start; other motions may exist beside."
-    text = values_text(prerun.get("parameters", {}))
-    return f"Each point from the state of {text} after {prerun['time']:g} s; other motions may exist beside."
+    if prerun := options.get("prerun"):
+        return f"the state of {values_text(prerun.get('parameters', {}))} after {prerun['time']:g} s"
+    return "the static start"
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
@@ -196,7 +195,11 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: 
 
 
 def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: RampedSpeeds) -> Figure:
-    """Draw one point; with the further study ``curves``, also the speed at which the cycle ends."""
+    """Draw one point; with the further study ``curves``, also the speed at which the cycle ends at this load.
+
+    This is the limit of the onset for slow ramps: the highest such speed below all onsets. Other ends belong to other
+    cycles.
+    """
     study = study.squeeze()
     options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
@@ -209,25 +212,16 @@ def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Ramp
         look: dict[str, Any] = {"color": parts.ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
         ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
     if "curves" in overlays:
-        _fold(ax, curves_of(overlays["curves"]), load, onset)
+        folds = [crossings(curve, load) for curve in curves_of(overlays["curves"]) if curve.kind == "fold"]
+        if below := [speed for speed in chain(*folds) if speed <= np.fmin.reduce(onset)]:
+            ax.axhline(max(below), **parts.BORDERS["fold"], zorder=0)
+            parts.say_beside(ax, max(below), f"{max(below):.2f}")
     parts.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
     ax.set(xlabel="Ramp rate (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
     figure.legend(loc="outside lower center", ncols=1)
     return figure
-
-
-def _fold(ax: Axes, curves: list[Curve], load: float, onset: np.ndarray) -> None:
-    """Draw the speed at which the stick-slip cycle ends at this load: the limit of the onset for slow ramps.
-
-    It is the highest such speed below all onsets; other ends belong to other cycles.
-    """
-    folds = np.concatenate([[], *(crossings(curve, load) for curve in curves if curve.kind == "fold")])
-    below = folds[folds <= np.nanmin(onset, initial=np.inf)]
-    if below.size and np.isfinite(onset).any():
-        ax.axhline(below.max(), **parts.BORDERS["fold"], zorder=0)
-        parts.say_beside(ax, below.max(), f"{below.max():.2f}")
 
 
 # ----------------------------------------------------------------------------------------------------
