@@ -69,7 +69,7 @@ def said_in(figure: Figure) -> list[str]:
     return [text.get_text().replace("\n", " ") for text in figure.findobj(mpl.text.Text)]
 
 
-ONE_OF_EACH = list({entry.drawn_by: name for name, entry in CATALOGUE.items()}.values())
+ONE_OF_EACH = list({entry.plot.by: name for name, entry in CATALOGUE.items()}.values())
 """A figure for each function that draws some."""
 
 

@@ -1,8 +1,8 @@
 """Catalogue of the paper's figures, their contents and data, from `catalogue.yaml`. Studies are checked against it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import yaml
 
@@ -21,25 +21,18 @@ class Entry(NamedTuple):
     title : short title for lists
     caption : description; `caption` fills in numbers and adds the parameters
     needs : required windows, by case; the Poincaré section is named ``poincare``
-    drawn_by : a module beside this one and its function, such as ``"spectra.response"``, which takes cases by name
-    options : keyword arguments of that function
+    plot : the drawing function, which takes cases by name, with its options
     """
 
     section: str
     title: str
     caption: str
-    needs: Mapping[str, tuple[str, ...]]
-    drawn_by: str
-    options: Mapping[str, Any] = {}
+    needs: Mapping[str, Sequence[str]]
+    plot: OwnFigure
 
     @property
     def cases(self) -> tuple[str, ...]:
         return tuple(self.needs)
-
-    @property
-    def plot(self) -> OwnFigure:
-        """The drawing function with its options."""
-        return OwnFigure(by=f"paper.{self.drawn_by}", options=dict(self.options))
 
 
 def _read() -> tuple[dict[str, str], dict[str, Entry]]:
@@ -48,8 +41,8 @@ def _read() -> tuple[dict[str, str], dict[str, Entry]]:
     entries = {}
     for name, given in found["figures"].items():
         caption = " ".join([given["caption"]] if isinstance(given["caption"], str) else given["caption"])
-        needs = {case: tuple(windows) for case, windows in given["needs"].items()}
-        entries[name] = Entry(**given | {"caption": caption, "needs": needs})
+        plot = OwnFigure(by=f"paper.{given['drawn_by']}", options=given.get("options", {}))
+        entries[name] = Entry(given["section"], given["title"], caption, given["needs"], plot)
     return found["sections"], entries
 
 
@@ -60,20 +53,21 @@ ZOOM = 0.2
 
 def lacking(figure: str, specs: Mapping[str, CaseSpec]) -> Iterator[tuple[str, str]]:
     """Reasons why a figure of the paper cannot be drawn, each with the case concerned."""
-    for case, windows in CATALOGUE[figure].needs.items():
+    for case, names in CATALOGUE[figure].needs.items():
         if case not in specs:
             yield case, f"needs a case {case}"
             continue
-        recorded = dict(specs[case].windows)
-        for window in windows:
-            if window == "poincare":
-                if specs[case].poincare is None:
-                    yield case, f"needs cases.{case}.record.poincare"
-            elif window not in recorded:
-                yield case, f"needs a window {window} in cases.{case}.record.windows"
-            else:
-                for fault in _faults_of(figure, window, recorded[window]):
-                    yield case, f"cases.{case}.record.windows.{window} {fault}"
+        for name in names:
+            window = specs[case].sections.get(name)
+            if isinstance(window, Window):
+                faults = _faults_of(figure, name, window)
+                yield from ((case, f"cases.{case}.record.windows.{name} {fault}") for fault in faults)
+            elif window is None:
+                place = f"cases.{case}.record"
+                yield (
+                    case,
+                    f"needs {place}.poincare" if name == "poincare" else f"needs a window {name} in {place}.windows",
+                )
 
 
 def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
@@ -87,7 +81,7 @@ def _faults_of(figure: str, name: str, window: Window) -> Iterator[str]:
         yield "must have no envelope"
     if name.startswith("spectrum"):
         yield from spectrum_faults(window, HIGHEST)
-    for zoomed, start in CATALOGUE[figure].options.get("zooms", ()):
+    for zoomed, start in CATALOGUE[figure].plot.options.get("zooms", ()):
         if zoomed == name and not (window.start <= start and start + ZOOM <= window.stop):
             yield f"must contain {start:g} to {start + ZOOM:g} s"
 
@@ -114,11 +108,7 @@ def caption(name: str, parameters: Mapping[str, Parameters], windows: Mapping[st
     """
     entry = CATALOGUE[name]
     text = entry.caption.format(**_numbers(entry, windows or {}))
-    texts: list[str] = []
-    for case in entry.cases:
-        values = values_text(dict(parameters[case]))
-        if values not in texts:
-            texts.append(values)
+    texts = dict.fromkeys(values_text(dict(parameters[case])) for case in entry.cases)
     modes = {parameters[case].normalization for case in entry.cases}
     named = " and ".join(_MODES[mode] for mode in sorted(modes))
     return f"{text} {'; '.join(texts)}; everything else as in Table 1; {named}."
