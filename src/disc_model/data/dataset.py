@@ -28,7 +28,7 @@ import xarray as xr
 from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
 
-from disc_model.data.variables import CHOICES, COUNTS, SCALARS, SERIES, STATUSES, attributes
+from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
 from disc_model.parameters import RESIDUAL, Parameters
 
@@ -43,7 +43,11 @@ OVERHEAD = 1 << 18
 
 def events_dataset(events: Any) -> xr.Dataset:
     """Dataset of events, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
-    data = {name: ("event", _column(column, SERIES[name].flags), attributes(name)) for name, column in events.items()}
+    data = {}
+    for name, column in events.items():
+        flags = SERIES[name].flags
+        values = pd.Categorical(column, flags).codes if flags else np.asarray(column, dtype=float)
+        data[name] = ("event", values, attributes(name))
     return xr.Dataset(data).set_coords("time")
 
 
@@ -61,19 +65,19 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
 
 def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
     """Groups of a case that raised an error: all its scalars, unknown except the status, t_end and tol."""
-    known = {"status": STATUSES.index("failed"), "t_end": t_end, "tol": tol}
-    return {"": scalars_dataset(p, dict.fromkeys(COUNTS, 0) | known, "failed", message)}
+    return {"": scalars_dataset(p, {"t_end": t_end, "tol": tol}, "failed", message)}
 
 
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
     """The root of a case: its scalars.
 
-    values : values of `SCALARS`, nan if not given; the status by its index in `STATUSES`
+    values : values of `SCALARS` except the status; missing if not given
     """
-    data: dict[str, Any] = {}
-    for name in SCALARS:
-        value = np.int8(values[name]) if name == "status" else values.get(name, math.nan)
-        data[name] = ((), np.int64(value) if name in COUNTS else value, attributes(name))
+    known = {"status": STATUSES.index(status), **values}
+    data: dict[str, Any] = {
+        name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
+        for name, variable in SCALARS.items()
+    }
     disc = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
     for name, value in (p.model_dump() | {"contact_compliance": _compliance(p), "disc": disc}).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
@@ -99,10 +103,6 @@ def _compliance(p: Parameters) -> float:
         return contact_compliance(p)
     except DiscModelError:
         return math.nan
-
-
-def _column(column: Any, flags: tuple[str, ...]) -> np.ndarray:
-    return pd.Categorical(column, categories=flags).codes.astype(np.int8) if flags else np.asarray(column, dtype=float)
 
 
 # ----------------------------------------------------------------------------------------------------

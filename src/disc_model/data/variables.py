@@ -115,19 +115,19 @@ SCALARS = {
     "time_reached": Variable("s", "time that the simulation reached"),
     "tol": Variable("1", "tolerance of the simulation"),
     "u_0": Variable("m", "displacement of the slider in static equilibrium"),
-    "steps": Variable("1", "number of steps"),
-    "n_events": Variable("1", "number of events"),
-    "n_separations": Variable("1", "number of separations"),
+    "steps": Variable("1", "number of steps", whole=True),
+    "n_events": Variable("1", "number of events", whole=True),
+    "n_separations": Variable("1", "number of separations", whole=True),
     "time_stick": Variable("s", "time spent sticking"),
     "time_slip": Variable("s", "time spent slipping"),
     "time_separation": Variable("s", "time spent separated"),
     "energy_residual": Variable("1", "largest relative residual of the energy balance over one audited step"),
     "energy_residual_transverse": Variable("1", "accumulated relative residual of the transverse energy balance"),
     "energy_residual_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
-    "audited_steps": Variable("1", "number of steps whose energy balance was audited"),
+    "audited_steps": Variable("1", "number of steps whose energy balance was audited", whole=True),
 }
 COUNTS = {"steps": "steps", "n_events": "events", "n_separations": "separations", "audited_steps": "audited_steps"}
-"""Whole numbers among the scalars, and their names in `Result.statistics`."""
+"""Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
 BESIDE_WINDOWS = frozenset({"events", "poincare", *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from disc_model import errors
-from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS, STATUSES
+from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS
 from disc_model.engine import layout
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.engine.transitions import TOUCHING
@@ -267,7 +267,6 @@ class Result:
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}
         return values | {
-            "status": STATUSES.index(self.status.value),
             "first_separation": self.first_separation,
             "t_end": self.t_end,
             "time_reached": self.final_state.time,
