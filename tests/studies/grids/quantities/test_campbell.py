@@ -12,7 +12,7 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
 from disc_model.studies.document import CampbellOptions
-from disc_model.studies.grids.summaries import campbell
+from disc_model.studies.grids.summaries import campbell, summarised
 from disc_model.studies.grids.summaries.campbell import bridged
 from tests.studies.grids.conftest import SMALL, computed
 
@@ -110,6 +110,17 @@ def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     found = campbell.summarise(gone, CampbellOptions())
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
     assert effects(gone) == ["no_cycle"]
+
+
+def test_speeds_that_a_rule_leaves_out_are_an_end_of_the_axis() -> None:
+    """The window reaches beyond them; the effect was that of a lost cycle."""
+    study = made_up()
+    left_out = study["Omega"].values > 10.05
+    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate", "sliding_frequency"):
+        study[name][left_out] = np.nan
+    study["status"] = ("Omega", left_out.astype(int), {"flag_meanings": "ok excluded"})
+    found = summarised(study, "campbell", CampbellOptions().model_dump())
+    assert words(found, "crossing_effect")[0] == "unresolved"
 
 
 def test_gaps_are_bridged_and_ends_are_not() -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.variables import EXCLUDED, flag_names
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.run import own_coordinates, variables_of
 
@@ -19,7 +20,7 @@ def summary_of(quantity: str) -> Any:
     """The summary of a quantity, or None: a module with `COLUMNS` and `COORDINATES` as a quantity has them.
 
     Its function `summarise(cell, options)` returns values by column, for a merged dataset that has only the summarised
-    dimension left.
+    dimension left, without points that a rule of the grid excludes.
     """
     if not QUANTITIES[quantity].over:
         return None
@@ -35,7 +36,10 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     if summary is None:
         return study
     checked = SimpleNamespace(**options)
-    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != QUANTITIES[quantity].over}
+    over = QUANTITIES[quantity].over
+    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != over}
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*others.values())]
-    variables = variables_of(summary, [summary.summarise(cell, checked) for cell in cells], checked, others)
+    kept = [cell.isel({over: flag_names(cell["status"]) != EXCLUDED}) for cell in cells]
+    rows = [summary.summarise(cell, checked) if cell.sizes[over] else {} for cell in kept]
+    variables = variables_of(summary, rows, checked, others)
     return study.assign_coords(own_coordinates(summary, checked)).assign(variables)
