@@ -26,8 +26,8 @@ class Known:
         self.error, self.cost, self.outcome, self.glue = error, cost, outcome, glue
         self.tried: list[float] = []
 
-    def unavailable(self) -> str:
-        return ""
+    def absent(self) -> list[str]:
+        return []
 
     def solve(self, problem, value, budget):
         self.tried.append(value)

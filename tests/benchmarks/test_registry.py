@@ -2,13 +2,12 @@
 
 import math
 
-from disc_model.benchmarks.registry import METHODS, SCENES, absent
+from disc_model.benchmarks.registry import METHODS, SCENES
 from tests.processes import python
 
 
 def test_every_rival_is_measured_in_scenes_that_there_are() -> None:
     for method in METHODS.values():
-        assert bool(method.unavailable()) == bool(absent(method.requires))
         assert {*method.settings, *method.maps} <= set(SCENES)
         assert math.isnan(method.order) or method.order > 0
 

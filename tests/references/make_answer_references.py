@@ -19,6 +19,7 @@ from disc_model.benchmarks.answers.questions import Found
 from disc_model.benchmarks.answers.simulated import Solve
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks.scenes import stored
 from disc_model.errors import script
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -103,7 +104,7 @@ def main(output: str) -> None:
 
     def keep() -> None:
         Path(output).write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
-        questions.stored.cache_clear()
+        stored.cache_clear()
 
     keep()
     data["references"]["first_separation"] = first_separation()

@@ -1,12 +1,12 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.registry import METHODS, SCENES, absent
+from disc_model.benchmarks.registry import METHODS, SCENES
 
 BENCH = "results/bench"
 MEASURED = [
     method
     for method in METHODS.values()
-    if method.maps and (not method.requires or not (CONDA or absent(method.requires)))
+    if method.maps and (not method.requires or not (CONDA or method.absent()))
 ]
 QUESTIONED = [method.name for method in MEASURED]
 FAILURE_MAPS = [
@@ -14,23 +14,15 @@ FAILURE_MAPS = [
     for method in sorted(MEASURED, key=lambda method: "stick_slip" not in method.maps)
     for scene in method.maps
 ]
-BENCH_FIGURES = [
-    "overview",
-    *(f"work_precision_{scene}" for scene in SCENES),
-    "failure_maps",
-    "truncation",
-    "contact_truncation",
-    "answers",
-    "prices",
-    "answer_maps",
-]
-BENCH_INPUTS = {
+BENCH_FIGURES = {
+    "overview": f"{BENCH}/work_precision.nc",
+    **{f"work_precision_{scene}": f"{BENCH}/work_precision.nc" for scene in SCENES},
+    "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
+    "truncation": f"{BENCH}/truncation.nc",
+    "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "answers": f"{BENCH}/answers.nc",
     "prices": f"{BENCH}/answers.nc",
     "answer_maps": collect(f"{BENCH}/answer_maps/{{method}}.nc", method=QUESTIONED),
-    "truncation": f"{BENCH}/truncation.nc",
-    "contact_truncation": f"{BENCH}/contact_truncation.nc",
-    "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
 }
 
 
@@ -120,9 +112,7 @@ rule report_truncation:
 
 rule draw_benchmark:
     input:
-        lambda wildcards: BENCH_INPUTS.get(
-            wildcards.figure, f"{BENCH}/work_precision.nc"
-        ),
+        lambda wildcards: BENCH_FIGURES[wildcards.figure],
     output:
         pdf=f"{BENCH}/figures/{{figure}}.pdf",
         png=f"{BENCH}/figures/{{figure}}.png",

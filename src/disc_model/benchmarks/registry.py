@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterable
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -28,11 +27,6 @@ class MethodUnavailable(DiscModelError, ImportError):
     """A method whose optional package is not installed."""
 
 
-def absent(packages: Iterable[str]) -> list[str]:
-    """Those of some packages that are not installed."""
-    return [name for name in packages if find_spec(name) is None]
-
-
 class Method(BaseModel):
     """A method that integrates a problem, as the file declares it; the file explains the keys."""
 
@@ -50,12 +44,9 @@ class Method(BaseModel):
     maps: tuple[str, ...] = ()
     requires: tuple[str, ...] = ()
 
-    def unavailable(self) -> str:
-        """Reason why the method cannot be used here; "" if it can."""
-        missing = absent(self.requires)
-        if not missing:
-            return ""
-        return f"{self.name} needs {', '.join(missing)}: install the extra `bench` (pip install disc_model[bench])"
+    def absent(self) -> list[str]:
+        """Packages that it needs and that are not installed."""
+        return [name for name in self.requires if find_spec(name) is None]
 
     def economical(self) -> Method:
         """The variant of the method for maps, where every run has other modes and another setting."""
@@ -71,7 +62,8 @@ class Method(BaseModel):
         MethodUnavailable
             If the package that the method stands for is not installed.
         """
-        if reason := self.unavailable():
+        if missing := ", ".join(self.absent()):
+            reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
             raise MethodUnavailable(reason)
         module, _, name = self.place.partition(":")
         function = getattr(import_module(f"disc_model.benchmarks.methods.{module}"), name)

@@ -32,7 +32,6 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 
-DATA = Path(__file__).parent / "data"
 REFERENCED = ("stick_slip", "separating", "many_modes")
 JUDGED = ("stick_slip", "separating")
 """Scenes for short comparisons of methods: a second each."""
@@ -72,6 +71,13 @@ class Errors:
     verdict: Verdict
 
 
+@lru_cache
+def stored(name: str) -> dict[str, Any]:
+    """The content of a file of ``data``: answers by other methods, and what belongs to them."""
+    found: dict[str, Any] = json.loads((Path(__file__).parent / "data" / f"{name}.json").read_text(encoding="utf-8"))
+    return found
+
+
 def static_start(p: Parameters) -> State:
     """The static start as a state made by hand, of which the engine knows no more than any other method."""
     physics = Physics(p)
@@ -82,19 +88,18 @@ def static_start(p: Parameters) -> State:
 
 def separating_start(p: Parameters) -> State:
     """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s; further modes of ``p`` are at static deflection."""
-    stored = json.loads((DATA / "separating_start.json").read_text(encoding="utf-8"))
-    physics = Physics(p)
+    kept, physics = stored("separating_start"), Physics(p)
     y = physics.pack(static_start(p))
-    known = slice(min(p.n_diameters + 1, len(stored["diameters"])))  # modes without nodal circles come first
+    known = slice(min(p.n_diameters + 1, len(kept["diameters"])))  # modes without nodal circles come first
     for name in ("a", "b", "alpha", "beta"):
-        y[getattr(physics, name)][known] = np.array(stored[name])[known] * np.sign(physics.shape[known])
-    y[physics.psi], y[physics.f] = stored["psi"], stored["f"]
-    return physics.unpack(stored["time"], stored["phase"], stored["direction"], y)
+        y[getattr(physics, name)][known] = np.array(kept[name])[known] * np.sign(physics.shape[known])
+    y[physics.psi], y[physics.f] = kept["psi"], kept["f"]
+    return physics.unpack(kept["time"], kept["phase"], kept["direction"], y)
 
 
-def read_state(stored: Mapping[str, Any]) -> State:
+def read_state(given: Mapping[str, Any]) -> State:
     """Convert a state from its form in JSON."""
-    values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in stored.items()}
+    values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in given.items()}
     return State(**values)
 
 
@@ -127,14 +132,14 @@ def answer(name: str) -> Answer:
     """The correct answer of a scene."""
     if name == "rigid":
         return rigid_cycle(problem(name))
-    stored = json.loads((DATA / "benchmark_reference.json").read_text(encoding="utf-8"))[name]
-    if stored["parameters"] != problem(name).parameters.key:
+    right = stored("benchmark_reference")[name]
+    if right["parameters"] != problem(name).parameters.key:
         raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
     return Answer(
-        times=np.array([np.longdouble(t) for t in stored["times"]]),
-        kinds=tuple(stored["kinds"]),
-        final=read_state(stored["final"]),
-        error=stored["largest_difference_to_check_run"],
+        times=np.array([np.longdouble(t) for t in right["times"]]),
+        kinds=tuple(right["kinds"]),
+        final=read_state(right["final"]),
+        error=right["largest_difference_to_check_run"],
     )
 
 

@@ -75,7 +75,7 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
         Point(scene, method, place, value)
         for scene, by_method in settings.items()
         for method, values in by_method.items()
-        if not METHODS[method].unavailable()
+        if not METHODS[method].absent()
         for place, value in enumerate(values)
     ]
     rows, calls = [], []

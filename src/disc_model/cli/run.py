@@ -63,10 +63,8 @@ def run(
     faults: list[str] = []
     p, choice = parameters_of(case, faults)
     end = option("t_end", t_end, Seconds, faults)
-    how = {
-        "tol": option("tol", tol, Tolerance, faults),
-        "stop_at": option("stop_at", stop_at, Literal[*STOPS], faults, default=None),
-    }
+    tolerance = option("tol", tol, Tolerance, faults)
+    until = option("stop_at", stop_at, Literal[*STOPS], faults, default=None)
     most = option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None)
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], p, faults)
@@ -83,7 +81,7 @@ def run(
         logging.getLogger("disc_model").setLevel(logging.INFO)
     execution = Execution(max_steps=most, checkpoint=checkpoint)
     try:
-        result = simulate(p, end, record=record, ramps=ramps, execution=execution, **how)
+        result = simulate(p, end, tol=tolerance, record=record, stop_at=until, ramps=ramps, execution=execution)
     except KeyboardInterrupt:
         if checkpoint is not None and checkpoint.exists():
             typer.echo(f"{checkpoint} holds what was reached: the same command continues from there", err=True)
@@ -96,7 +94,7 @@ def run(
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < end and not windows:  # the end to plot differs from the expected one
-            result = simulate(p, reached, tol=how["tol"], record=plot_record(reached), ramps=ramps)
+            result = simulate(p, reached, tol=tolerance, record=plot_record(reached), ramps=ramps)
         _save_plot(result, plot)
     if not complete:
         raise typer.Exit(1)

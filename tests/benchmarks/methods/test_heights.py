@@ -16,9 +16,7 @@ ONE_MODE = SimpleNamespace(
     a=slice(0, 1), b=slice(1, 2), alpha=slice(2, 3), f=3, shape=np.array([2.0]), slope=np.array([1.0])
 )
 """w = 2 a, w' = 2 alpha + f b."""
-SEPARATING = [
-    name for name, method in METHODS.items() if method.settings.get("separating") and not method.unavailable()
-]
+SEPARATING = [name for name, method in METHODS.items() if method.settings.get("separating") and not method.absent()]
 
 
 def value_of(name: str) -> float:

@@ -13,7 +13,7 @@ from disc_model.benchmarks.registry import METHODS
 from tests.benchmarks.methods.problems import task
 from tests.references.printed import MOTIONS, P, Printed, lively
 
-SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].unavailable()]
+SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
 
 
 def solved(name, problem, tol):

@@ -19,22 +19,16 @@ Correct answers are stored in ``data/answers.json`` with their errors. The scrip
 """
 
 import enum
-import json
 import math
-from collections.abc import Mapping
-from functools import lru_cache
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.benchmarks.grid import TABLES
-from disc_model.benchmarks.scenes import read_state
+from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
-
-STORED = Path(__file__).parent.parent / "data" / "answers.json"
 
 SEPARATING = Parameters(N=385.0, Omega=15.1)
 SETTLED = Parameters(N=300.0, Omega=20.0)
@@ -118,26 +112,19 @@ class Reference(NamedTuple):
     by: str
 
 
-@lru_cache(maxsize=1)
-def stored() -> Mapping[str, Any]:
-    """The content of the file."""
-    found: Mapping[str, Any] = json.loads(STORED.read_text(encoding="utf-8"))
-    return found
-
-
 def reference(name: str) -> Reference:
     """The correct answer to a question, or ``fold``."""
-    return Reference(**stored()["references"][name])
+    return Reference(**stored("answers")["references"][name])
 
 
 def start(name: str) -> State:
     """State of the motion ``settled`` or ``growing``, from the engine at its tightest tolerance."""
-    return read_state(stored()["starts"][name])
+    return read_state(stored("answers")["starts"][name])
 
 
 def region() -> NDArray[np.bool_]:
     """Separation in each cell, shape (`SIDE`, `SIDE`), loads along the first axis."""
-    return np.array([[letter == "1" for letter in row] for row in stored()["region"]])
+    return np.array([[letter == "1" for letter in row] for row in stored("answers")["region"]])
 
 
 def cell(place: int) -> Parameters:

@@ -4,8 +4,7 @@
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
 They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come with the extra `bench`; without them their
-`unavailable()` gives the reason and `solve` raises `MethodUnavailable`. The methods and their settings are
-listed in ``benchmarks/rivals.toml``.
+`solve` raises `MethodUnavailable`. The methods and their settings are listed in ``benchmarks/rivals.toml``.
 """
 
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
