@@ -115,8 +115,8 @@ def _answers(found: pd.DataFrame) -> Table:
     """
     table: Table = {}
     for (label, line, name), part in found.groupby(["label", "line", "answer"], sort=False):
-        best = part[part["correct"]].nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
-        cell = {"wrong": part["setting"][part["wrong"]].tolist()} | (best[0] if best else {})
+        best = part[part["verdict"] == "right"].nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
+        cell = {"wrong": part["setting"][part["verdict"] == "wrong"].tolist()} | (best[0] if best else {})
         table.setdefault(str(label), {})[name] = report.right_numbers(part) if line in report.MODELS else cell
     return table
 

@@ -6,7 +6,6 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks import texts
-from disc_model.benchmarks.answers.questions import AnswerVerdict
 from disc_model.data.variables import flag_names
 
 MODELS = ("rigid", "residual")
@@ -15,18 +14,17 @@ COLUMNS = ["answer", "label", "at", "found", "low", "high", "cells", "error", "s
 
 
 def points(dataset: xr.Dataset) -> pd.DataFrame:
-    """All rows, in the order in which they were measured; ``at`` is the setting in words."""
+    """All rows, in the order in which they were measured; status, verdict and setting (``at``) in words."""
     found = dataset.to_dataframe()
     counted = found["varies"] == "diameters"
     at = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
           for count, kind, x in zip(counted, found["varies"], found["setting"], strict=True)]  # fmt: skip
-    verdict = found["verdict"]
-    return found.assign(at=at, correct=verdict == AnswerVerdict.RIGHT, wrong=verdict == AnswerVerdict.WRONG)
+    return found.assign(at=at, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
 
 
 def right_numbers(model: pd.DataFrame) -> str:
     """Numbers of nodal diameters with which a reduced model answers correctly."""
-    return ", ".join(f"{count:.0f}" for count in model["setting"][model["correct"]])
+    return ", ".join(f"{count:.0f}" for count in model["setting"][model["verdict"] == "right"])
 
 
 def within(enough: float, units: str) -> str:
@@ -42,6 +40,5 @@ def to_markdown(dataset: xr.Dataset) -> str:
         name: f"{own['title'].capitalize()}: to {within(own['enough'], own['units'])}, reference to {own['error']}"
         for name, own in json.loads(dataset.attrs["questions"]).items()
     }
-    frame = points(dataset).assign(**{name: flag_names(dataset[name]) for name in ("verdict", "status")})
-    frame["answer"] = frame["answer"].map(titles)
-    return texts.report(dataset.attrs["title"], about, frame[COLUMNS], "answer")
+    frame = points(dataset)[COLUMNS]
+    return texts.report(dataset.attrs["title"], about, frame.assign(answer=frame["answer"].map(titles)), "answer")
