@@ -17,7 +17,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args, get_type_hints
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
-from pydantic.fields import FieldInfo
 
 from disc_model.errors import Fault, ParameterError, as_text, faults_of
 
@@ -223,18 +222,14 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
     found = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
-        marks = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else _marks(field)
-        if mark := next((mark for mark in marks if isinstance(mark, Unit)), None):
+        parts = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else [*field.metadata]
+        parts.append(field.annotation)
+        for part in parts:
+            parts += get_args(part)
+        if mark := next((part for part in parts if isinstance(part, Unit)), None):
             found[name] = mark
     decided = {name: mark.of for name, mark in found.items() if mark.of}
     return {name: mark.name for name, mark in found.items() if not mark.of}, decided
-
-
-def _marks(field: FieldInfo) -> list[Any]:
-    parts = [*field.metadata, field.annotation]
-    for part in parts:
-        parts += get_args(part)
-    return parts
 
 
 class Strict(BaseModel):

@@ -704,13 +704,16 @@ class BatchSpec(Strict):
 # Named cases
 
 
-def _in_part(model: type[BaseModel]) -> type[Strict]:
-    """What may be said of a model in part, since the rest is inherited; as null, to drop what is inherited."""
+def _in_part(model: type[BaseModel], **others: Any) -> type[Strict]:
+    """What may be said of a model in part, since the rest is inherited; as null, to drop what is inherited.
+
+    others : types of fields that are models themselves
+    """
     fields: dict[str, Any] = {
-        name: (Annotated[field.annotation, *field.metadata, "in part"] | None, None)
+        name: (others.get(name, Annotated[field.annotation, *field.metadata, "in part"]) | None, None)
         for name, field in model.model_fields.items()
     }
-    return create_model(f"Some{model.__name__}", __base__=Strict, __doc__=model.__doc__, **fields)
+    return create_model(f"Some{model.__name__.removesuffix('Spec')}", __base__=Strict, __doc__=model.__doc__, **fields)
 
 
 class RecordSpec(Strict):
@@ -722,13 +725,7 @@ class RecordSpec(Strict):
     audit_every_step: bool = False
 
 
-SomeWindow = _in_part(Window)
-SomeRecord = create_model(
-    "SomeRecord",
-    __base__=_in_part(RecordSpec),
-    __doc__=RecordSpec.__doc__,
-    windows=(dict[WindowName, SomeWindow | None] | None, None),  # type: ignore[valid-type, arg-type]
-)
+SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | None])  # type: ignore[misc]
 
 
 _diameters = Parameters.model_fields["n_diameters"]
@@ -831,10 +828,6 @@ class NamedCase(Strict):
 # Figures
 
 
-def _figures_kind(raw: Any) -> str | None:
-    return "by name" if isinstance(raw, Mapping) else "a list" if isinstance(raw, list | tuple) else None
-
-
 def _of_known_kind(raw: Any) -> Any:
     kinds = (*CASE_PLOTS, *PLOTS)
     if isinstance(raw, Mapping) and (kind := raw.get("kind")) not in kinds:
@@ -854,7 +847,7 @@ else:
     Figures = Annotated[
         Annotated[dict[str, Plots], Tag("by name")] | Annotated[tuple[PaperFigure, ...], Tag("a list")],
         Discriminator(
-            _figures_kind,
+            lambda raw: "by name" if isinstance(raw, Mapping) else "a list" if isinstance(raw, list | tuple) else None,
             custom_error_type="figures",
             custom_error_message="must be a mapping of names to {kind: ...}, or a list of the paper's figures",
         ),
@@ -894,7 +887,7 @@ class Document(Strict):
     base: GivenParameters = GivenParameters()
     figures: Figures = ()
     tol: Tolerance | None = 1e-10
-    record: SomeRecord = SomeRecord()
+    record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
     claims: bool = False
     quantity: Annotated[str | None, WithJsonSchema({"enum": list(QUANTITIES)})] = None

@@ -78,9 +78,8 @@ def state_at(point: Point, options: RegionsOptions) -> State:
         state = found.cycle.state
         assert state is not None
         return state
-    if found.state is None:
-        return simulate(p, options.horizon, tol=options.tol).raise_for_status().final_state
-    end = found.state.time + 5.0  # what the separation leads to
+    # to the horizon, or to what the separation leads to
+    end = options.horizon if found.state is None else found.state.time + 5.0
     return simulate(p, end, tol=options.tol, initial_state=found.state).raise_for_status().final_state
 
 

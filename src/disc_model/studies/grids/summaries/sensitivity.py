@@ -67,18 +67,15 @@ def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
     values |= _shares("outcome_fraction", outcomes, [(word,) for word in FOLLOWED])
     values |= _shares("probability_unstable", drawn, [UNSTABLE])
     values |= _shares("probability_separation", outcomes, [("separation",)])
-    outputs = outputs_of(words, cell["growth_rate"].transpose("sample", "variant").values, options.growth_rate_cap)
+    # of the indices: (samples, variants), nan where not known
+    unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
+    growth_rate = cell["growth_rate"].transpose("sample", "variant").values
+    outputs = unstable, np.minimum(growth_rate, options.growth_rate_cap)
     found = [sobol_intervals(output, options.seed) for output in outputs]
     for name in Indices._fields:
         values[f"sobol_{name}"] = np.array([getattr(one, name) for one in found])
     values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
     return values
-
-
-def outputs_of(words: NDArray[np.str_], growth_rate: Array, cap: float) -> tuple[Array, Array]:
-    """Absence of a stable motion, 1 or 0, and the growth rate: (samples, variants); nan where not known."""
-    unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
-    return unstable, np.minimum(growth_rate, cap)
 
 
 def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
