@@ -198,7 +198,7 @@ class Basins:
         if near is not None and not near.cycle.stable:
             # near the cycle the motion hardly moves on the section over a period; on a torus it would move
             at = near.x + near.distance
-            if np.linalg.norm(near.moved(at, 1)[0] - at) <= SMALLEST * self.map.deflection:
+            if near.moved(at, 1).residual <= SMALLEST * self.map.deflection:
                 return None
         return Attractor(Outcome.UNDECIDED, stretch)
 

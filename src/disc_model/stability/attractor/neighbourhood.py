@@ -27,7 +27,7 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import Array, ComplexArray, ReturnMap, newton
+from disc_model.stability.return_map import Array, ComplexArray, Flight, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
 
 TESTS = ((0.3, 1.2), (1.5, 6.0))
@@ -87,11 +87,10 @@ class NearCycle:
         same = own.releases == self.cycle.releases and math.isclose(own.period, self.cycle.period, rel_tol=ARRIVED)
         return Outcome.QUIET if same else Outcome.OTHER_CYCLE
 
-    def moved(self, at: Array, periods: int, *, coarse: bool = True) -> tuple[Array, float]:
-        """Point of a motion on the section some periods later, and the time taken, s; nan if it does not return."""
+    def moved(self, at: Array, periods: int, *, coarse: bool = True) -> Flight:
+        """The motion from a point of the section over some periods of the cycle."""
         n, separates = periods * self.cycle.releases, self.cycle.separations > 0
-        flight = self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
-        return flight.end, flight.period if flight.returned else math.nan
+        return self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
@@ -168,10 +167,10 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
     waited, moved = 0.0, at
     for wait in waits:
         if wait > waited:
-            moved, took = near.moved(moved, max(1, round((wait - waited) / cycle.period)), coarse=False)
-            if math.isnan(took):
+            flight = near.moved(moved, max(1, round((wait - waited) / cycle.period)), coarse=False)
+            if not flight.returned:
                 break
-            waited += took
+            moved, waited = flight.end, waited + flight.period
         if follows(near, moved):
             return replace(near, follows_cycle=True, distance=moved - x, waited=waited)
     return near
@@ -183,20 +182,18 @@ def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> boo
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
     leading = _left_vector(jacobian)
     least = ARRIVED * near.map.deflection if cycle.stable else 0.0
-    expected, moved, parts = distance, x + distance, list[float]()
-    done = 0
+    # the errors of coarse flights would matter at a smaller distance
+    coarse = bool(np.linalg.norm(distance) > SAME_POINT * near.map.deflection)
+    expected, at, parts, done = distance, x + distance, list[float](), 0
     counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
     for count in counts:
-        # the errors of coarse flights would matter at so small a distance
-        moved, took = near.moved(
-            moved, count - done, coarse=bool(np.linalg.norm(distance) > SAME_POINT * near.map.deflection)
-        )
+        flight = near.moved(at, count - done, coarse=coarse)
         expected = np.linalg.matrix_power(jacobian, count - done) @ expected
-        error = float(np.linalg.norm(moved - x - expected))
-        if math.isnan(took) or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
+        at, done = flight.end, count
+        error = float(np.linalg.norm(at - x - expected))
+        if not flight.returned or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
             return False
-        parts.append(float(abs(leading @ (moved - x))))
-        done = count
+        parts.append(float(abs(leading @ (at - x))))
     return _at_rate(parts, (counts[1] - counts[0]) * cycle.period, cycle.growth_rate, least)
 
 
@@ -252,14 +249,14 @@ def _faster(near: NearCycle, distance: Array) -> float:
     left, right = _left_vector(near.jacobian), _left_vector(near.jacobian.T)
     right = right / (left @ right)
     real = near.cycle.multipliers[0].imag == 0
-    moved, done, before = near.x + distance, 0, float(abs(left @ distance))
+    at, done, before = near.x + distance, 0, float(abs(left @ distance))
     faster = math.inf
     for time in TESTS[-1]:
         count = max(done + 1, round(time / near.cycle.period))
-        moved, took = near.moved(moved, count - done)
-        if math.isnan(took):
+        flight = near.moved(at, count - done)
+        if not flight.returned:
             return math.inf
-        done, apart = count, moved - near.x
+        at, done, apart = flight.end, count, flight.end - near.x
         part = left @ apart
         plane = np.real(part * right) * (1 if real else 2)
         if not np.linalg.norm(apart - plane) <= DEPARTS * np.linalg.norm(apart):

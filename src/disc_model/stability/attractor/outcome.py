@@ -112,7 +112,7 @@ class OutcomeResult:
     outcome : None if the simulation failed
     simulated : s, simulated time; 0 if multipliers decide
     attractor : one of the attractors of `disc_model.stability.attractor.classification.Basins`, or None
-    cycle : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
+    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
     departed : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all was
         simulated
     first_separation : s, nan if there was none
@@ -127,9 +127,9 @@ class OutcomeResult:
 
     outcome: Outcome | None = None
     simulated: float = 0.0
-    cycle: FloquetResult | None = None
+    near: NearCycle | None = None
     attractor: Attractor | None = None
-    departed: FloquetResult | None = None
+    departed: NearCycle | None = None
     first_separation: float = math.nan
     time: float = 0.0
     state: State | None = None
@@ -198,7 +198,7 @@ def find_outcome(
             else:
                 course.near_start = near
     found.outcome = course.run(first)
-    if furthest <= CERTAIN or found.departed is None or found.cycle is None or not found.cycle.stable:
+    if furthest <= CERTAIN or found.departed is None or found.near is None or not found.near.cycle.stable:
         return found
     again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, start=start, early=early, late=late)
     return again.after(found)
@@ -243,9 +243,9 @@ class _OutcomeSearch:
         while True:
             over = found.time >= self.horizon
             if near is not None:
-                found.cycle = found.cycle or near.cycle
+                found.near = found.near or near
                 if near.cycle.stable:
-                    found.cycle = near.cycle
+                    found.near = near
                     found.time += near.waited
                     found.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
                     return near.kind
@@ -264,7 +264,7 @@ class _OutcomeSearch:
             if self.early or found.time >= self.horizon:
                 calm = at_rest(self.p, result, self.tol)
                 if calm is not None:
-                    found.cycle = None
+                    found.near = None
                     return calm
             near = self._look(result.final_state)
             if near is None and self._stays_in_contact():
@@ -309,8 +309,9 @@ class _OutcomeSearch:
         room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
         time, distance = departure(near, room, self.furthest)
         self.left = near
-        if time and (self.found.departed is None or near.cycle.growth_rate < self.found.departed.growth_rate):
-            self.found.departed = near.cycle
+        slowest = self.found.departed
+        if time and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
+            self.found.departed = near
         if time or self.found.state is None:
             self.found.time = begun + time
             self.found.state = near.map.state(near.x + distance).replace(time=self.found.time)
@@ -344,7 +345,7 @@ class _OutcomeSearch:
         size, apart = near.map.deflection, np.linalg.norm(x - near.x)
         if not apart <= NEAR * size or np.linalg.norm(left.x - near.x) <= SAME_POINT * size or not follows(near, x):
             return None
-        self.near_start = self.found.cycle = None
+        self.near_start = self.found.near = None
         return replace(near, follows_cycle=True, distance=x - near.x)
 
 

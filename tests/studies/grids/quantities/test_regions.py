@@ -175,7 +175,7 @@ def tile_of(
 
     def find_outcome(p: Parameters, *_, furthest: float, **__) -> OutcomeResult:
         word = whole(*place(p)) if whole and not furthest else outcome(*place(p))
-        return OutcomeResult(word, 1.0, departed=follows_one(False).cycle if whole and furthest else None)
+        return OutcomeResult(word, 1.0, departed=follows_one(False) if whole and furthest else None)
 
     monkeypatch.setattr(regions, "find_outcome", find_outcome)
     monkeypatch.setattr(regions, "departs_after", lambda *_: False)

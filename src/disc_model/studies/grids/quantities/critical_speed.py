@@ -85,7 +85,7 @@ def motion(case: Parameters, options: CriticalSpeedOptions) -> OutcomeResult:
     found = find_outcome(case, horizon, tol=options.tol, furthest=CERTAIN, early=options.early_end)
     # A predicted first separation is known to a fraction of the growth time: its error was 0.014 of it at most at 60
     # points over speed and preload, and the phase of a departure, which is lost, may cause more.
-    doubt = 0.0 if found.departed is None else 0.05 / found.departed.growth_rate
+    doubt = 0.0 if found.departed is None else 0.05 / found.departed.cycle.growth_rate
     if any(abs(found.first_separation - one) < doubt for one in options.horizons):
         return find_outcome(case, horizon, tol=options.tol, furthest=0.0).after(found)
     return found

@@ -84,7 +84,7 @@ def _late(point: Point, options: OutcomeOptions) -> tuple[OutcomeResult, Result 
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
     # a stable cycle is known exactly; on a torus, and in steady sliding, the motion is steady
-    on = reached.cycle.state if reached.cycle is not None and reached.cycle.stable else reached.state
+    on = reached.near.cycle.state if reached.near is not None and reached.near.cycle.stable else reached.state
     return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 
 

@@ -10,7 +10,7 @@ intervals. In an undivided cell, points not decided by multipliers take the outc
 import math
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise, product
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ from disc_model.stability.attractor.neighbourhood import (
 from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
 from disc_model.stability.cycle import CycleStatus, FloquetResult
 from disc_model.stability.resonances import modes_at_rest
-from disc_model.stability.return_map import ReturnMap, newton
+from disc_model.stability.return_map import newton
 from disc_model.studies.document import RegionsOptions
 from disc_model.studies.grids.points import NUMERICAL, STATUS, Made, Point, Row, failed
 
@@ -74,21 +74,13 @@ def state_at(point: Point, options: RegionsOptions) -> State:
     """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""
     p = point.parameters
     found = find_outcome(p, options.horizon, tol=options.tol)
-    if found.cycle is not None and found.cycle.stable:
-        state = found.cycle.state
+    if found.near is not None and found.near.cycle.stable:
+        state = found.near.cycle.state
         assert state is not None
         return state
     # to the horizon, or to what the separation leads to
     end = options.horizon if found.state is None else found.state.time + 5.0
     return simulate(p, end, tol=options.tol, initial_state=found.state).raise_for_status().final_state
-
-
-class _Followed(NamedTuple):
-    """A cycle, and its point on the section of the return map."""
-
-    cycle: FloquetResult
-    map: ReturnMap
-    x: Array
 
 
 class _Tile:
@@ -230,7 +222,7 @@ class _Tile:
         self.followed = {place: self._follow(place) for place in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
-    def _follow(self, place: Place) -> _Followed | NearCycle | None:
+    def _follow(self, place: Place) -> NearCycle | None:
         """The cycle that the static start follows at a point, if that is known.
 
         This is the point's own cycle as long as the motion departs from it. The later motion is known at simulated
@@ -239,12 +231,7 @@ class _Tile:
         own, found = self._own(place), self.results.get(place)
         if not isinstance(found, OutcomeResult):
             return own
-        if own is not None and (found.outcome is not Outcome.QUIET or found.cycle is own.cycle):
-            return own
-        if found.cycle is None or found.cycle.state is None:
-            return None
-        map_ = ReturnMap(found.cycle.parameters)
-        return _Followed(found.cycle, map_, map_.point(found.cycle.state))
+        return own if own is not None and found.outcome is not Outcome.QUIET else found.near
 
     def _joined(self, here: Place, ahead: Place) -> str:
         """Whether, and how, a point's cycle continues into the cycle of the next point."""
