@@ -112,11 +112,11 @@ def test_the_neutral_curve_is_the_ellipse():
     assert curve.growth_rate == pytest.approx(np.zeros(len(curve)), abs=1e-7)
     span = np.ptp(curve.values, axis=0)
     assert span == pytest.approx([8, 200], rel=0.02)
-    other = continue_border(
-        "neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, direction=-1, steps=replace(BORDER, max_points=4)
-    )
-    assert len(other) == 4
-    assert (curve.values[1] - curve.values[0]) @ (other.values[1] - curve.values[0]) < 0
+    # what is not closed is followed in both directions
+    part = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, steps=replace(BORDER, max_points=4))
+    assert len(part) == 7
+    assert part.values[3] == pytest.approx(curve.values[0])
+    assert (part.values[2] - part.values[3]) @ (part.values[4] - part.values[3]) < 0
 
 
 def test_without_a_curve_nearby_the_input_is_refused():

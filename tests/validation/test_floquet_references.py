@@ -59,7 +59,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
     curve = continue_border("neutral", p, names, bounds, steps=replace(BORDER, max_points=12))
-    assert len(curve) == 12 or "bounds" in curve.ended
+    assert curve.ended.endswith(("points allowed is reached", "has left the bounds"))
     assert np.max(np.abs(curve.growth_rate)) < 1e-6
     for values in curve.values[:: max(1, len(curve) // 3)]:
         here = p.replace(**dict(zip(names, map(float, values), strict=True)))

@@ -134,6 +134,7 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
 # Two parameters
 
 Kind = Literal["neutral", "fold"]
+CLOSED = "the curve is closed"
 
 
 def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float, complex]:
@@ -157,12 +158,11 @@ def continue_border(
     names: tuple[str, str],
     bounds: Mapping[str, tuple[float, float]],
     *,
-    direction: int = 1,
     guess: Array | None = None,
     tol: float = 1e-12,
     steps: StepControl = BORDER,
 ) -> Branch:
-    """Follow a border of stability in two parameters.
+    """Follow a border of stability in two parameters, in both directions from a place near a case.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def continue_border(
     p, guess : a case near the curve, and the point of the section at which Newton's method starts
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
-    direction, tol, steps : as in `continue_cycle`
+    tol, steps : as in `continue_cycle`; the number of points is that in each direction
 
     Raises
     ------
@@ -180,7 +180,7 @@ def continue_border(
     """
     known = isinstance(kind, str) and kind in ("neutral", "fold")
     more = violations((known, "kind", kind, "must be 'neutral' or 'fold'")) + guess_faults(guess, 1, points=True)
-    check(p, 2, names, bounds, tol, direction=direction, steps=steps, more=more)
+    check(p, 2, names, bounds, tol, steps=steps, more=more)
     names = tuple(names)  # type: ignore[assignment]
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, guess))
@@ -190,7 +190,7 @@ def continue_border(
     except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
-    first = replace(first, tangent=first.tangent * direction * math.copysign(1.0, lead))
+    onward = first.tangent * math.copysign(1.0, lead)
     limits = np.array([bounds[name] for name in names]) / problem.scales[:, None]
 
     def ends(places: list[_OnBorder], new: _OnBorder, ds: float) -> str:
@@ -198,10 +198,14 @@ def continue_border(
         if np.any(q < limits[:, 0]) or np.any(q > limits[:, 1]):
             return f"{' or '.join(names)} has left the bounds"
         if len(places) >= 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
-            return "the curve is closed"
+            return CLOSED
         return ""
 
-    places, ended = continue_curve(first, partial(_next_on_border, problem, kind), steps, ends)
+    take = partial(_next_on_border, problem, kind)
+    places, ended = continue_curve(replace(first, tangent=-onward), take, steps, ends)
+    if ended != CLOSED:
+        ahead, ended = continue_curve(replace(first, tangent=onward), take, steps, ends)
+        places = [*places[:0:-1], *ahead]
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
 
 

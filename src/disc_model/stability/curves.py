@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +11,7 @@ from disc_model.errors import ParameterError, violations
 from disc_model.parameters import Parameters, is_whole
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
-from disc_model.stability.branch import StepControl, check
+from disc_model.stability.branch import Branch, StepControl, check
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
@@ -99,7 +97,6 @@ def stability_curves(
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
     check(p, 2, names, bounds, tol, steps=steps, more=other)
-    how = {"steps": steps, "tol": tol}
     found: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
@@ -111,13 +108,14 @@ def stability_curves(
                 continue
             where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
             try:
-                curve = _trace(seed, names, bounds, how)
+                branch = continue_border(seed.kind, seed.case, names, bounds, guess=seed.point, tol=tol, steps=steps)
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
                 continue
-            if len(curve.period) == 1:
+            if len(branch) == 1:
                 notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
                 continue
+            curve = _trace(seed, branch)
             # the place halfway along the curve, since places are dense where two borders meet
             length = np.cumsum(np.linalg.norm(np.diff(curve.values / span, axis=0), axis=1))
             i = int(np.searchsorted(length, length[-1] / 2)) + 1
@@ -192,24 +190,12 @@ def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: flo
     return False
 
 
-def _trace(
-    seed: _Seed, names: tuple[str, str], bounds: Mapping[str, tuple[float, float]], how: Mapping[str, Any]
-) -> StabilityCurve:
-    """The curve through a seed, followed in both directions; `how` as in `continue_border`."""
-    follow = partial(continue_border, seed.kind, seed.case, names, bounds, guess=seed.point, **how)
-    back = follow(direction=-1)
-    on = None if back.ended == "the curve is closed" else follow(direction=1)
-
-    def joined(name: str) -> NDArray[np.generic]:
-        one = getattr(back, name)
-        return one if on is None else np.concatenate([one[:0:-1], getattr(on, name)])
-
-    values, period = joined("values").astype(float), joined("period").astype(float)
-    every, diameters = joined("multipliers").astype(complex), joined("diameters")
-    leading = every[:, 0]
-    border = np.log(np.abs(leading)) / period < 1e-3  # 1/s; no other multiplier grows
-    middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(period) // 2
-    case = seed.case.replace(**dict(zip(names, map(float, values[middle]), strict=True)))
+def _trace(seed: _Seed, branch: Branch) -> StabilityCurve:
+    """The curve through a seed, as it was followed."""
+    border = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
+    middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(branch) // 2
+    case = seed.case.replace(**dict(zip(branch.parameters, map(float, branch.values[middle]), strict=True)))
+    leading = branch.multipliers[:, 0]
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
-    resonance = nearest_resonance(case, float(period[middle]), mu, int(diameters[middle]))
-    return StabilityCurve(seed.kind, values, border, period, leading, resonance)
+    resonance = nearest_resonance(case, float(branch.period[middle]), mu, int(branch.diameters[middle]))
+    return StabilityCurve(seed.kind, branch.values, border, branch.period, leading, resonance)
