@@ -7,31 +7,10 @@ numerically. Slow and readable on purpose; the one change to the print is the ">
 One phase at a time, integrated by scipy's DOP853.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from disc_model import plate_modes
-
-
-@dataclass
-class Start:
-    """Initial values: real-frame amplitudes q, q_rate (complex, l = -n..n), phi, phi_rate, u, u_rate."""
-
-    phase: str
-    q: np.ndarray
-    q_rate: np.ndarray
-    phi: float
-    phi_rate: float
-    u: float = 0.0
-    u_rate: float = 0.0
-
-    @property
-    def vector(self):
-        """As `Literal` integrates it."""
-        modes = np.concatenate([self.q, self.q_rate]).astype(complex).view(float)
-        return np.concatenate([modes, [self.phi, self.phi_rate, self.u, self.u_rate]])
 
 
 def signed_diameters(diameters):
@@ -146,10 +125,10 @@ class Literal:
         return after
 
 
-def from_slider_frame(state, drive, diameters):
-    """Start in the disc's frame, drive point at angle `drive`, from a `stored.State`."""
+def from_slider_frame(state, diameters):
+    """Phase and vector in the disc's frame, drive point at the angle 0, from a `stored.State`."""
     a, b, alpha, beta = (np.asarray(x, float) for x in (state.a, state.b, state.alpha, state.beta))
-    phi = drive - float(state.psi)
+    phi = -float(state.psi)
     l, rows = signed_diameters(diameters)
 
     def complex_modes(x, y):  # w = sum psi_l (x cos + y sin) l(theta - phi), psi_l = sqrt(2) Psi_l for l >= 1
@@ -157,5 +136,5 @@ def from_slider_frame(state, drive, diameters):
         return z * np.exp(-1j * l * phi)
 
     phase = state.phase if state.phase != "slip" else ("slip+" if state.direction > 0 else "slip-")
-    rest = (phi, float(state.f), float(state.u), float(state.u_velocity))
-    return Start(phase, complex_modes(a, b), complex_modes(alpha, beta), *rest)
+    modes = np.concatenate([complex_modes(a, b), complex_modes(alpha, beta)]).astype(complex).view(float)
+    return phase, np.concatenate([modes, [phi, float(state.f), float(state.u), float(state.u_velocity)]])

@@ -12,8 +12,9 @@ import json
 import numpy as np
 
 from disc_model.errors import script
-from tests.references.stored import BASE, DATA, State, load, rounded
-from tests.references.taylor import LAWS, TRUNCATION, Reference, problem, stored_problem, violent_start
+from tests.contact_laws import LAWS
+from tests.references.stored import DATA, State, load, rounded
+from tests.references.taylor import TRUNCATION, Reference, stored_problem, violent_start
 
 #: s; violent motion is chaotic (neighbours part by a factor of e in 3 ms): it is stored in pieces, each from the
 #: state, rounded to doubles, in which the one before ended.
@@ -44,7 +45,7 @@ def described(run, difference, *more):
 
 def published(**changes):
     """Parameters and modes of a published case; the modes, as stored, were found in 40 digits by mpmath."""
-    return {"parameters": {"N": 385.0, "Omega": 15.1} | BASE | changes, "modes": load("C")["modes"]}
+    return {"parameters": load("C")["parameters"] | changes, "modes": load("C")["modes"]}
 
 
 def write(name, data):
@@ -106,15 +107,15 @@ def shifts(data, time):
 
 def contact(name):
     """A first second and half a second of violent motion under another law of contact."""
-    q = problem(name)
-    law = {"contact_compliance": float(q.C), "contact_force": LAWS[name][0]}
+    parameters = published(**{"contact_compliance": 0.0, "contact_force": "vertical"} | LAWS[name])["parameters"]
+    q = stored_problem({"parameters": parameters})
     first, difference = repeated(q, q.equilibrium(), 1.0)
     runs, start = [{"start": None, "t_end": 1.0} | described(first, difference)], violent_start(1.0 if q.C else 1.3)
     for i in range(round(0.5 / PIECE)):
         run, difference = repeated(q, start, (i + 1) * PIECE)
         runs.append({"start": vars(start), "t_end": (i + 1) * PIECE} | described(run, difference))
         start = rounded(run.state())
-    write(f"contact_{name}", {"parameters": {"N": 385.0, "Omega": 15.1} | BASE | law, "runs": runs})
+    write(f"contact_{name}", {"parameters": parameters, "runs": runs})
 
 
 @script

@@ -50,11 +50,8 @@ class Printed:
 
     def __init__(self, p, state):
         self.p, self.literal = p, Literal(p)
-        self.diameters = plate_modes(p)["diameters"].to_numpy()
         self.sign = np.sign(plate_modes(p)["psi"].to_numpy())
-        self.start = from_slider_frame(stored.reference_state(state, p), 0.0, self.diameters)
-        self.phase = self.start.phase
-        self.y = self.start.vector
+        self.phase, self.y = from_slider_frame(stored.reference_state(state, p), plate_modes(p)["diameters"])
 
     def at(self, t):
         """The state a time ``t`` (s) later, as a dict."""

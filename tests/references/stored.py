@@ -40,10 +40,6 @@ def load(name):
     return json.loads((DATA / f"{name}.json").read_text(), object_hook=read)
 
 
-#: Table 1 of the paper, SI units.
-BASE = {name: value for name, value in load("C")["parameters"].items() if name not in ("N", "Omega")}
-
-
 def times_of(data):
     """Event times in long double: 20 decimals."""
     return np.array([np.longdouble(time) for time in data["times"]])

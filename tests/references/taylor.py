@@ -7,7 +7,6 @@ at most one if the same holds for its derivative; else the interval is halved.  
 rates, from corner to corner of a course; u_0 stays that of the first N.
 """
 
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from math import comb
@@ -15,41 +14,36 @@ from math import comb
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from tests.references.stored import BASE, State, load
+from disc_model import plate_modes
+from disc_model.flexibility import contact_compliance
+from tests.references.stored import State, load
 
 LONG = np.longdouble
 ORDER = 32
 #: Size of the last terms of a step, relative to the motion: below the rounding of 64 bits.
 TRUNCATION = 1e-21
-
-
-@dataclass(frozen=True)
-class Law:
-    """Compliance of the contact, m/N (0: rigid), and the direction of its force."""
-
-    C: float = 0.0
-    force: str = "vertical"
+#: m/N, of cases with a compliant contact; about the residual flexibility of the nine published modes.
+COMPLIANCE = 2.656e-7
 
 
 class Problem:
-    """A case's numbers in long double.  ``base`` has the names of `stored.BASE`; modes are l = 0, 1, ... in order.
+    """A case's numbers in long double, from values by the names of `Parameters`, its modes and their nodal diameters.
 
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on.
     """
 
     since = LONG(0)
 
-    def __init__(self, N, Omega, omega, psi, law, base=BASE, rates=(0.0, 0.0)):
+    def __init__(self, values, omega, psi, l, rates=(0.0, 0.0)):
         self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
-        q = {name: LONG(value) for name, value in base.items()}
-        self.N, self.Omega, self.C, self.normal = LONG(N), LONG(Omega), LONG(law.C), law.force == "normal"
-        self.rigid = law.C == 0
-        for name in ("m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
-            setattr(self, name, q[name])
-        w = np.array([LONG(x) for x in omega])
-        self.s, self.l = np.array([LONG(x) for x in psi]), np.arange(len(w)).astype(LONG)
+        for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
+            setattr(self, name, LONG(values[name]))
+        self.C, self.normal = LONG(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
+        self.rigid, self.bonded = self.C == 0, values.get("contact") == "bonded"
+        w, self.s, self.l = (np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l))
         self.w2 = w * w
-        self.d = q["D_star"] / (q["E"] * q["h"] ** 3 / 12 / (1 - q["nu"] ** 2)) * self.w2
+        D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
+        self.d = D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
         self.S2 = (self.s**2).sum()
         self.w_0 = -self.N * (self.s**2 / self.w2).sum()
         self.u_0 = self.w_0 - self.C * self.N
@@ -63,14 +57,14 @@ class Problem:
 
 def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
-    from disc_model import plate_modes
-    from disc_model.flexibility import contact_compliance
+    modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
+    return Problem(values, modes["omega"], np.abs(modes["psi"]), modes["diameters"], rates)
 
-    modes, law = plate_modes(p), Law(contact_compliance(p), p.contact_force)
-    base = {name: getattr(p, name) for name in BASE}
-    q = Problem(p.N, p.Omega, modes["omega"], np.abs(modes["psi"]), law, base, rates)
-    q.l = modes["diameters"].to_numpy().astype(LONG)
-    return q
+
+def stored_problem(data):
+    """`Problem` of a stored reference, with its own modes or the nine published ones."""
+    modes = data.get("modes") or load("C")["modes"]
+    return Problem(data["parameters"], modes["omega"], modes["psi"], range(len(modes["omega"])))
 
 
 # ------------------------------------------------------------------------------------- series
@@ -191,18 +185,18 @@ class Step:
         groups = [(self.alpha, 0), (self.beta, 0), (self.f, abs(q.Omega)), (self.a, 0), (self.b, 0), (self.R, q.N)]
         if not q.rigid or self.phase == "separation":
             groups.append((self.v, 0))
-        modal = max(abs(x[0]).max() for x in (self.alpha, self.beta)) + q.N * (q.s / np.sqrt(q.w2)).max()
+        modal = abs(np.append(self.alpha[0], self.beta[0])).max(initial=0) + (q.N * q.s / np.sqrt(q.w2)).max(initial=0)
         for x, usual in groups:
             last = len(x) - (2 if x is self.R else 1)
-            scale = max(abs(x[0]).max(), usual)
+            scale = max(abs(x[0]).max(initial=0), usual)
             if x is self.alpha or x is self.beta:
                 scale = modal
             elif x is self.v:
-                scale = max(scale, q.N * (q.s**2 / np.sqrt(q.w2)).sum())
+                scale = max(scale, q.N * ((q.s**2 / np.sqrt(q.w2)).sum() + np.sqrt(q.C / q.m)))
             elif x is self.a or x is self.b:
-                scale = modal / np.sqrt(q.w2.max())
+                scale = modal / np.sqrt(q.w2.max(initial=1))
             for k in (last, last - 1):
-                size = abs(x[k]).max()
+                size = abs(x[k]).max(initial=0)
                 if size > 0:
                     h = min(h, (LONG(truncation) * scale / size) ** (LONG(1) / k))
         return h
@@ -337,10 +331,12 @@ class Reference:
             return [("reattachment", gap[self.divide["gap"] :])]
         R = step.R[self.divide["R"] : K]
         if self.phase == "slip":
-            return [("separation", R), ("rest", self.direction * step.f[self.divide["f"] :])]
-        held = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
-        # a compliant contact does not pull, though friction may hold where it would
-        return [*held, ("separation", R if self.q.rigid else step.V[self.divide["R"] : K])]
+            ends = [("rest", self.direction * step.f[self.divide["f"] :])]
+        else:
+            ends = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
+            # a compliant contact does not pull, though friction may hold where it would
+            R = R if self.q.rigid else step.V[self.divide["R"] : K]
+        return ends if self.q.bonded else [("separation", R), *ends]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
@@ -348,7 +344,7 @@ class Reference:
         self.divide = {"f": 0, "gap": 0, "R": 0} | divide
         P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
         self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
-        if P < 0 and self.q.rigid:
+        if P < 0 and self.q.rigid and not self.q.bonded:
             self._separate(2)
 
     def _switch(self, kind):
@@ -358,8 +354,10 @@ class Reference:
             if kind == "rest" and abs(T) < self.q.mu_s * R:
                 self._enter("slip_to_stick", "stick", 0)
             else:
+                # f begins at zero; at a release so does its rate where friction does not fall
+                zeros = 2 if kind == "stick_to_slip" and self.q.mu_s == self.q.mu_k else 1
                 kind = "slip_reversal" if kind == "rest" else kind
-                self._enter(kind, "slip", 1 if T > 0 else -1, f=1)
+                self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)
         else:
@@ -385,24 +383,6 @@ class Reference:
         if self.f == 0:
             raise RuntimeError("impact at rest: not met in the stored cases")
         self._enter("reattachment", "slip", 1 if self.f > 0 else -1)
-
-
-# ------------------------------------------------------------------------------------- stored cases
-LAWS = {"compliant": ("vertical", True), "normal": ("normal", False), "compliant_normal": ("normal", True)}
-#: m/N; about the residual flexibility of the nine published modes.
-COMPLIANCE = 2.656e-7
-
-
-def stored_problem(data, law=Law()):
-    """`Problem` of a stored reference, with its own modes."""
-    base = dict(data["parameters"])
-    return Problem(base.pop("N"), base.pop("Omega"), data["modes"]["omega"], data["modes"]["psi"], law, base)
-
-
-def problem(name):
-    """The published nine modes under one of `LAWS`."""
-    force, compliant = LAWS[name]
-    return stored_problem(load("C"), Law(COMPLIANCE if compliant else 0.0, force))
 
 
 def violent_start(scale):

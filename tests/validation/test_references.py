@@ -6,12 +6,16 @@ contact.  Phases and switches by themselves are compared with the paper's equati
 """
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
+from tests.contact_laws import LAWS
 from tests.references import stored, taylor
+from tests.references.literal import from_slider_frame
+from tests.references.printed import MOTIONS, P, Printed, lively
 
 #: Largest event-time error over the stored second divided by tol, s: 0.2 to 2 at all tolerances that tell.
 ERROR_PER_TOL = 3.0
@@ -92,13 +96,50 @@ def test_violent_motion():
 
 
 # ------------------------------------------------------------------------ the references themselves
-@pytest.mark.parametrize("name", ["A", "B", "C", *taylor.LAWS])
+@pytest.mark.parametrize("name", ["A", "B", "C", *(f"contact_{name}" for name in LAWS)])
 def test_stored_runs_can_be_computed_again(name):
     """Those of the default law by an integrator that shares no code with the one that found them."""
-    data = stored.load(name if name in "ABC" else f"contact_{name}")
-    q = taylor.stored_problem(data) if name in "ABC" else taylor.problem(name)
+    data = stored.load(name)
+    q = taylor.stored_problem(data)
     runs = [(data, 0.1)] if name in "ABC" else [(run, 0.01) for run in data["runs"][:2]]
     for run, span in runs:
         start = run["start"] or q.equilibrium()
         reference = taylor.Reference(q, start).run(float(start.time) + span)
         assert stored.largest_difference(reference.events, run) < 1e-16
+
+
+@pytest.mark.parametrize("law", ["default", *LAWS])
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_rates_of_the_reference_balance_in_coordinates_fixed_in_space(law, phase, direction):
+    """What acts on each mode, on the slider across the disc and on it along the disc: nothing is eliminated."""
+    p = P.replace(**LAWS.get(law, {}))
+    C, start = p.contact_compliance, lively(phase, direction, p)
+    if C:
+        start = start.replace(u=start.u - 500 * C, u_velocity=start.u_velocity + 0.01)
+    step = taylor.Step(taylor.problem_of(p), phase, direction, stored.reference_state(start, p), order=1)
+    V, R, T, f, f_rate = (float(x) for x in (step.V[0], step.R[0], step.T[0], *step.f[:2]))
+    printed = Printed(p, start)
+    case, y, l = printed.literal, printed.y, printed.literal.l
+    q, v, phi, _, u, u_rate = case.unpack(y)
+    turning = step.q.l * f  # the axes of alpha and beta turn with the slider
+    rates = {"alpha": step.alpha[1] - turning * step.beta[0], "beta": step.beta[1] + turning * step.alpha[0]}
+    pushed = replace(stored.reference_state(start, p), **rates)
+    _, acceleration, *_ = case.unpack(from_slider_frame(pushed, plate_modes(p)["diameters"])[1])
+    shape = case.Psi * np.exp(1j * l * phi)
+    free = -case.damping * v - case.omega**2 * q
+    np.testing.assert_allclose(acceleration - free, -shape.conj() * V, rtol=0, atol=1e-9 * np.abs(free).max())
+    w, slope, velocity = case.disc(q, v, phi, f)
+    rise = float(step.v[1])
+    if phase != "separation" and not C:
+        u, u_rate = w, velocity
+        rise = (shape * (acceleration + 2j * l * f * v + (1j * l * f_rate - (l * f) ** 2) * q)).sum().real
+    elif phase != "separation":
+        assert pytest.approx((w - u) / C, rel=1e-9) == V
+    lean = slope / p.r_0 if p.contact_force == "normal" else 0.0
+    load = p.N + p.k * (u - case.w_0 + C * p.N) + p.c * u_rate
+    friction = p.r_0 * (case.pull(0.0, y) - p.m * f_rate) - lean * R
+    assert [p.m * rise, V, T] == pytest.approx([V - load, R - lean * T, friction], abs=1e-9 * load)
+    if phase == "stick":
+        assert f_rate == 0
+    else:
+        assert pytest.approx(direction * p.mu_k * R, abs=1e-9 * load) == T
