@@ -8,6 +8,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.engine import exit_codes, layout, transitions
+from disc_model.errors import DiscModelError
 from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import ReturnMap
 
@@ -28,6 +29,9 @@ def test_release_without_a_solution_is_a_paradox() -> None:
     assert result.status == "paradox"
     assert result.final_state.time < 1e-6
     assert "in stick" in result.message
+    assert "slope B" in result.message
+    with pytest.raises(DiscModelError, match="Painleve"):
+        result.raise_for_status()
 
 
 def test_release_on_a_gentler_slope_is_slip() -> None:

@@ -199,6 +199,3 @@ def test_impact_of_the_rival_methods():
     got = {name: y[getattr(physics, name)] for name in ("a", "b", "alpha", "beta", "psi", "f")}
     close(got, expected, 1e-12, got)
     assert physics.disc_point(y)[1] == pytest.approx(expected["u_velocity"], rel=1e-12)
-
-
-# ------------------------------------------------------------------------------------------------ steady sliding

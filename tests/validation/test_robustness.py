@@ -266,18 +266,6 @@ def test_without_drive_contact_ends_and_not_stick(kick: float) -> None:
     assert set(result.events.kind) == {"separation", "reattachment"}
 
 
-def test_painleves_paradox_is_named() -> None:
-    p = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7)
-    start = simulate(p, 1e-6).final_state
-    b = start.b.copy()
-    b[1:] = -0.5 / np.arange(1, 5)  # a slope against the slip that makes 1 + m S2 + mu_k B / r_0 negative
-    result = simulate(p, 1.0, initial_state=start.replace(phase="slip", direction=1, f=10.0, b=b))
-    assert result.status is Status.PARADOX
-    assert "slope B" in result.message
-    with pytest.raises(Exception, match="Painleve"):
-        result.raise_for_status()
-
-
 def test_grazing_contact() -> None:
     """A kick chosen so that P just touches zero: a bit more loses contact, a bit less does not."""
     p = Parameters(N=100, Omega=0)
