@@ -7,12 +7,12 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp, plate_modes
+from disc_model import Ramp, plate_modes
 from disc_model.engine import event_loop, laws, layout, transitions
 from disc_model.flexibility import contact_compliance
 from disc_model.simulation.result import engine_case, write_state
 from tests.references import stored, taylor
-from tests.references.printed import lively
+from tests.references.printed import P, lively
 
 LAWS: dict[str, dict[str, Any]] = {
     "compliant": {"contact_compliance": taylor.COMPLIANCE},
@@ -52,15 +52,19 @@ def course_of(p, ramps):
     return [(t, *(float(np.interp(t, *line)) for line in lines.values())) for t in corners]
 
 
+def turned(course, t):
+    """Angle, rad, by which the drive has turned since the time 0."""
+    times, speeds, _ = zip(*course, strict=True)
+    corners = [*(time for time in times if time < t), t]
+    return np.trapezoid(np.interp(corners, times, speeds), corners)
+
+
 def compare_series(law, phase, direction, n_diameters, rates=None):
     """The engine's coefficients beside the reference's, in units of the largest: all dampers work.
 
     rates : those of Omega (rad/s^2) and N (N/s), some way up the ramps
     """
-    p = Parameters(
-        N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3,
-        n_diameters=n_diameters, n_circles=1, **law,
-    )  # fmt: skip
+    p = P.replace(n_diameters=n_diameters, **law)
     start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
     if p.contact_compliance:
         start = start.replace(u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01)

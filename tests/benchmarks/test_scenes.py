@@ -10,7 +10,6 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import MethodResult, RunStatus
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.benchmarks.methods.physics import Physics
-from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import Verdict, answer, errors, event_time_error, problem
 from tests.references import stored
 

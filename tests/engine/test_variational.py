@@ -12,11 +12,7 @@ from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
 from tests.references import stored, taylor
-from tests.references.printed import MOTIONS, lively
-
-LIVELY = Parameters(
-    N=600.0, Omega=15.1, m=0.3, k=8e4, c=5.0, k_p=3e4, c_p=0.5, mu_s=0.5, mu_k=0.1, D_star=1e-3, n_diameters=2
-)  # fmt: skip
+from tests.references.printed import MOTIONS, P, lively
 
 
 def differences(function, h: float):
@@ -64,7 +60,7 @@ def about_to(switch: str, law: str) -> tuple[Parameters, stored.State]:
     """A case, and a state on a slope of a third that soon meets the switch."""
     (phase, direction, _), backwards = SWITCHES[switch], "backwards" in switch
     # with a circle there are two modes without nodal diameter, each with its own share of an impulse
-    p = LIVELY.replace(n_diameters=1, n_circles=1, **CONTACTS[law])
+    p = P.replace(n_diameters=1, **CONTACTS[law])
     if switch == "contact lost in stick":
         # it is not friction that ends stick: it holds on the slope, or nothing pulls
         p = p.replace(**({"mu_s": 4.0} if law == "compliant_normal" else {"k_p": 0.0, "c_p": 0.0}))
@@ -201,7 +197,7 @@ def test_when_contact_is_lost(switch: str) -> None:
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) -> None:
     """Five pairs of modes fill one block of lanes and begin another."""
-    p = LIVELY.replace(n_diameters=5, n_circles=1, **CONTACTS[law])
+    p = P.replace(n_diameters=5, **CONTACTS[law])
     start, case, q = lively(phase, direction, p), engine_case(p), taylor.problem_of(p)
     if phase != "separation":
         start = start.replace(u=start.u - 500 * float(q.C))

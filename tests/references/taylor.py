@@ -19,6 +19,7 @@ from disc_model.flexibility import contact_compliance
 from tests.references.stored import State, load
 
 LONG = np.longdouble
+SAMPLED = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity")
 ORDER = 32
 #: Size of the last terms of a step, relative to the motion: below the rounding of 64 bits.
 TRUNCATION = 1e-21
@@ -295,6 +296,17 @@ class Reference:
         """R and T if the phase were this one."""
         step = Step(self.q, phase, direction, self.state(), order=1)
         return step.R[0], step.T[0]
+
+    def sample(self, drive, theta):
+        """The quantities `SAMPLED`, now; ``drive`` : angle of the drive point, ``theta`` : of a point of the disc."""
+        q, (w, velocity, _), turn = self.q, self.disc(), self.q.l * (theta - drive + self.psi)
+        R, _ = self.forces(self.phase, self.direction)
+        held = self.phase != "separation" and q.rigid
+        u, u_velocity = (w, velocity) if held else (self.u, self.v)
+        along, across = q.s * np.cos(turn), q.s * np.sin(turn)
+        point, point_velocity = along @ self.a + across @ self.b, along @ self.alpha + across @ self.beta
+        turning = q.Omega + q.Omega_rate * (self.time - q.since) - self.f
+        return np.array([R, u, u_velocity, w, point, point_velocity, self.psi, turning], float)
 
     def run(self, t_end):
         """Advance to the absolute time `t_end`.  Returns self."""

@@ -13,7 +13,6 @@ from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
-BASE = Parameters(N=200, Omega=20)
 
 
 def state_of(p: Parameters, sliding: SteadySliding) -> State:
@@ -26,20 +25,6 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
 
 
-def check_against_flow(p: Parameters, apart: float) -> None:
-    """The equilibrium stays where it is, and its eigenvalues are those of a flight from there; multipliers `apart`."""
-    sliding, duration = steady_sliding(p), 1e-3
-    run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
-    before = run.coordinates
-    assert run.fly(duration) == exit_codes.TIME_OVER
-    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
-    flow = np.linalg.eigvals(run.columns)
-    expected = np.exp(sliding.eigenvalues * duration)
-    assert len(expected) == len(flow)
-    assert np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < apart
-    assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
-
-
 def test_steady_sliding_is_told_in_a_line():
     """Its eigenvalues and its Jacobian, 9,181 characters, came with it."""
     assert len(repr(steady_sliding(P))) < 300
@@ -47,20 +32,33 @@ def test_steady_sliding_is_told_in_a_line():
         assert steady_sliding(P.replace(contact_force=force)).message.startswith(f"steady sliding with {name} = ")
 
 
-@pytest.mark.compiled
+SLIDING = {
+    "base": Parameters(N=200, Omega=20),
+    "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),
+    "orthonormal": Parameters(N=100, Omega=40, normalization="orthonormal"),
+    # two nodal diameters, and damping that counts beside l Omega and omega
+    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in LAWS.items()},
+}
+
+
 @pytest.mark.parametrize(
-    "p", [BASE, Parameters(N=300, Omega=50, c_p=0.7, c=0.3), Parameters(N=100, Omega=40, normalization="orthonormal")]
+    "p",
+    [pytest.param(p, marks=COMPILES if name in LAWS else pytest.mark.compiled, id=name) for name, p in SLIDING.items()],
 )
 def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
-    assert steady_sliding(p).status is SlidingStatus.OK
-    # roundings of a flight over 1e-3 s
-    check_against_flow(p, 1e-10)
-
-
-@pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in LAWS])
-def test_steady_sliding_under_every_law_of_contact(law):
-    """Two nodal diameters, and damping that counts beside l Omega and omega."""
-    check_against_flow(P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **LAWS[law]), 1e-10)
+    """It stays where it is, and its eigenvalues are those of a flight from there."""
+    sliding, duration = steady_sliding(p), 1e-3
+    assert sliding.status is SlidingStatus.OK
+    run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
+    before = run.coordinates
+    assert run.fly(duration) == exit_codes.TIME_OVER
+    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
+    flow = np.linalg.eigvals(run.columns)
+    expected = np.exp(sliding.eigenvalues * duration)
+    assert len(expected) == len(flow)
+    # roundings of the flight
+    assert np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10
+    assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
 
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])

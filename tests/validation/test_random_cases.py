@@ -8,7 +8,7 @@ import pytest
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
 from disc_model.flexibility import contact_compliance
 from disc_model.simulation.api import static_start
-from tests.contact_laws import course_of
+from tests.contact_laws import course_of, turned
 from tests.references import stored, taylor
 from tests.tally import tried
 
@@ -143,28 +143,6 @@ def reference(p, start, **how):
     return taylor.Reference(taylor.problem_of(p), stored.reference_state(start.replace(time=0.0), p), **how)
 
 
-def sample(run, drive, theta):
-    """`QUANTITIES` of a run of the reference, now; ``drive`` : angle of the drive point."""
-    q, (w, velocity, _), turn = run.q, run.disc(), run.q.l * (theta - drive + run.psi)
-    R, _ = run.forces(run.phase, run.direction)
-    held = run.phase != "separation" and q.rigid
-    u, u_velocity = (w, velocity) if held else (run.u, run.v)
-    along, across = np.cos(turn) * q.s, np.sin(turn) * q.s
-    turning = q.Omega + q.Omega_rate * (run.time - q.since) - run.f
-    point, point_velocity = along @ run.a + across @ run.b, along @ run.alpha + across @ run.beta
-    return np.array([R, u, u_velocity, w, point, point_velocity, run.psi, turning], float)
-
-
-def turned(course, t):
-    """Angle, rad, by which the drive has turned since the time 0."""
-    times, speeds, _ = zip(*course, strict=True)
-    corners = [*(time for time in times if time < t), t]
-    return np.trapezoid(np.interp(corners, times, speeds), corners)
-
-
-QUANTITIES = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity")
-
-
 class Compared:
     """A random case, followed by the engine and twice by the reference, whose runs part where errors grow."""
 
@@ -183,7 +161,7 @@ class Compared:
         self.runs = [reference(p, self.start, course=course, truncation=size) for size in (taylor.TRUNCATION, ROUGH)]
         drives = [p.Omega * self.begin + turned(course, t) for t in self.times]
         at = list(zip(self.times, drives, strict=True))
-        self.samples = [np.array([sample(run.run(t), drive, self.theta) for t, drive in at]) for run in self.runs]
+        self.samples = [np.array([run.run(t).sample(drive, self.theta) for t, drive in at]) for run in self.runs]
         self.events = [[(float(e["time"]), e["kind"]) for e in run.run(self.span).events] for run in self.runs]
 
     def check(self):
@@ -233,7 +211,7 @@ class Compared:
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
         sample, folded = self.result.samples
-        for i, name in enumerate(QUANTITIES):
+        for i, name in enumerate(taylor.SAMPLED):
             off = np.abs(sample[name] - fine[:, i])
             assert np.all(off[good] <= allowed[good, i]), (name, (off / scale[i])[good].max(), error[good, i].max())
             for j in np.flatnonzero(good.reshape(-1, BIN).all(axis=1)) if f"{name}_min" in folded else ():
