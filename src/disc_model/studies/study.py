@@ -204,8 +204,34 @@ class Study:
                 self.specs[name] = case.spec()
             except ParameterError as error:
                 faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
-        self.figures, self.plots, of_grid = _figures(document, raw, self.specs, faults)
+        named = document.figures if isinstance(document.figures, dict) else {}
+        self.figures: tuple[str, ...] = () if isinstance(document.figures, dict) else document.figures
+        self.plots = {name: plot for name, plot in named.items() if isinstance(plot, CasePlot)}
+        of_grid = {name: plot for name, plot in named.items() if isinstance(plot, Plot)}
+        faults += self._wrong_figures(raw, named)
         self.grid = GridStudy(document, raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
+
+    def _wrong_figures(self, raw: Mapping[str, Any], named: Mapping[str, CasePlot | Plot]) -> Iterator[Fault]:
+        """Faults of the paper's figures that are listed, and of those with a name of their own."""
+        known = [str(name) for name in mapping(raw.get("cases"))]
+        for i, name in enumerate(self.figures):
+            place = ("figures", str(i))
+            if not isinstance(name, str) or name not in CATALOGUE:
+                yield Fault.of(place, name, f"unknown figure{suggestion(name, CATALOGUE)}")
+                continue
+            for case, rule in lacking(name, self.specs):
+                if case in self.specs or case not in known:  # otherwise the case has faults of its own
+                    yield Fault.of(place, name, rule)
+        cases = {name: self.specs[name].sections if name in self.specs else None for name in known}
+        for name, plot in named.items():
+            place = ("figures", name)
+            if not name.isidentifier() or (name in CATALOGUE and isinstance(plot, CasePlot)):
+                rule = "a figure's name must be letters, digits and _, and not that of one of the paper's"
+                yield Fault(place, "", rule)
+            if isinstance(plot, CasePlot):
+                yield from (fault.inside(place) for fault in plot.faults(cases))
+            elif not raw.keys() & GRID_KEYS:
+                yield Fault.of((*place, "kind"), plot.kind, "shows a grid, and this study has none")
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -438,39 +464,6 @@ def _drop(whole: dict[str, Any], path: tuple[str, ...]) -> None:
         left = {name: value for name, value in part.items() if str(name) != path[1]}
         if left:
             whole[key] = left
-
-
-def _figures(
-    document: Document, raw: Mapping[str, Any], specs: Mapping[str, CaseSpec], faults: list[Fault]
-) -> tuple[tuple[str, ...], dict[str, CasePlot], dict[str, Plot]]:
-    """The paper's figures that are listed, those of cases, and those of the grid."""
-    known = [str(name) for name in mapping(raw.get("cases"))]
-    if not isinstance(document.figures, dict):
-        for i, name in enumerate(document.figures):
-            place = ("figures", str(i))
-            if not isinstance(name, str) or name not in CATALOGUE:
-                faults.append(Fault.of(place, name, f"unknown figure{suggestion(name, CATALOGUE)}"))
-                continue
-            # otherwise the case has faults of its own
-            found = [rule for case, rule in lacking(name, specs) if case in specs or case not in known]
-            faults += [Fault.of(place, name, rule) for rule in found]
-        return document.figures, {}, {}
-    plots: dict[str, CasePlot] = {}
-    of_grid: dict[str, Plot] = {}
-    cases = {name: specs[name].sections if name in specs else None for name in known}
-    for name, plot in document.figures.items():
-        place = ("figures", name)
-        if not name.isidentifier() or (name in CATALOGUE and isinstance(plot, CasePlot)):
-            rule = "a figure's name must be letters, digits and _, and not that of one of the paper's"
-            faults.append(Fault(place, "", rule))
-        if isinstance(plot, CasePlot):
-            plots[name] = plot
-            faults += [fault.inside(place) for fault in plot.faults(cases)]
-        elif raw.keys() & GRID_KEYS:
-            of_grid[name] = plot
-        else:
-            faults.append(Fault.of((*place, "kind"), plot.kind, "shows a grid, and this study has none"))
-    return (), plots, of_grid
 
 
 # ----------------------------------------------------------------------------------------------------
