@@ -301,7 +301,9 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     coefficients = coefficients * np.sign(_evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0])
     # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many diameters
     count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
-    nodes, weights = _gauss(count, inner)
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    half = (1 - inner) / 2
+    nodes, weights = inner + half * (nodes + 1), half * weights
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     _check_circles(values, l, np.repeat(np.arange(n_circles + 1), n_diameters + 1), inner, nu)
     norm = 2 * np.pi * values**2 @ (weights * nodes)
@@ -456,11 +458,3 @@ def _bessel_small(l: int, x: Array) -> tuple[Array, Array]:
             before, now, log = before / size, now / size, log + np.log(size)
         value[row], exponent[row] = now, log
     return value, exponent
-
-
-@lru_cache(maxsize=256)
-def _gauss(count: int, inner: float) -> tuple[Array, Array]:
-    """Gauss-Legendre nodes and weights on [inner, 1]."""
-    nodes, weights = np.polynomial.legendre.leggauss(count)
-    half = (1 - inner) / 2
-    return inner + half * (nodes + 1), half * weights

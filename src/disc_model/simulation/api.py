@@ -158,7 +158,7 @@ def simulate(
                 code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
-    run.case.idle[run.order].append(run.workspace)
+    run.case.idle[run.limits.order].append(run.workspace)
     if kept is not None:
         kept.remove()
     return result
@@ -184,10 +184,10 @@ class _Request:
 
     def faults(self) -> list[str]:
         """Every fault of the arguments."""
-        t_end, stop_at = self.t_end, self.stop_at
+        t_end, stop_at, state = self.t_end, self.stop_at, self.initial_state
         how = self.execution if isinstance(self.execution, Execution) else _PLAIN
-        starts = self.initial_state is None or isinstance(self.initial_state, State)
-        time = self.initial_state.time if isinstance(self.initial_state, State) else 0.0
+        starts = state is None or isinstance(state, State)
+        time = state.time if isinstance(state, State) else 0.0
         timed = is_finite(time)
         start = time if timed else 0.0
         later, rule = is_number(t_end) and start < t_end < math.inf, ""
@@ -196,7 +196,7 @@ class _Request:
             rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
         found = foreign_case(self.p) + violations(
             (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
-            (starts, "initial_state", self.initial_state, "must be a State"),
+            (starts, "initial_state", state, "must be a State"),
             (timed, "initial_state.time", time, "must be finite"),
             (later, "t_end", t_end, rule),
         )
@@ -220,28 +220,27 @@ class _Run:
 
     def __init__(self, asked: _Request) -> None:
         self.asked, p, ramps, start = asked, asked.p, asked.ramps, asked.start
-        # a case without ramps has a single piece, and skips the work of `pieces`
-        steady = courses.Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
-        self.pieces = courses.pieces(p, ramps) if ramps else (steady,)
+        self.pieces = courses.pieces(p, ramps)
         self.case = case = engine_case(p)
         self.key = content_key(case.key + repr(ramps)) if ramps else case.key
-        model = case.model
-        self.order = series_order(asked.tol)
-        self.tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
-        self.workspace = take_workspace(case, self.order)
+        model, order = case.model, series_order(asked.tol)
+        self.workspace = take_workspace(case, order)
         self.state = self.workspace.state
-        anew = False
-        if asked.initial_state is not None:
-            anew = write_state(case, asked.initial_state, self.state, self.key)
+        anew = asked.initial_state is not None and write_state(case, asked.initial_state, self.state, self.key)
         longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
-        most = asked.execution.max_steps
-        self.max_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
-        every_step = asked.record.audit_every_step
-        self.audit_every = 1 if every_step else AUDIT_EVERY
-        # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
-        self.pause_after = max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1)))
+        most, every_step = asked.execution.max_steps, asked.record.audit_every_step
+        self.limits = event_loop.Limits(
+            order=order,
+            tolerance=series_tolerance(asked.tol, compliant=p.contact_compliance != 0),
+            t_end=asked.t_end,
+            stop_at_first=asked.stop_at is not None,
+            max_steps=min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS),
+            # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
+            pause_after=max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1))),
+            audit_every=1 if every_step else AUDIT_EVERY,
+        )
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < asked.t_end:
@@ -252,6 +251,8 @@ class _Run:
     def _enter(self, place: int) -> None:
         """Continue with another piece of the ramps."""
         self.place[0], self.model, piece = place, self.case.model, self.pieces[place]
+        if self.asked.ramps:
+            self.limits = self.limits._replace(t_end=min(self.asked.t_end, piece.end))
         if not piece.constant:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
@@ -283,7 +284,7 @@ class _Run:
             "tol": repr(asked.tol),
             "record": repr(asked.record),
             "stop_at": str(asked.stop_at),
-            "max_steps": str(self.max_steps),
+            "max_steps": str(self.limits.max_steps),
             "initial state": " ".join(array.tobytes().hex() for array in self.state),
             "sources": source_hash("case"),
             "versions": json.dumps(versions(), sort_keys=True),
@@ -293,10 +294,9 @@ class _Run:
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
-        place = int(self.place[0])
         code = self.engine(*self._arguments())
-        if code == exit_codes.TIME_OVER and self.pieces[place].end < self.asked.t_end:
-            self._enter(place + 1)
+        if code == exit_codes.TIME_OVER and self.limits.t_end < self.asked.t_end:
+            self._enter(int(self.place[0]) + 1)
             code = exit_codes.PAUSED
         self.collector.drain()
         self.wall_time[0] += clock.perf_counter() - began
@@ -304,12 +304,8 @@ class _Run:
 
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `event_loop.run`."""
-        work, asked = self.workspace, self.asked
-        limits = event_loop.Limits(
-            self.order, self.tolerance, min(asked.t_end, self.pieces[self.place[0]].end), asked.stop_at is not None,
-            self.max_steps, self.pause_after, self.audit_every,
-        )  # fmt: skip
-        return self.model, work.series, work.state, work.probe, limits, self.collector.buffers
+        work = self.workspace
+        return self.model, work.series, work.state, work.probe, self.limits, self.collector.buffers
 
     @property
     def carried(self) -> Contents:

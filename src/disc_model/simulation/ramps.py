@@ -80,11 +80,14 @@ def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
         )
 
 
-def pieces(p: Parameters, ramps: Iterable[Ramp]) -> tuple[Piece, ...]:
+def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the last one unbounded; ramps to the present value do not count."""
+    steady = Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
+    if not ramps:
+        return (steady,)
     lines = {name: _line(p, ramps, name) for name in RAMPED}
     knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
-    found = [Piece(0.0, knots[0] if knots else math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)]
+    found = [steady._replace(end=knots[0] if knots else math.inf)]
     angle = p.Omega * found[0].end if knots else 0.0
     for begin, end in pairwise([*knots, math.inf]):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
