@@ -26,7 +26,6 @@ from disc_model.claims.model import (
     Claim,
     ClaimError,
     Finding,
-    Text,
     claims,
     paper_cases,
 )
@@ -67,15 +66,15 @@ def test_table_has_every_claim_once(table: pd.DataFrame) -> None:
 def test_cases_are_those_that_the_texts_speak_of() -> None:
     count = 0
     for claim in CLAIMS:
-        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.texts.claim):
-            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.texts.cases)}
+        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.claim):
+            found = {(p["N"], p["Omega"]) for p in (paper_cases()[name]["parameters"] for name in claim.cases)}
             assert tuple(map(float, phrase.groups())) in found, claim.id
             count += 1
     assert count > 10
 
 
 def test_the_workflow_is_told_of_every_scan() -> None:
-    named = {name for claim in CLAIMS for name in claim.texts.scans + claim.texts.beside}
+    named = {name for claim in CLAIMS for name in claim.scans + claim.beside}
     assert sorted(named | {"basins"}) == sorted(SCANS)  # of which every claim may have a remark
 
 
@@ -125,7 +124,7 @@ def test_what_is_missing_is_said(table: pd.DataFrame, claim: str, reason: str) -
 
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"perturbation": {"f": 1.0}}}
-    claim = Claim("x", Text(check="", location="", claim="", cases={"F11": 0}, ours=""), lambda _: Answer(True))
+    claim = Claim(id="x", check=lambda _: Answer(True), location="", claim="", cases={"F11": 0}, ours="")
     phrase = "case F11 does not begin with the static start in this study"
     assert claim.evaluate(views(tree_of(F11=case))).verdict == f"{NOT_COMPUTED}: {phrase}"
     assert claim.evaluate(views(tree_of(F11=case | {"start": {}}))).verdict == HOLDS

@@ -182,7 +182,7 @@ def test_a_damaged_case_among_whole_ones_ends_no_claim(damage: str, told: xr.Dat
     cases = views(told)
     for name, view in cases.items():
         hurt = cases | {name: CaseView(name, damaged(view.node, DAMAGES[damage]))}
-        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.texts.cases])
+        verdicts_of(hurt, [claim for claim in CLAIMS if name in claim.cases])
 
 
 def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree) -> None:
@@ -235,7 +235,7 @@ def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
 
 def test_half_of_a_whole_is_not_doubled_to_all_of_it() -> None:
     """F26 was undecided, since no decrease at all is as good as one to 100 %."""
-    judge = lambda one: Finding("", HOLDS if one.texts.bounds["part"] == 0.5 else FAILS)  # noqa: E731
+    judge = lambda one: Finding("", HOLDS if one.bounds["part"] == 0.5 else FAILS)  # noqa: E731
     assert BY_NAME["F26"].turned_by(judge, HOLDS) == "does not hold with part = 0.3333, part = 0.6667"
 
 

@@ -28,7 +28,7 @@ def told() -> tuple[int, list[int], str]:
 
 def test_every_row_of_the_ledger_is_counted() -> None:
     total, counts, text = told()
-    apart = sum(bool(claim.texts.apart) for claim in CLAIMS)
+    apart = sum(bool(claim.apart) for claim in CLAIMS)
     assert total == sum(counts) == len(CLAIMS) - apart
     assert f"Another {apart} rows of that table" in text
 

@@ -31,18 +31,18 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     cases = views(tree, scans)
     rows = []
     for claim in CLAIMS:
-        (found, turned), texts = claim.settle(lambda one, *changed: one.evaluate(cases, *changed)), claim.texts
+        found, turned = claim.settle(lambda one, *changed: one.evaluate(cases, *changed))
         row = {
             "id": claim.id,
-            "location": texts.location,
-            "claim": texts.claim,
-            "paper_value": claim.fill(texts.paper),
+            "location": claim.location,
+            "claim": claim.claim,
+            "paper_value": claim.fill(claim.paper),
             "ours": found.ours,
-            "tolerance": claim.fill(texts.tolerance),
-            "reason": texts.reason,
+            "tolerance": claim.fill(claim.tolerance),
+            "reason": claim.reason,
             "verdict": found.verdict,
             "remark": found.remark,
-            "apart": texts.apart,
+            "apart": claim.apart,
             "robust": turned,
         }
         rows.append(row)
@@ -143,7 +143,7 @@ def _verdicts(published: xr.DataTree, orthonormal: xr.DataTree) -> pd.DataFrame:
     kinds = [merged[name].replace(REMARK, HOLDS) for name in ("verdict", "verdict_new")]
     judged = ~(kinds[0] + kinds[1]).str.contains(NOT_COMPUTED)
     kept = merged[judged & (kinds[0] != kinds[1])]
-    by_model = kept["id"].isin([one.texts.also for one in survival.CONCLUSIONS])
+    by_model = kept["id"].isin([one.also for one in survival.CONCLUSIONS])
     return pd.DataFrame(
         {
             "Statement": [f"{row.id}: {row.claim}" for row in kept.itertuples()],

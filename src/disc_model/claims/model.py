@@ -1,6 +1,6 @@
 """Model of a claim: a text, a check, and the cases that the check examines.
 
-The text is data, in the YAML file of its section; see `Text` for its keys.  It names the check, a function of the
+The text is data, in the YAML file of its section; see `Claim` for its keys.  It names the check, a function of the
 module beside that file, or of another section's. The check receives cases and bounds. It returns an `Answer`: a
 verdict, and the numbers for the text's sentences.
 """
@@ -84,12 +84,21 @@ class Finding:
 Names = Literal[True] | tuple[str, ...]
 
 
-class Text(BaseModel):
-    """What a file says of a claim.
+RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
+"""Dimensionless bounds, which are compared with 1."""
+SHARES = frozenset({"part", "share"})
+"""Those of them that are parts of a whole."""
+CHANGED = 1.001
+"""Factor by which a parameter is changed to test whether the verdict changes."""
+
+
+class Claim(BaseModel):
+    """A statement of the paper: what a file says of it, and the function that decides it.
 
     Attributes
     ----------
-    check : name of the function that decides it
+    id : our name for it
+    check : the function that decides it, which a file names
     location : the place in the paper
     claim : the statement in our own words
     paper : the value the paper gives, or "" if it only shows it
@@ -113,7 +122,8 @@ class Text(BaseModel):
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    check: str
+    id: str
+    check: Callable[..., Answer]
     location: str
     claim: str
     paper: str = ""
@@ -136,23 +146,6 @@ class Text(BaseModel):
     apart: str = ""
     also: str = ""
 
-
-RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
-"""Dimensionless bounds, which are compared with 1."""
-SHARES = frozenset({"part", "share"})
-"""Those of them that are parts of a whole."""
-CHANGED = 1.001
-"""Factor by which a parameter is changed to test whether the verdict changes."""
-
-
-@dataclass(frozen=True)
-class Claim:
-    """A statement of the paper under our name for it, with the check that decides it."""
-
-    id: str
-    texts: Text
-    check: Callable[..., Answer]
-
     def fill(self, sentence: str) -> str:
         """A sentence with the claim's numbers, such as the paper's value or the tolerance."""
         return Sentences({}, self.numbers).fill(sentence)
@@ -160,20 +153,7 @@ class Claim:
     @property
     def numbers(self) -> dict[str, Any]:
         """Numbers that the check receives besides its evidence."""
-        return self.texts.given | self.texts.bounds
-
-    @property
-    def separating(self) -> tuple[str, ...]:
-        """The cases without whose separation the claim is not testable."""
-        if self.texts.separates is True:
-            known = paper_cases()
-            return tuple(name for name in self.texts.cases if known[name]["parameters"].get("contact") != "bonded")
-        return self.texts.separates
-
-    @property
-    def steady(self) -> tuple[str, ...]:
-        """The cases whose steady state it concerns."""
-        return tuple(self.texts.cases) if self.texts.steady is True else self.texts.steady
+        return self.given | self.bounds
 
     def judge(self, *evidence: Any) -> Finding:
         """Apply the check to this evidence; the verdict names missing evidence."""
@@ -188,17 +168,17 @@ class Claim:
         changed : a parameter that is taken to be 0.1 % larger
         """
         try:
-            needed = {name: _needed(cases, name, until) for name, until in self.texts.cases.items()}
+            needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
             if changed:
                 needed = {name: self._changed(case, changed) for name, case in needed.items()}
-            for name in self.texts.scans:
+            for name in self.scans:
                 if name not in cases:
                     raise Missing(f"study {name} is not among those of this run")
-            quiet = [needed[name] for name in self.separating if not needed[name].separates]
+            quiet = [case for case in _named(needed, self.separates) if not (case.separates or case.bonded)]
             if quiet:
                 text = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
                 return Finding(text, NOT_TESTABLE)
-            wanted = (*self.texts.scans, *self.texts.beside)
+            wanted = (*self.scans, *self.beside)
             studies = {name: cases[name].node.to_dataset() if name in cases else None for name in wanted}
             answer = self.check(*needed.values(), *studies.values(), **self.numbers)
             answer.values |= {
@@ -206,19 +186,19 @@ class Claim:
                 for name, study in studies.items()
                 if study is not None
             }
-            if "elsewhere" in self.texts.remarks:
+            if "elsewhere" in self.remarks:
                 answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
             found = self._found(answer, needed)
-            return _of_steady_state(found, [needed[name] for name in self.steady])
+            return _of_steady_state(found, _named(needed, self.steady))
         except Missing as missing:
             return _without(missing)
 
     def _changed(self, case: CaseView, parameter: str) -> CaseView:
         """The case with a parameter taken to be 0.1 % larger, or simulated with it."""
         other = replace(case, scaled=((parameter, CHANGED),))
-        if not self.texts.simulated:
+        if not self.simulated:
             return other
-        return CaseView(case.name, simulate_again(other.parameters, self.texts.cases[case.name]))
+        return CaseView(case.name, simulate_again(other.parameters, self.cases[case.name]))
 
     def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
         """Final result of the claim, undecided if a halved or doubled threshold changes the verdict; and such changes.
@@ -232,7 +212,7 @@ class Claim:
         if turned not in ("", "stable") and found.verdict != UNDECIDED:
             remark = "; ".join(filter(None, (f"not robust: {turned}", found.remark)))
             found = replace(found, verdict=UNDECIDED, remark=remark)
-        if not self.texts.simulated or found.verdict.startswith(NOT_COMPUTED):
+        if not self.simulated or found.verdict.startswith(NOT_COMPUTED):
             return found, turned
         others = _turns({name: judge(self, name).verdict for name in PHYSICAL}, found.verdict)
         if others:
@@ -246,36 +226,36 @@ class Claim:
 
         Of ratios between 0.5 and 2 the distance from 1 is halved or doubled, of parts of a whole the ratio to the rest.
         """
-        if not (self.texts.bounds or self.texts.computed) or verdict.startswith(NOT_COMPUTED):
+        if not (self.bounds or self.computed) or verdict.startswith(NOT_COMPUTED):
             return ""
         others = {}
-        for name, bound in self.texts.bounds.items():
+        for name, bound in self.bounds.items():
             for factor in (0.5, 2.0):
                 other = factor * bound
                 if name in RELATIVE and 0.5 < bound < 2:
                     other = 1 + factor * (bound - 1)
                 elif name in SHARES:
                     other /= 1 + (factor - 1) * bound
-                texts = self.texts.model_copy(update={"bounds": self.texts.bounds | {name: other}})
-                others[f"{name} = {other:.4g}"] = judge(replace(self, texts=texts)).verdict
-        if self.texts.computed:
+                changed = self.model_copy(update={"bounds": self.bounds | {name: other}})
+                others[f"{name} = {other:.4g}"] = judge(changed).verdict
+        if self.computed:
             others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
         return _turns(others, verdict) or "stable"
 
     def _found(self, answer: Answer, cases: Mapping[str, CaseView]) -> Finding:
-        texts, values = self.texts, self.numbers | {**cases, "cases": rows(cases.values())} | answer.values
+        values = self.numbers | {**cases, "cases": rows(cases.values())} | answer.values
         if cases:
             values.setdefault("case", next(iter(cases.values())))
         if answer.holds is None and not answer.why:
-            remarks, verdict = [texts.remark], NOT_TESTABLE
+            remarks, verdict = [self.remark], NOT_TESTABLE
         elif answer.holds is None:
-            remarks, verdict = [texts.undecided[answer.why]], UNDECIDED
+            remarks, verdict = [self.undecided[answer.why]], UNDECIDED
         else:
-            remarks = [*filter(None, [texts.remark]), *(text for name, text in texts.remarks.items() if values[name])]
+            remarks = [*filter(None, [self.remark]), *(text for name, text in self.remarks.items() if values[name])]
             verdict = (REMARK if remarks else HOLDS) if answer.holds else FAILS
-        sentences = Sentences(texts.parts, values)
+        sentences = Sentences(self.parts, values)
         try:
-            return Finding(sentences.fill(texts.ours), verdict, "; ".join(map(sentences.fill, remarks)))
+            return Finding(sentences.fill(self.ours), verdict, "; ".join(map(sentences.fill, remarks)))
         except KeyError as name:
             raise ClaimError(
                 f"claim {self.id}: no value {name} among those of its check: {', '.join(values)}"
@@ -296,20 +276,22 @@ def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Pat
     ClaimError
         For a text without a check, a check without a text, and all other faults of texts, together.
     """
-    faults, found = [], []
+    faults, found, named = [], [], set()
     common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
     for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
         for key in ("remarks", "undecided"):  # keys without a text use the common one
             raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
+        check = raw.get("check")
+        named.add(check)
+        faults += [] if check in checks else [f"{file}: {name}: no check {check}"]
         try:
-            text = Text.model_validate(raw)
+            found.append(Claim.model_validate(raw | {"id": name, "check": checks.get(check, Answer)}))
         except ValidationError as error:
             faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
-            continue
-        faults += [] if text.check in checks else [f"{file}: {name}: no check {text.check}"]
-        faults += [f"{file}: {name}: no case {one} in the paper's" for one in text.cases if one not in paper_cases()]
-        found.append(Claim(name, text, checks.get(text.check, Answer)))
-    faults += [f"{name}: a check without a text" for name in sorted(checks.keys() - {one.texts.check for one in found})]
+        faults += [
+            f"{file}: {name}: no case {one} in the paper's" for one in raw.get("cases", {}) if one not in paper_cases()
+        ]
+    faults += [f"{name}: a check without a text" for name in sorted(checks.keys() - named)]
     if faults:
         raise ClaimError("\n".join(faults))
     return tuple(found)
@@ -346,6 +328,11 @@ def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
     if moving:
         return Finding(found.ours, UNDECIDED, f"not yet steady: {moving}")
     return replace(found, ours=f"{found.ours} (steady: {', '.join(drifts)})") if drifts else found
+
+
+def _named(cases: Mapping[str, CaseView], names: Names) -> list[CaseView]:
+    """The cases of these names, all if true."""
+    return [case for name, case in cases.items() if names is True or name in names]
 
 
 def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:

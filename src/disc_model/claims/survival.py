@@ -311,8 +311,8 @@ def page_of(table: pd.DataFrame) -> Comparison:
     """Results of `judge` as a page: all verdicts at a glance, then their evidence."""
     texts = page_texts("survival")
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
-    first = pd.DataFrame({"Conclusion": [one.texts.claim for one in CONCLUSIONS]})
-    first["Place"] = [one.texts.location for one in CONCLUSIONS]
+    first = pd.DataFrame({"Conclusion": [one.claim for one in CONCLUSIONS]})
+    first["Place"] = [one.location for one in CONCLUSIONS]
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
     sections = [("At a glance", texts["introduction"], first)]
@@ -321,7 +321,6 @@ def page_of(table: pd.DataFrame) -> Comparison:
         shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
         if not rows["remark"].any():
             shown = shown.drop(columns="Remark")
-        said = one.texts
-        rule = texts["rule"].format(text=said.claim, tolerance=one.fill(said.tolerance), reason=said.reason)
+        rule = texts["rule"].format(text=one.claim, tolerance=one.fill(one.tolerance), reason=one.reason)
         sections.append((one.id, rule, shown))
     return Comparison(texts["title"], tuple(sections))
