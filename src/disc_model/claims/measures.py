@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -118,7 +118,17 @@ class CaseView:
     @property
     def motion(self) -> str:
         """Class of the in-plane motion within the stored events, in words."""
-        return self.late_motion()[1]
+        times, motion = self.intervals(), self.late_motion()
+        if not motion.period:
+            test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
+            rate = f"{1 / times.mean():.1f} releases/s"
+            return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
+        length = float(times[: motion.period].sum())
+        apart = round(self.rate_of("separation") * length)
+        releases = counted(motion.period, "release")
+        after = f"{releases} = {apart} separations" if apart else releases
+        seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
+        return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
 
     @property
     def early(self) -> Range:
@@ -161,7 +171,7 @@ class CaseView:
 
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
-        history = self.ranges("history")
+        history = self.history
         time = history["time"].values
         half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # the width of a single bin is unknown
         inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
@@ -185,9 +195,10 @@ class CaseView:
         found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
         return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
 
-    def ranges(self, window: str) -> xr.Dataset:
-        """Least and greatest values within the bins of a window; raises `Missing`."""
-        return self._held(dataset.ranges, window)
+    @property
+    def history(self) -> xr.Dataset:
+        """Least and greatest values of variables within the bins of the window `history`; raises `Missing`."""
+        return self._held(dataset.ranges, "history")
 
     def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
         try:
@@ -259,23 +270,9 @@ class CaseView:
         spent = lasting[events["phase"].values == PHASES.index(phase)]
         return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
 
-    def late_motion(self, closes: float = CLOSES) -> tuple[Motion, str]:
-        """Class of the in-plane motion within the stored events, also in words.
-
-        closes : s, see `disc_model.analysis.classify.motion_of`
-        """
-        times = self.intervals()
-        motion = classify_intervals(tuple(times), closes)
-        if not motion.period:
-            test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
-            rate = f"{1 / times.mean():.1f} releases/s"
-            return motion, f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
-        length = float(times[: motion.period].sum())
-        apart = round(self.rate_of("separation") * length)
-        releases = counted(motion.period, "release")
-        after = f"{releases} = {apart} separations" if apart else releases
-        seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
-        return motion, f"periodic: repeats after {after} = {length:.6g} s, {seen}"
+    def late_motion(self, closes: float = CLOSES) -> Motion:
+        """Class of the in-plane motion within the stored events; closes : s, see `motion_of`."""
+        return classify_intervals(tuple(self.intervals()), closes)
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> Signal:
         """A variable between two times, from the samples of a window; raises `Missing` without any."""
@@ -302,8 +299,7 @@ class CaseView:
 
     def slope(self, name: str, start: float, stop: float) -> float:
         """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
-        history = self.ranges("history")
-        part = history.sel(time=slice(start, stop))
+        part = self.history.sel(time=slice(start, stop))
         if part.sizes["time"] < 4:
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
         width = part[f"{name}_max"].values - part[f"{name}_min"].values
@@ -414,7 +410,7 @@ def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | 
     return besides and motion.kind is kind, ""
 
 
-def another_motion(*cases: CaseView) -> list[str]:
+def another_motion(cases: Collection[CaseView]) -> list[str]:
     """Cases that stick although another start leads to a motion with the same parameters that does not; it is told."""
     begun = {case.parameters: case for case in cases if not case.from_rest and case.separates}
     found = []
@@ -467,6 +463,12 @@ def extent(values: Iterable[float]) -> Range:
     """Least and greatest of some numbers."""
     found = np.asarray(values)
     return Range(float(found.min()), float(found.max()))
+
+
+def facts(study: xr.Dataset) -> dict[str, Any]:
+    """What sentences say of a grid study: its base values, its options, and how far each axis of numbers extends."""
+    axes = {str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"}
+    return stated_in(study, "base") | stated_in(study, "options") | axes
 
 
 def runs(values: Array, inside: NDArray[np.bool_]) -> list[Range]:

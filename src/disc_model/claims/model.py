@@ -19,10 +19,9 @@ import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from disc_model.analysis.classify import SETTLED
-from disc_model.claims.measures import STRETCH, Absent, CaseView, elsewhere, rows, simulate_again
+from disc_model.claims.measures import STRETCH, Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Part, Sentences
-from disc_model.data.variables import stated_in
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 
@@ -64,7 +63,7 @@ class Answer:
     ----------
     holds : whether the claim holds; None if the evidence does not decide it
     why : in that case, the key of the text's reason for it; empty if no evidence of this kind can decide
-    values : values for the sentences beside bounds, what grid studies state (each by its name) and cases (each by its
+    values : values for the sentences beside bounds, `facts` of grid studies (each by its name) and cases (each by its
         name, the first as ``case``, all as rows of ``cases``); a remark is added if the value of its name is true
     """
 
@@ -113,8 +112,8 @@ class Claim(BaseModel):
     scans : the grid studies that the check is given besides
     beside : further ones, for remarks only: None instead of one that is missing
     ours : what we found
-    remark, remarks : what should be known besides: in any case; where the value of that name is true.  ``elsewhere`` is
-        one of any claim, see `disc_model.claims.measures.elsewhere`
+    remark, remarks : what should be known besides: in any case; where the value of that name is true. Any may have
+        ``elsewhere`` and ``another``, see `elsewhere` and `another_motion` in `disc_model.claims.measures`
     undecided : by name, reasons why the evidence may decide nothing
     parts : by name of a value, how its rows are said
     apart : why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint
@@ -181,13 +180,11 @@ class Claim(BaseModel):
             wanted = (*self.scans, *self.beside)
             studies = {name: cases[name].node.to_dataset() if name in cases else None for name in wanted}
             answer = self.check(*needed.values(), *studies.values(), **self.numbers)
-            answer.values |= {
-                name: stated_in(study, "base") | stated_in(study, "options")
-                for name, study in studies.items()
-                if study is not None
-            }
+            answer.values |= {name: facts(study) for name, study in studies.items() if study is not None}
             if "elsewhere" in self.remarks:
                 answer.values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
+            if "another" in self.remarks:
+                answer.values["another"] = another_motion(needed.values())
             found = self._found(answer, needed)
             return _of_steady_state(found, _named(needed, self.steady))
         except Missing as missing:

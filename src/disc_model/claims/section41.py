@@ -70,12 +70,9 @@ def releases_regularly(case: CaseView, *, within: float) -> Answer:
     return Answer(spread <= within, interval=intervals.mean(), rate=1 / intervals.mean(), spread=spread)
 
 
-def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
-    """Whether the in-plane motion is quasi-periodic.
-
-    ``other`` has the same parameters and another start, ``near`` the same start and a spring 0.1 % stiffer.
-    """
-    motion, beside = (each.late_motion(closes)[0] for each in (case, near))
+def is_quasi_periodic(case: CaseView, _: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
+    """Whether the in-plane motion is quasi-periodic; ``near`` has the same start and a spring 0.1 % stiffer."""
+    motion, beside = (each.late_motion(closes) for each in (case, near))
     length = case.intervals()[: motion.period].sum() if motion.period else 0.0
     return Answer(
         *is_kind(Outcome.QUASI_PERIODIC, motion, near=beside),
@@ -83,12 +80,11 @@ def is_quasi_periodic(case: CaseView, other: CaseView, near: CaseView, *, shown:
         within=0 < length <= shown,
         irregular=motion.kind is Outcome.IRREGULAR,
         nearby=measures.nearby(motion, beside),
-        another=motion.kind is not Outcome.UNDECIDED and measures.another_motion(case, other),
     )
 
 
 def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
-    return Answer(case.stick > share, modulated=not case.late_motion()[0].period)
+    return Answer(case.stick > share, modulated=not case.late_motion().period)
 
 
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
@@ -196,15 +192,13 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
         changes.append(any(changed))
         own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
         found.append({"case": case, "before": before, "after": after, "ignored": control})
-    another = measures.another_motion(*cases)
-    return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found, another=another)
+    return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found)
 
 
 def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
     """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
     rows = _with_stick([case for case in cases if case.from_rest], factor)
-    both = any(row["narrower"] and row["otherwise"] for row in rows)
-    return Answer(both, pairs=rows, another=measures.another_motion(*cases))
+    return Answer(any(row["narrower"] and row["otherwise"] for row in rows), pairs=rows)
 
 
 def _with_stick(cases: Sequence[CaseView], factor: float) -> list[dict[str, Any]]:
@@ -239,12 +233,11 @@ def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
     return Answer(apart <= within, apart=apart)
 
 
-def is_intricate(case: CaseView, other: CaseView, *near: CaseView, most: float) -> Answer:
-    """Whether the in-plane motion has no short period; ``other`` and ``near`` as in `is_quasi_periodic`."""
-    motion, _ = case.late_motion()
-    nearby = [row for each in near for row in measures.nearby(motion, each.late_motion()[0])]
-    another = measures.another_motion(case, other)
-    return Answer(not 0 < motion.period <= most, periodic=motion.period > 0, nearby=nearby, another=another)
+def is_intricate(case: CaseView, _: CaseView, *near: CaseView, most: float) -> Answer:
+    """Whether the in-plane motion has no short period; ``near`` as in `is_quasi_periodic`."""
+    motion = case.late_motion()
+    nearby = [row for each in near for row in measures.nearby(motion, each.late_motion())]
+    return Answer(not 0 < motion.period <= most, periodic=motion.period > 0, nearby=nearby)
 
 
 def slip_condition(*cases: CaseView) -> Answer:
@@ -271,8 +264,6 @@ def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
         None if moving.size else float(settled.min()) > share,
         "moving",
         count=points.sizes["point"],
-        N=measures.extent(study["N"]),
-        Omega=measures.extent(study["Omega"]),
         settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
         moving=moving.size,
         least=_least_stick(moving) if moving.size else "",

@@ -36,7 +36,7 @@ def larger_range(below: CaseView, above: CaseView, *, factor: float) -> Answer:
 
 
 def later_periodic(case: CaseView, bonded: CaseView, *, closes: float) -> Answer:
-    periodic, too = (each.late_motion(closes)[0].period > 0 for each in (case, bonded))
+    periodic, too = (each.late_motion(closes).period > 0 for each in (case, bonded))
     return Answer(periodic, too=too)
 
 
@@ -47,12 +47,11 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     holds, values = all(falls for falls, _ in found), found[-1][1]
     again = holds and values["again"]
     scan, horizon = study["scan_Omega"].values, float(study["horizon"][-1])
-    step = float(scan[1] - scan[0])
-    return Answer(None if again else holds, "again", scan=measures.extent(scan), step=step, horizon=horizon, **values)
+    return Answer(None if again else holds, "again", step=scan[1] - scan[0], horizon=horizon, **values)
 
 
 def very_different(below: CaseView, above: CaseView, *, factor: float) -> Answer:
-    rows = [{"case": case, "motion": case.late_motion()[0]} for case in (below, above)]
+    rows = [{"case": case, "motion": case.late_motion()} for case in (below, above)]
     return Answer(factor * below.late.width < above.late.width, motions=rows)
 
 

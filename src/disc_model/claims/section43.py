@@ -141,14 +141,13 @@ def disc_damping(*cases: CaseView, factor: float) -> Answer:
 
 
 def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answer:
-    periodic = case.late_motion(closes)[0].period > 0
+    periodic = case.late_motion(closes).period > 0
     return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p", 0.0, case["c_p"]))
 
 
 def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
     """Whether the disc's motion repeats and, as an unstable one would, departs from itself at a growing rate."""
-    motion, text = case.late_motion()
-    released = case.switches("stick_to_slip")
+    motion, released = case.late_motion(), case.switches("stick_to_slip")
     period = max(motion.period, 1)
     units = {"u": abs(case["u_0"]), "u_velocity": abs(case["u_0"]) * case["Omega"]}
     scaled = np.array([released[name] / unit for name, unit in units.items()])
@@ -158,7 +157,7 @@ def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
     return Answer(
         None if holds and late <= factor * early else holds,
         "attracts",
-        text=text.removeprefix("periodic: "),
+        text=case.motion.removeprefix("periodic: "),
         apart=apart,
         points=distinct_points(case.late_section(150)),
     )
@@ -173,7 +172,7 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
 
 
 def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
-    motion = case.late_motion(closes)[0]
+    motion = case.late_motion(closes)
     irregular = motion.kind is Outcome.IRREGULAR
     return Answer(None, "irregular") if irregular else Answer(*is_kind(Outcome.QUASI_PERIODIC, motion))
 
@@ -217,7 +216,7 @@ def _grid(p: Parameters) -> list[Parameters]:
 
 
 def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
-    motion, beside = (each.late_motion(closes)[0] for each in (case, near))
+    motion, beside = (each.late_motion(closes) for each in (case, near))
     repeats, nearby = motion.period > 0, measures.nearby(motion, beside)
     return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates, beside), repeats=repeats, nearby=nearby)
 
@@ -288,7 +287,6 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, 
     return Answer(
         True if decisive.all() else None if each or shown.any() else False,
         "some" if each else "beyond",
-        N=measures.extent(loads),
         compared=compared,
         newly=[f"{N:g}" for N in loads[quiet][newly[:, dampers == c_p].any(axis=1)]] or ["none"],
         some=rows,
@@ -372,7 +370,6 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         mixed if some.any() and not softer else None,
         "enough" if softer else "nowhere",
-        Omega=measures.extent(Omega),
         E=measures.extent(E),
         none_for=[{"quiet": list(E[~some])}] if mixed else [],
         base_too=[{"slow": slow}] if at.any() and not apart[E <= BASE.E / 1e9][:, at].any() else [],
@@ -418,8 +415,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     begun = [case for case in cases if case.from_rest]
-    vanishes = min(case.stick for case in begun) <= share
-    return Answer(vanishes, shares=measures.rows(begun), another=measures.another_motion(*cases))
+    return Answer(min(case.stick for case in begun) <= share, shares=measures.rows(begun))
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:

@@ -287,7 +287,7 @@ def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Ans
     every, coarse = (_further(found, rate, case.drive, width) for width in (apart, 2 * apart))
     further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
     second = further[1].amplitude / further[0].amplitude if len(further) > 1 else 1.0
-    holds, why = is_kind(Outcome.IRREGULAR, case.late_motion()[0], len(further) >= several)
+    holds, why = is_kind(Outcome.IRREGULAR, case.late_motion(), len(further) >= several)
     depends = holds and len(fewer) < several
     return Answer(
         None if depends else holds,

@@ -99,23 +99,22 @@ def onset(found: Evidence, *, beside: float) -> Answer:
     if (outcome == "failed").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
-    stable, unstable, none = growth < -SLOW, growth > SLOW, np.isnan(growth)
-    counts = [int((apart & where).sum()) for where in (unstable, none, stable)]
+    cycles = {"stable": growth < -SLOW, "unstable": growth > SLOW, "none": np.isnan(growth)}
+    counts = {kind: int((apart & where).sum()) for kind, where in cycles.items()}
+    stable = cycles["stable"]
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
     folds = found.grid("survival_curves")
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
     soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(folds, load)) for load, speed in early)
-    compared = counts[0] > 0 and bool(stable.any())
+    compared = counts["unstable"] > 0 and bool(stable.any())
     return Answer(
         soon if compared or not soon else None,
         "nothing",
         apart=int(apart.sum()),
         count=apart.size,
-        unstable=counts[0],
-        none=counts[1],
-        stable=counts[2],
         quiet=int((stable & ~apart).sum()),
         early=[measures.place(*at) for at in early] if soon else [],
+        **counts,
     )
 
 
@@ -152,11 +151,11 @@ def fold(found: Evidence, *, load: float, within: float) -> Answer:
 
 def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, float]:
     """Growth rates at the map's nearest speeds below and above an interval, 1/s; nan without a cycle."""
-    speed, rate = growth["Omega"].values, growth["growth_rate"].values
-    below, above = np.searchsorted(speed, low, side="right") - 1, np.searchsorted(speed, high)
-    if below < 0 or above >= speed.size:
-        raise Missing("study survival_growth does not reach as far as survival_speed")
-    return float(rate[below]), float(rate[above])
+    rate = growth["growth_rate"]
+    try:
+        return float(rate.sel(Omega=low, method="pad")), float(rate.sel(Omega=high, method="backfill"))
+    except KeyError:
+        raise Missing("study survival_growth does not reach as far as survival_speed") from None
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -212,13 +211,9 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
 
 
 def stick_vanishes(found: Evidence, *, share: float) -> Answer:
-    stays, rows = [], []
-    for case in found.separating():
-        late = case.phase_share("stick")
-        if not stick_disappears(case["time_stick"] / case["time_reached"], late, share):
-            stays.append(case.place)
-        rows.append({"case": case, "percent": 100 * late})
-    return Answer(len(stays) < len(rows) if rows else None, "none", cases=rows, stays=stays)
+    cases = found.separating()
+    stays = [case.place for case in cases if not stick_disappears(case.stick_in_all, case.stick, share)]
+    return Answer(len(stays) < len(cases) if cases else None, "none", cases=measures.rows(cases), stays=stays)
 
 
 def normal_damping(found: Evidence) -> Answer:
