@@ -8,7 +8,7 @@ import cmath
 import dataclasses
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Self
@@ -301,7 +301,12 @@ def _events(p: Parameters, story: Story, start: float, stop: float) -> xr.Datase
         rows += [(t + dt, kind, phase, angle, height, velocity, force) for dt, kind, phase in after]
     if story.contrary:
         rows = rows[: max((i for i, row in enumerate(rows) if row[1] == "reattachment"), default=len(rows))]
-    frame = pd.DataFrame(rows, columns=["time", "kind", "phase", "psi", "u", "u_velocity", "P"])
+    return kept_events(rows, start, stop, "psi", "u", "u_velocity", "P")
+
+
+def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float, *beside: str) -> xr.Dataset:
+    """Events as a case keeps them between two times: each a time, a kind, a phase and values beside."""
+    frame = pd.DataFrame(rows, columns=["time", "kind", "phase", *beside])
     return events_dataset(frame).assign_attrs(kept_from=start, kept_until=stop)
 
 

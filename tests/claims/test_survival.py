@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 import yaml
@@ -14,10 +13,9 @@ from disc_model.claims import SURVIVAL_GRIDS
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, Finding
 from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
-from disc_model.data.dataset import events_dataset
 from disc_model.data.variables import STATUSES
 from disc_model.studies.study import load_study
-from tests.claims.made_up import grid, logistic
+from tests.claims.made_up import grid, kept_events, logistic
 
 BY_TITLE = {one.id: one for one in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"
@@ -211,8 +209,7 @@ def case(
     times = times[(times > released) & (times < 299)]
     rows = [(240.0, "slip_to_stick", "stick"), (released, "stick_to_slip", "slip")]
     rows += [row for at in times for row in ((at, "separation", "separation"), (at + 1e-4, "reattachment", "slip"))]
-    frame = pd.DataFrame(sorted(rows), columns=["time", "kind", "phase"])
-    events = events_dataset(frame).assign_attrs(kept_from=240.0, kept_until=300.0)
+    events = kept_events(sorted(rows), 240.0, 300.0)
     scalars = {
         "N": N,
         "Omega": 20.0,

@@ -30,10 +30,11 @@ from disc_model.claims.model import (
     paper_cases,
 )
 from disc_model.claims.pages import to_markdown
-from disc_model.data.dataset import Missing, events_dataset
+from disc_model.data.dataset import Missing
 from disc_model.simulation.api import run_case
 from disc_model.stability.cycle import floquet
 from disc_model.studies.study import parse_study
+from tests.claims.made_up import kept_events
 from tests.claims.test_pages import COLUMNS
 
 
@@ -204,11 +205,7 @@ def test_a_number_that_a_text_lacks_is_named(tmp_path: Path) -> None:
 
 def case_with(*events: tuple[float, str, str]) -> CaseView:
     """Five seconds with these events."""
-    frame = pd.DataFrame(events, columns=["time", "kind", "phase"])
-    groups = {
-        "/": xr.Dataset({"time_reached": 5.0}),
-        "/events": events_dataset(frame).assign_attrs(kept_from=0.0, kept_until=5.0),
-    }
+    groups = {"/": xr.Dataset({"time_reached": 5.0}), "/events": kept_events(events, 0.0, 5.0)}
     return CaseView("X", xr.DataTree.from_dict(groups))
 
 

@@ -48,8 +48,8 @@ def main(name: str, csv: str, md: str, html: str, path: str) -> None:
         table, missing = table_2_or_why(case)
         table, note = table.round(3), missing or note
     table.to_csv(csv, index=False)
-    head = [NAMES[str(column)] for column in table.columns]
+    table = table.rename(columns=NAMES)
     rows = ([cell(x) for x in row] for row in table.itertuples(index=False))
-    lines = [f"# {TITLES[name]}", "", note, "", *markdown_table(head, rows)]
+    lines = [f"# {TITLES[name]}", "", note, "", *markdown_table(table.columns, rows)]
     Path(md).write_text("\n".join(lines) + "\n", encoding="utf-8")
-    Path(html).write_text(table_page(TITLES[name], note, table, NAMES), encoding="utf-8")
+    Path(html).write_text(table_page(TITLES[name], note, table), encoding="utf-8")

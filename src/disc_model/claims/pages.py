@@ -94,9 +94,9 @@ class Comparison:
         return page(self.title, *body)
 
 
-def table_page(title: str, note: str, table: pd.DataFrame, names: Mapping[str, str] | None = None) -> str:
-    """A table as a page; `names` are headings by column."""
-    return page(title, f"<p>{escape(note)}</p>" if note else "", table_html(table.rename(columns=names or {})))
+def table_page(title: str, note: str, table: pd.DataFrame) -> str:
+    """A table as a page, with a note above it."""
+    return page(title, f"<p>{escape(note)}</p>", table_html(table))
 
 
 def table_html(table: pd.DataFrame) -> str:

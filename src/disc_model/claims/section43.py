@@ -224,8 +224,8 @@ def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
 def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     faster = base.growth_rate > soft.growth_rate
-    rates, _ = _stiffened(base.parameters, "k_p")
-    changes = np.count_nonzero(np.diff(np.sign(rates)))
+    (found,) = _stiffened(base.parameters, "k_p", base.parameters.Omega)
+    changes = np.count_nonzero(np.diff(np.sign(found["growth"])))
     return Answer(sooner and faster and _stays_calm(stiff), between=changes > 1 and changes)
 
 
@@ -317,13 +317,13 @@ def not_monotonous(*evidence: Any) -> Answer:
     newly = (apart & ~apart[:, :1]).any(axis=1)
     growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
     lowered = growing & (growth[:, -1] < growth[:, 0])
-    rates, text = _stiffened(cases[0].parameters.replace(Omega=50, N=300), "k_p")
-    signs = {*np.sign(np.diff(rates))}
+    (stiffened,) = _stiffened(cases[0].parameters.replace(N=300), "k_p", 50)
+    signs = {*np.sign(np.diff(stiffened["growth"]))}
     by_preload = [case.separates for case in cases] == [False, True, False]
     return Answer(
         by_preload and newly.any() and lowered.any() and {-1, 1} <= signs,
         loads=measures.rows(cases),
-        rates=text,
+        rates=stiffened["text"],
         newly=[f"{N:g}" for N in loads[newly]] or ["none"],
         most=damping[-1],
         lowered=lowered.sum(),
@@ -343,21 +343,21 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
 
 
 def stiffer_disc(*cases: CaseView) -> Answer:
-    rates, said = _stiffened_at_speeds(cases[0], "E", 11, 20)
-    # a cycle at every stiffness
-    falls = all(each.size == len(STIFFENED["E"][2]) and np.all(np.diff(each) < 0) for each in rates)
-    return Answer(falls, discs=[{"case": case, "GPa": case["E"] / 1e9} for case in cases], rates=said)
+    found = _stiffened(cases[0].parameters, "E", 11, 20)
+    every = all(row["growth"].size == len(STIFFENED["E"][2]) for row in found)  # a cycle at every stiffness
+    discs = [{"case": case, "GPa": case["E"] / 1e9} for case in cases]
+    return Answer(every and all(np.all(np.diff(row["growth"]) < 0) for row in found), discs=discs, rates=found)
 
 
 def stiffer_spring(case: CaseView) -> Answer:
-    rates, said = _stiffened_at_speeds(case, "k", 20, 50)
-    return Answer(all(np.all(np.diff(each) < 0) for each in rates), rates=said)
+    found = _stiffened(case.parameters, "k", 20, 50)
+    return Answer(all(np.all(np.diff(row["growth"]) < 0) for row in found), rates=found)
 
 
 def stiffer_inplane(case: CaseView) -> Answer:
-    rates, said = _stiffened_at_speeds(case, "k_p", 20, 50)
-    rises = all(np.all(np.diff(each[: np.argmax(each) + 1]) > 0) for each in rates)
-    return Answer(rises, rates=said)
+    found = _stiffened(case.parameters, "k_p", 20, 50)
+    rising = [row["growth"][: np.argmax(row["growth"]) + 1] for row in found]
+    return Answer(all(np.all(np.diff(rates) > 0) for rates in rising), rates=found)
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -451,16 +451,12 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     return found | {"points": len(points), "value": much, "places": places}
 
 
-def _stiffened_at_speeds(case: CaseView, name: str, *speeds: float) -> tuple[list[Array], list[dict[str, Any]]]:
-    """Growth rates of `_stiffened` at some speeds in rad/s, also in words."""
-    by_speed = {speed: _stiffened(case.parameters.replace(Omega=speed), name) for speed in speeds}
-    said = [{"Omega": speed, "text": text} for speed, (_, text) in by_speed.items()]
-    return [rates for rates, _ in by_speed.values()], said
-
-
-def _stiffened(p: Parameters, name: str) -> tuple[Array, str]:
-    """Growth rates for the values of `STIFFENED`, 1/s, where there is a cycle; those of all values in words."""
+def _stiffened(p: Parameters, name: str, *speeds: float) -> list[dict[str, Any]]:
+    """Growth rates for the values of `STIFFENED` at some speeds in rad/s: those of cycles, 1/s; and all, in words."""
     unit, symbol, values = STIFFENED[name]
-    rates = np.array([growth_or_nan(p.replace(**{name: unit * value})) for value in values])
-    text = ", ".join(map(rate_text, rates))
-    return rates[np.isfinite(rates)], f"{text} per second for {', '.join(map(str, values))} {symbol}"
+    rows = []
+    for speed in speeds:
+        rates = np.array([growth_or_nan(p.replace(**{name: unit * value, "Omega": speed})) for value in values])
+        text = f"{', '.join(map(rate_text, rates))} per second for {', '.join(map(str, values))} {symbol}"
+        rows.append({"Omega": speed, "growth": rates[np.isfinite(rates)], "text": text})
+    return rows
