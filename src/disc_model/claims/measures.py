@@ -31,6 +31,8 @@ STRETCHES, STRETCH = 3, 20.0
 differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
+CHANGED = 1.001
+"""Factor by which a parameter is changed to test whether the verdict changes."""
 EARLY = (1.0, 1.0 + STRETCH)
 """The first 20 s without the first second, s."""
 
@@ -55,11 +57,11 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseView:
-    """View of one case; ``scaled``: factors by which parameters are taken to differ."""
+    """View of one case; ``larger``: a parameter that is taken to be larger by the factor `CHANGED`."""
 
     name: str
     node: xr.DataTree
-    scaled: tuple[tuple[str, float], ...] = ()
+    larger: str = ""
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
@@ -68,7 +70,7 @@ class CaseView:
     @property
     def parameters(self) -> Parameters:
         p = Parameters.model_validate_json(self.node.attrs["parameters"])
-        return p.replace(**{name: factor * getattr(p, name) for name, factor in self.scaled}) if self.scaled else p
+        return p.replace(**{self.larger: CHANGED * getattr(p, self.larger)}) if self.larger else p
 
     @property
     def status(self) -> str:

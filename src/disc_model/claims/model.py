@@ -87,8 +87,6 @@ RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
 """Dimensionless bounds, which are compared with 1."""
 SHARES = frozenset({"part", "share"})
 """Those of them that are parts of a whole."""
-CHANGED = 1.001
-"""Factor by which a parameter is changed to test whether the verdict changes."""
 
 
 class Claim(BaseModel):
@@ -192,7 +190,7 @@ class Claim(BaseModel):
 
     def _changed(self, case: CaseView, parameter: str) -> CaseView:
         """The case with a parameter taken to be 0.1 % larger, or simulated with it."""
-        other = replace(case, scaled=((parameter, CHANGED),))
+        other = replace(case, larger=parameter)
         if not self.simulated:
             return other
         return CaseView(case.name, simulate_again(other.parameters, self.cases[case.name]))
