@@ -10,16 +10,17 @@ import tomllib
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, PositiveFloat
 
 from disc_model.errors import DiscModelError
 
 if TYPE_CHECKING:
     from disc_model.benchmarks.methods.base import MethodResult, Problem
 
-SCENES = ("stick_slip", "separating", "many_modes", "rigid")
+Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
+SCENES: tuple[str, ...] = get_args(Scene)
 """Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
 
 
@@ -36,12 +37,12 @@ class Method(BaseModel):
     place: str
     arguments: tuple[str, ...] = ()
     setting: Literal["tol", "step", "epsilon"] = "tol"
-    order: float = math.nan
-    settings: dict[str, tuple[float, ...]]
+    order: PositiveFloat = math.nan
+    settings: dict[Scene, tuple[float, ...]]
     map_values: tuple[float, ...] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
     map_budget: float = 1.0
     map_arguments: tuple[str, ...] | None = None
-    maps: tuple[str, ...] = ()
+    maps: tuple[Scene, ...] = ()
     requires: tuple[str, ...] = ()
 
     def absent(self) -> list[str]:

@@ -10,7 +10,7 @@ import pytest
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods.base import Meter, Problem
 from disc_model.benchmarks.registry import METHODS
-from tests.benchmarks.methods.problems import BASE
+from tests.benchmarks.methods.problems import BASE, task
 
 ONE_MODE = SimpleNamespace(
     a=slice(0, 1), b=slice(1, 2), alpha=slice(2, 3), f=3, shape=np.array([2.0]), slope=np.array([1.0])
@@ -52,6 +52,12 @@ def test_all_methods_see_the_same_range(name: str) -> None:
     tolerance = 0.03 if METHODS[name].setting == "epsilon" else 1e-3
     heights = METHODS[name].solve(short, value_of(name)).heights
     assert heights == pytest.approx((low, high), abs=tolerance * (high - low))
+
+
+def test_a_motion_of_two_samples_has_a_range() -> None:
+    """A bin of a single sample was refused."""
+    low, high = METHODS["series"].solve(replace(task(span=5e-5), watched=True), 1e-9).heights
+    assert low < high
 
 
 @pytest.mark.compiled
