@@ -96,11 +96,9 @@ def init(
     _require_snakemake()
     workflow = PACKAGE / "workflow"
     schema = (workflow / "schemas" / "study.schema.json").resolve().as_uri()
-    texts = {
-        "my_study.yaml": (workflow / "template" / "my_study.yaml").read_text().replace("SCHEMA", schema),
-        "Snakefile": (workflow / "template" / "Snakefile").read_text(),
-        "profiles/default/config.yaml": (workflow / "profiles" / "default" / "config.yaml").read_text(),
-    }
+    sources = ("template/my_study.yaml", "template/Snakefile", "profiles/default/config.yaml")
+    texts = {name.removeprefix("template/"): (workflow / name).read_text() for name in sources}
+    texts["my_study.yaml"] = texts["my_study.yaml"].replace("SCHEMA", schema)
     if there := [name for name in texts if (directory / name).exists()]:
         raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(there)} yet"))
     try:
