@@ -35,8 +35,6 @@ motions vary by half of it. Growth or decay at 0.00025/s or faster changes them 
 REGULAR = 0.3
 """A motion is regular if the 0-1 test gives less than this, and chaotic above one minus this. The result tends to 0 or
 to 1 with more intervals. Signals of known nature stay within a tenth of these ends."""
-FREQUENCIES = 101
-"""Number of frequencies over which the 0-1 test takes the median."""
 
 
 class Motion(NamedTuple):
@@ -123,7 +121,7 @@ def shortest_period(intervals: Array, tolerance: float, near_return: float = NEA
 def zero_one(values: Array) -> float:
     """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values exp(i c j).
 
-    The `FREQUENCIES` values of c are drawn from the middle of (0, pi); they are the same at every call.
+    The 101 values of c are drawn from the middle of (0, pi); they are the same at every call.
 
     Parameters
     ----------
@@ -138,7 +136,7 @@ def zero_one(values: Array) -> float:
     signal = (signal - signal.mean()) / (signal.std() or 1.0)
     n, n_cut = signal.size, max(2, signal.size // 10)
     steps = np.arange(1, n_cut + 1)
-    drawn = np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, FREQUENCIES)
+    drawn = np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101)
     found = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
     return float(np.median(found))
 

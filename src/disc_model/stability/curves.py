@@ -17,10 +17,6 @@ from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap
 
-SAME_PLACE, SAME_PERIOD = 0.01, 0.004
-"""A place lies on a known curve within this share of the parameters' ranges, if periods agree to this share. The
-periods of the two borders of one resonance differ by 1 % and more."""
-
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""
 
@@ -185,7 +181,8 @@ def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: flo
         distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
         i = int(np.argmin(distance))
         there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
-        if distance[i] < SAME_PLACE and abs(there / period - 1) < SAME_PERIOD:
+        # periods of the two borders of one resonance differ by 1 % and more
+        if distance[i] < 0.01 and abs(there / period - 1) < 0.004:
             return True
     return False
 

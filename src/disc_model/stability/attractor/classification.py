@@ -46,8 +46,6 @@ from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
-WATCHED = 0.5
-"""s, at the end of a leg, over which the range is taken: thirty oscillations or more."""
 STEADY = 1e-3
 """Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
 SAME = 0.05
@@ -55,8 +53,6 @@ SAME = 0.05
 SMALLEST = 1e-3
 """Range, over the static deflection, below which ranges count as equal: the slider's height is constant. It also bounds
 the change over a period of a motion that counts as periodic."""
-INTERVAL = 0.25
-"""s, between orthonormalisations for the largest exponent. Below -90/s it is not resolved; such a motion repeats."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward perturbations of the static start from which attractors are sought, over the static deflection."""
 
@@ -118,7 +114,8 @@ class Basins:
                 return OutcomeResult(Outcome.UNDECIDED, state.time, first_separation=first)
 
     def _leg(self, state: State, end: float) -> Result:
-        window = Window(start=max(end - WATCHED, state.time), stop=end, rate=RATE)
+        # the range is taken over thirty oscillations or more
+        window = Window(start=max(end - 0.5, state.time), stop=end, rate=RATE)
         return simulate(self.p, end, tol=self.tol, initial_state=state, record=window)
 
     def _difference(self, one: Segment, other: Segment) -> float:
@@ -257,8 +254,9 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     if n := shortest_period(intervals, CLOSES):
         return Regularity(periodic, n, closure(intervals, n))
     duration = SETTLING * FIRST_LEG / 2
+    # exponents below -90/s are not resolved by this interval; such a motion repeats
     found = lyapunov_exponents(
-        p, duration, count=1, interval=INTERVAL, initial_state=state, tol=tol, leave_out_trivial=True
+        p, duration, count=1, interval=0.25, initial_state=state, tol=tol, leave_out_trivial=True
     )
     rate, error = float(found.exponents[0]), float(found.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):

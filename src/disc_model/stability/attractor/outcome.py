@@ -41,16 +41,6 @@ FIRST_LEG = 5.0
 """s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
 LONGEST_LEG = 160.0
 """s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
-UNSETTLED = 70.0
-"""s, simulated time before the first such test."""
-WATCHED, LEAST_FORCE = 40.0, 0.05
-"""s, for which a motion on a torus is watched, and the least contact force in that time, over the preload."""
-GROWTH = 1.5
-"""Ratio to its earlier minimum above which a change over a period counts as growth: rounding and beats with decaying
-modes cause less."""
-ERRORS = 100
-"""Changes over the static deflection that simulation errors may cause, over the tolerance: 12 were seen on a cycle that
-attracts at 0.008/s."""
 CERTAIN = 0.02
 """Distance from a cycle, over the static deflection, from which a departure is simulated for critical speeds, and where
 it came to a stable cycle: farther away, its phase may decide between that cycle and separation."""
@@ -292,13 +282,13 @@ class _OutcomeSearch:
 
     def _stays_in_contact(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
-        tested = self.early and self.found.simulated >= UNSETTLED and self.horizon - self.found.time >= LONGEST_LEG
+        tested = self.early and self.found.simulated >= 70.0 and self.horizon - self.found.time >= LONGEST_LEG
         if not tested or not self._grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
-        # it may pass an unstable one, or a border of its phases that no derivative shows
-        result, segment = final_segment(self.p, self.found.state, WATCHED, WATCHED, self.tol)
+        # it may pass an unstable one, or a border of its phases that no derivative shows: it is watched for 40 s
+        result, segment = final_segment(self.p, self.found.state, 40.0, 40.0, self.tol)
         self.found.simulated += result.final_state.time - self.found.time
-        if segment is None or segment.P_min < LEAST_FORCE * self.p.N:
+        if segment is None or segment.P_min < 0.05 * self.p.N:
             return False
         code, x = self.torus.map.next_release(result.final_state)
         return code == RETURNED and self.torus.shows_no_change(x)
@@ -330,10 +320,10 @@ class _OutcomeSearch:
         if not self.early and self.found.time < self.horizon:
             return None
         near = self._back(x)
-        # after a departure, a motion that comes near a cycle changes less and less
-        if near is None and (
-            self.left is None or not again[0] > max(self.found.changes[-2:][0], ARRIVED, ERRORS * self.tol)
-        ):
+        # after a departure, a motion that comes near a cycle changes less and less, down to errors of the simulation:
+        # 12 times the tolerance were seen on a cycle that attracts at 0.008/s
+        least = max(self.found.changes[-2:][0], ARRIVED, 100 * self.tol)
+        if near is None and (self.left is None or not again[0] > least):
             near = cycle_near(self.map, x, again, unstable=WAITS if self.left is None else WAITS[:1])
         return near if near is not None and near.follows_cycle else None
 
@@ -363,7 +353,8 @@ def growing(changes: Sequence[float]) -> bool:
         return False
     least = np.fmin.accumulate(d[:-2])
     later = np.fmin(d[1:-1], d[2:])
-    return bool(np.any((later > ARRIVED) & (later > GROWTH * least)))
+    # rounding and beats with decaying modes cause less
+    return bool(np.any((later > ARRIVED) & (later > 1.5 * least)))
 
 
 # ----------------------------------------------------------------------------------------------------
