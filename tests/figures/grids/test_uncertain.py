@@ -36,6 +36,12 @@ def test_instability_against_each_parameter() -> None:
     assert "k, $μ_s$ ± 10 %" in figure.get_supxlabel()
 
 
+def test_a_point_that_a_rule_leaves_out_has_no_row() -> None:
+    """It had empty panels."""
+    figure = draw("sensitivity", uncertain.made_up(where="N < 300 and sample < 6"))
+    assert [part.get_suptitle().partition(",")[0] for part in figure.subfigs] == ["Preload N = 200 N"]
+
+
 @pytest.mark.parametrize(
     ("distribution", "relative", "numbers", "phrase"),
     [

@@ -9,7 +9,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import SAMPLE, STABLE_CYCLES, flag_names, presentation_of, stated_in, typeset
+from disc_model.data.variables import (
+    EXCLUDED,
+    SAMPLE,
+    STABLE_CYCLES,
+    flag_names,
+    presentation_of,
+    stated_in,
+    typeset,
+)
 from disc_model.figures import parts
 from disc_model.figures.kinds import Sensitivity
 from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
@@ -99,10 +107,13 @@ def _spread(name: str, how: Mapping[str, Any]) -> str:
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """Name and values of each point of the grid, without the dimension of samples."""
+    """Name and values of each point of the grid that has samples left, without the dimension of samples."""
     dims = [str(dim) for dim in study["status"].dims if dim != SAMPLE]
     for place in product(*(range(study.sizes[dim]) for dim in dims)):
         cell = study.isel(dict(zip(dims, place, strict=True)))
+        cell = cell.isel({SAMPLE: flag_names(cell["status"]) != EXCLUDED})
+        if not cell.sizes[SAMPLE]:
+            continue
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
         yield "\n".join(parts.coordinate_text(cell[name], name) for name in names), cell
 

@@ -193,8 +193,8 @@ def test_probabilities_can_be_drawn_as_any_variable() -> None:
     assert parse_grid(study({"k": UNIFORM}, figures={"p": plot})).plots
 
 
-def made_up() -> xr.Dataset:
+def made_up(**changes: Any) -> xr.Dataset:
     """A study of two points, without the engine."""
     with pytest.MonkeyPatch.context() as patch:
         evaluating(patch, lambda values: cycle_row("unstable" if values["k"] > 5e4 else "stable", values["k"] - 5e4))
-        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"growth_rate_cap": 1e6}))
+        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"growth_rate_cap": 1e6}, **changes))
