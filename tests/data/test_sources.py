@@ -27,7 +27,7 @@ BESIDES = {
     "data.provenance": "says what made a result",
     "data.sources": "says what made a result",
     "explorer": "a name only",
-    "figures": "names only",
+    "figures": "a name only",
     "figures.grids": "a name only",
     "figures.kinds": "says what a file may ask for",
     "figures.paper": "a name only",

@@ -1,12 +1,12 @@
 """Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
 
-import importlib
 import json
 import logging
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import chain, repeat
 from pathlib import Path
+from pkgutil import resolve_name
 from textwrap import fill
 from typing import Any, Literal, TypeVar
 
@@ -31,7 +31,6 @@ from disc_model.data.variables import (
     typeset,
     values_text,
 )
-from disc_model.figures import STYLE
 from disc_model.figures.kinds import CasePlot, General, GrowthMap, Kind, OwnFigure, Plot, StabilityMap
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
@@ -70,7 +69,7 @@ def styled() -> Iterator[None]:
     """Apply the common style instead of the user's settings; also a decorator of drawing functions."""
     with mpl.rc_context():
         mpl.rcdefaults()
-        mpl.style.use(STYLE)
+        mpl.style.use("disc_model.figures.disc_model")
         yield
 
 
@@ -81,7 +80,7 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
     ----------
     inputs : for a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
     """
-    function = getattr(importlib.import_module(plot.module), plot.function.rpartition(".")[2])
+    function = resolve_name(plot.function)
     with styled():
         if isinstance(plot, Plot):
             study, *others = (tree.to_dataset() for tree in inputs.values())

@@ -44,7 +44,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
             for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
             if np.isfinite(cell[key])
         )
-        part.suptitle(", ".join((title.replace("\n", ", "), phrase)), x=0.01, ha="left", fontsize=8)
+        part.suptitle(f"{title}, {phrase}", x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     parts.note(figure, plot, spreads(options["distributions"]))
@@ -115,7 +115,7 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         if not cell.sizes[SAMPLE]:
             continue
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
-        yield "\n".join(parts.coordinate_text(cell[name], name) for name in names), cell
+        yield ", ".join(parts.coordinate_text(cell[name], name) for name in names), cell
 
 
 def symbol(name: str) -> str:
