@@ -91,8 +91,7 @@ def gallery(pictures: Sequence[Picture]) -> str:
 def embedded(file: Path) -> str:
     """A picture, reduced in size, as a data URL."""
     with Image.open(file) as picture:
-        scale = min(1.0, PICTURE_WIDTH / PAGE_WIDTH)
-        size = (max(1, round(picture.width * scale)), max(1, round(picture.height * scale)))
+        size = (round(picture.width * PICTURE_WIDTH / PAGE_WIDTH), round(picture.height * PICTURE_WIDTH / PAGE_WIDTH))
         small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
     buffer = io.BytesIO()
     small.save(buffer, "WEBP", quality=QUALITY, method=6)

@@ -21,14 +21,13 @@ from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
 
 Array = NDArray[np.float64]
-SEPARATION = PHASES.index("separation")
 COLOURS = cmc.vik
 """Colours of the deflection: blue below the plane of the disc at rest, red above it."""
 RADII, ANGLES = 25, 181
@@ -45,7 +44,7 @@ class Motion(NamedTuple):
     amplitudes : m, at r_0, cosines + i sines of 0, 1, ... times the disc's angle, shape (harmonics, n)
     slider : rad, shape (n,), its angle on the disc
     u : m, shape (n,), its height
-    phase : shape (n,), see `disc_model.data.variables.PHASES`
+    phase : shape (n,), words of `disc_model.data.variables.PHASES`
     """
 
     parameters: Parameters
@@ -53,17 +52,13 @@ class Motion(NamedTuple):
     amplitudes: NDArray[np.complex128]
     slider: Array
     u: Array
-    phase: NDArray[np.int8]
+    phase: NDArray[np.str_]
 
     def deflection(self, i: int, r: Array, theta: Array) -> Array:
         """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m)."""
         shapes = mode_shapes(self.parameters, r) / mode_arrays(self.parameters).psi[:, None]
         turns = np.arange(len(self.amplitudes))[:, None] * theta
         return np.asarray(shapes.T @ (self.amplitudes[:, i, None].conj() * np.exp(1j * turns)).real)
-
-    def word(self, i: int) -> str:
-        """The phase at sample i."""
-        return PHASES[int(self.phase[i])]
 
 
 def motion_of(case: xr.DataTree) -> Motion:
@@ -84,8 +79,8 @@ def motion_of(case: xr.DataTree) -> Motion:
     found = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
     amplitudes = found[: len(harmonics)].astype(complex)
     amplitudes[1:] += 1j * found[len(harmonics) :]
-    time, psi, u, phase = (windows[0][name].values for name in ("time", "psi", "u", "phase"))
-    return Motion(p, time, amplitudes, p.Omega * time - psi, u, phase)
+    time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
+    return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
 
 
 def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
@@ -100,14 +95,14 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     circle = around.subplots()
     with parts.blank_if_missing(*discs, circle):
         motion = motion_of(case)
-        losses = [first for first, _ in parts.stretches(motion.phase == SEPARATION) if first > 0]
+        losses = [first for first, _ in parts.stretches(motion.phase == "separation") if first > 0]
         first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
         scale = _scale(motion)
         for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
             i = first + j * (last - first) // len(discs)
             mesh = _disc(ax, motion, i, scale)
             after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
-            ax.set_title(f"({'abcd'[j]}) {after}, {motion.word(i)}")
+            ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
             _around(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
         bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
         bar.outline.set_visible(False)
@@ -131,7 +126,7 @@ def _scale(motion: Motion) -> Normalize:
 
 def _colour(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
     """Colour of the slider, or of words on it."""
-    return SEPARATED if motion.phase[i] == SEPARATION else otherwise
+    return SEPARATED if motion.phase[i] == "separation" else otherwise
 
 
 def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
@@ -190,7 +185,7 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
             _disc(disc, motion, i, scale)
             _around(circle, motion, i, 7)
             circle.set_ylim(scale.vmin, scale.vmax)
-            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.word(i)}"
+            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.phase[i]}"
             circle.set_title(text, color=_colour(motion, i, BLACK))
             return [disc, circle]
 

@@ -9,11 +9,9 @@ from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import flag_names
 from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, panels
-
-SEPARATION = PHASES.index("separation")
 
 
 def history(
@@ -60,7 +58,7 @@ def after(window: xr.Dataset, start: float) -> xr.Dataset:
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
     """Separations in a window of samples, in its times, including those that the window cuts off."""
     time = window["time"].values.tolist()
-    return [(time[a], time[b - 1]) for a, b in parts.stretches(window["phase"].values == SEPARATION)]
+    return [(time[a], time[b - 1]) for a, b in parts.stretches(flag_names(window["phase"]) == "separation")]
 
 
 def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
@@ -93,7 +91,7 @@ def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     with parts.blank_if_missing(zoom):
         window = dataset.samples(case, "zoom")
         # a separation that the window cuts off at its start would look like a jump
-        window = window.isel(time=slice(int(np.argmin(window["phase"].values == SEPARATION)), None))
+        window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
         start = float(window["time"][0])
         window = after(window, start)
         parts.letter(zoom, "b")
