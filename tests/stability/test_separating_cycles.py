@@ -10,7 +10,7 @@ from disc_model.simulation.result import State
 from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, FloquetResult
-from disc_model.stability.return_map import PATIENT, ReturnMap, multipliers
+from disc_model.stability.return_map import ReturnMap, multipliers
 from tests.stability.test_return_map import central_differences
 
 pytestmark = pytest.mark.compiled
@@ -68,7 +68,7 @@ def test_its_period_is_the_simulated_motions(cycle) -> None:
 
 def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     p, _, found, _ = cycle
-    map_ = ReturnMap(p, 1e-14, patience=PATIENT)
+    map_ = ReturnMap(p, 1e-14, patient=True)
     x = map_.point(found.state)
     # a hundred times what keeps the order of switches, and far above the rounding of the flight
     size = 1e-6 * float(np.linalg.norm(map_.static))

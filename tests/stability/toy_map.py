@@ -57,7 +57,7 @@ class ToyMap:
     deflection = 2.0
 
     def __init__(
-        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
+        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patient: bool = False
     ) -> None:
         self.parameters, self.tol, self._names = p, tol, parameters
 

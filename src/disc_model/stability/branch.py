@@ -20,7 +20,6 @@ from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     ENDS,
     PARAMETERS,
-    PATIENT,
     Array,
     ComplexArray,
     Counts,
@@ -99,7 +98,7 @@ class CycleProblem:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
             raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
-        map_ = ReturnMap(p, self.tol, self.names, patience=PATIENT if self.order else 1.0)
+        map_ = ReturnMap(p, self.tol, self.names, patient=self.order is not None)
         x = z[: self.n] * self.size / self.scale * map_.scale
         releases = self.order.releases if self.order else 1
         flight = map_.evaluate(x, releases=releases, may_separate=self.order is not None)

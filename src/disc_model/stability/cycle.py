@@ -17,7 +17,6 @@ from disc_model.progress import compiling
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.return_map import (
     ENDS,
-    PATIENT,
     RETURNED,
     Array,
     ComplexArray,
@@ -176,7 +175,7 @@ def find_cycle(
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
     near_state = isinstance(guess, State)
-    map_ = ReturnMap(p, tol, patience=PATIENT if near_state else 1.0)
+    map_ = ReturnMap(p, tol, patient=near_state)
     if guess is None:
         return cycle_from_rest(map_)
     if isinstance(guess, State):

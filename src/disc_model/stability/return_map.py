@@ -28,10 +28,6 @@ ComplexArray = NDArray[np.complex128]
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
-PATIENT = 60.0
-"""Factor on the time allowed for a return if the motion may separate, because the slider may then slip for long. It
-allows about 5 s, the length of the segments that are examined."""
-
 RETURNED = exit_codes.RETURNED
 ENDS = {
     exit_codes.RETURNED: "returned",
@@ -173,15 +169,15 @@ class ReturnMap:
     static : shape (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
     deflection : norm of `static`, the unit of distances on the section
     tol : tolerance of cycles: residual over deflection
-    patience : factor on the time allowed for a return; see `PATIENT`
+    patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long
     """
 
     def __init__(
-        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patience: float = 1.0
+        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patient: bool = False
     ) -> None:
         raise_faults(case_faults(p, "the return map"))
         self.tol = tol = float(tol)  # kernels are compiled for the types of their arguments
-        self.parameters, self.patience = p, patience
+        self.parameters, self.patient = p, patient
         self._case = engine_case(p)
         self.model = model = self._case.model
         # the Jacobian needs a finer series than event times do, and no rougher one could reach a residual of 1e-8
@@ -217,7 +213,7 @@ class ReturnMap:
         """Time allowed for a return, s: several times that of the rigid disc, whatever the speed."""
         p = self.parameters
         stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
-        return self.patience * (4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01)
+        return (60.0 if self.patient else 1.0) * (4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01)
 
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False

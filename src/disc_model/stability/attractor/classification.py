@@ -42,7 +42,7 @@ from disc_model.stability.attractor.outcome import (
 )
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import PATIENT, RETURNED, ReturnMap
+from disc_model.stability.return_map import RETURNED, ReturnMap
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
@@ -76,7 +76,7 @@ class Basins:
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
         self.smallest = max(SMALLEST * self.static, sys.float_info.min)
-        self.map = ReturnMap(p, patience=PATIENT)
+        self.map = ReturnMap(p, patient=True)
         found = cycle_of_static_start(p)
         self.cycle = found if isinstance(found, NearCycle) and found.cycle.stable else None
         self.known: list[Attractor] = []
@@ -220,7 +220,7 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
     releases = int((stretch.events["kind"] == "stick_to_slip").sum())
     if not releases or not may_stick_and_slip(p):
         return None
-    map_ = ReturnMap(p, patience=PATIENT)
+    map_ = ReturnMap(p, patient=True)
     code, x = map_.next_release(stretch.final_state)
     if code != RETURNED:
         return None
