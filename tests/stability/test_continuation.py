@@ -119,6 +119,13 @@ def test_the_neutral_curve_is_the_ellipse():
     assert (part.values[2] - part.values[3]) @ (part.values[4] - part.values[3]) < 0
 
 
+@pytest.mark.parametrize("name", [("Omega",), ["Omega"]])
+def test_one_parameter_is_named_by_a_text(name):
+    """A tuple or list of one name ended in an error of the package's inside."""
+    with pytest.raises(ParameterError, match="must be 1 of Omega, N"):
+        continue_cycle(P, name, (12.0, 17.0))
+
+
 def test_without_a_curve_nearby_the_input_is_refused():
     with pytest.raises(ParameterError, match="must have a cycle to start from"):
         continue_border("neutral", P.replace(Omega=17), ("Omega", "N"), BOX)

@@ -215,7 +215,7 @@ def check(
 
     count, names, bounds : one free parameter and its bounds; or two names and a mapping of names to bounds
     """
-    given = names if isinstance(names, tuple | list) else [names]
+    given = names if count > 1 and isinstance(names, tuple | list) else [names]
     known = all(isinstance(name, str) and name in PARAMETERS for name in given)
     free = known and len({*given}) == len(given) == count
     pairs: list[Any] = [bounds] if count == 1 else []
