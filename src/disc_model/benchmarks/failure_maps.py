@@ -27,8 +27,6 @@ from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
 from disc_model.truncation import real_modes
 
-TRUNCATIONS = (1, 2, 4, 6, 8)
-"""Highest number of nodal diameters of each row."""
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""
 STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())
@@ -43,10 +41,10 @@ FACTS = variables("map_facts")
 def failure_map(
     method: str,
     scene: str = "separating",
-    truncations: Sequence[int] = TRUNCATIONS,
+    truncations: Sequence[int] = (1, 2, 4, 6, 8),
     values: Sequence[float] | None = None,
 ) -> xr.Dataset:
-    """Verdicts on a method, with the facts that explain them.
+    """Verdicts on a method, with the facts that explain them; ``truncations`` are numbers of nodal diameters.
 
     Returns
     -------
@@ -139,7 +137,6 @@ def observed_step_limit(diameters: int) -> float:
 CASE = Parameters(N=600.0, Omega=27.0)
 HORIZON = 25.0
 """s"""
-ANSWER_TRUNCATIONS = (1, 2, 4, 8)
 BUDGET = 3.0
 """Budget for a point, s; beyond it, finer settings with the same modes are skipped."""
 ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=AnswerStatus)
@@ -148,7 +145,7 @@ ANSWER_VARIABLES = variables("answer_maps", verdict=AnswerVerdict, status=Answer
 @one_core()
 def answer_map(
     method: str,
-    diameters: Sequence[int] = ANSWER_TRUNCATIONS,
+    diameters: Sequence[int] = (1, 2, 4, 8),
     values: Sequence[float] | None = None,
 ) -> xr.Dataset:
     """Verdicts on a method along (diameters, value), from coarse to fine.

@@ -27,12 +27,8 @@ from disc_model.simulation.result import State
 from disc_model.stability.cycle import floquet
 from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
-DIAMETERS = (1, 2, 3, 4, 6, 8, 12)
-CIRCLES = (0, 1, 2)
 CASES: dict[str, dict[str, dict[str, Any]]] = TABLES["truncation_cases"]
 """Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""
-HORIZON = 120.0
-"""Horizon of the first separation, s."""
 AFTER = 1.0
 """Time after the first separation over which impacts are counted, s."""
 WINDOW = (5.0, 7.0)
@@ -43,14 +39,17 @@ ABOUT = {"Conventions": "CF-1.11", "band": BAND, "compared_with": json.dumps(RIC
 
 
 def truncation_study(
-    diameters: Sequence[int] = DIAMETERS,
-    circles: Sequence[int] = CIRCLES,
+    diameters: Sequence[int] = (1, 2, 3, 4, 6, 8, 12),
+    circles: Sequence[int] = (0, 1, 2),
     normalizations: Sequence[str] = tuple(CASES),
     *,
-    horizon: float = HORIZON,
+    horizon: float = 120.0,
     growth: bool = True,
 ) -> xr.Dataset:
-    """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none."""
+    """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none.
+
+    horizon : s, of the first separation
+    """
 
     def measure(normalization: str, circles: int, diameters: int) -> dict[str, float]:
         size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}

@@ -22,7 +22,6 @@ from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, floquet
 
 DEFAULT = 1e-10
-DIAMETERS = (0, 1, 2, 3, 4, 6, 8)
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64
 """Number of cells of the region on which models are compared."""
