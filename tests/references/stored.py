@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from disc_model import Parameters, plate_modes
+from disc_model import plate_modes
 from disc_model.simulation.result import State as EngineState
 
 DATA = Path(__file__).parent / "data"
@@ -43,17 +43,6 @@ def load(name):
 def times_of(data):
     """Event times in long double: 20 decimals."""
     return np.array([np.longdouble(time) for time in data["times"]])
-
-
-def largest_difference(events, data):
-    """Of the times (s) of a reference's events from stored ones, after checking that they are the first of these."""
-    kinds, times = [e["kind"] for e in events], np.array([e["time"] for e in events], np.longdouble)
-    assert kinds == data["kinds"][: len(events)]
-    return abs(times - times_of(data)[: len(events)]).max(initial=0.0)
-
-
-def parameters_of(data):
-    return Parameters(**data["parameters"])
 
 
 def engine_state(state, p):

@@ -24,19 +24,16 @@ RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
 
 # ------------------------------------------------------------------------ what is requested
 @pytest.mark.parametrize("law", [{}, LAWS["compliant_normal"]])  # whose kernels others use as well
-def test_rate_zero_is_the_constant_parameter_to_the_last_bit(law):
+def test_rate_zero_and_a_ramp_after_the_end_change_no_bit(law):
     p, record = P.replace(**law), Record(windows=(Window(rate=5e3),))
     constant = simulate(p, 0.05, record=record)
     none = (
         Ramp(parameter="Omega", to=50.0, start=0.007, end=0.03),
         Ramp(parameter="N", to=200.0, start=0.0, end=0.02),
         Ramp(parameter="N", to=200.0, start=0.02, end=0.021),
+        Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06),
     )
     same(simulate(p, 0.05, record=record, ramps=none), constant)
-
-
-def test_a_ramp_after_the_end_changes_nothing():
-    same(simulate(P, 0.05, ramps=Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06)), simulate(P, 0.05))
 
 
 def test_until_a_ramp_begins_all_is_as_without():

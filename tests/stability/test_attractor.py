@@ -116,6 +116,7 @@ def test_what_looks_like_rest_is_followed(which: str) -> None:
     assert found.outcome is Outcome(outcome)
     assert found.time > 150
     if outcome == Outcome.GROWING:
+        assert found.simulated < 700
         assert keeps_contact(p, 1000)
     else:
         assert found.time == found.first_separation
@@ -335,12 +336,3 @@ def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
     shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}
     return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
-
-
-@pytest.mark.compiled
-def test_a_motion_on_a_torus_is_known_to_keep_contact() -> None:
-    p = Parameters(N=520, Omega=14)
-    found = find_outcome(p, 2000, tol=1e-8)
-    assert found.outcome is Outcome.GROWING
-    assert found.simulated < 700
-    assert keeps_contact(p, 2000)

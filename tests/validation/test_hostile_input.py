@@ -45,15 +45,15 @@ trees = st.recursive(
 )
 
 
-STUDY = yaml.safe_load((ROOT / "config/test.yaml").read_text())
-STUDIES = sorted((ROOT / "config/studies").glob("*.yaml"))
-GRIDS = [yaml.safe_load(path.read_text()) for path in STUDIES]
+FILES = [ROOT / "config/test.yaml", *sorted((ROOT / "config/studies").glob("*.yaml"))]
+TEXTS = [path.read_text() for path in FILES]
+STUDIES = [yaml.safe_load(text) for text in TEXTS]
 
 
-def try_study(parse: Any, tree: Any) -> None:
+def try_study(tree: Any) -> None:
     count("studies")
     with contextlib.suppress(StudyError):
-        parse(tree)
+        parse_study(tree)
 
 
 @given(fields)
@@ -65,26 +65,20 @@ def test_parameters(given_fields: dict[str, Any]) -> None:
         assert all(math.isfinite(value) for value in p.model_dump().values() if isinstance(value, float))
 
 
-@given(st.sampled_from(places(STUDY)), trees)
-def test_study_with_one_hostile_node(path: tuple[Any, ...], what: Any) -> None:
-    try_study(parse_study, planted(STUDY, path, what))
-
-
 @given(st.data())
-def test_grid_with_one_hostile_node(data: st.DataObject) -> None:
-    grid = data.draw(st.sampled_from(GRIDS))
-    path = data.draw(st.sampled_from(places(grid)))
-    try_study(parse_study, planted(grid, path, data.draw(trees)))
+def test_study_with_one_hostile_node(data: st.DataObject) -> None:
+    study = data.draw(st.sampled_from(STUDIES))
+    path = data.draw(st.sampled_from(places(study)))
+    try_study(planted(study, path, data.draw(trees)))
 
 
 @given(trees)
 def test_anything_for_a_study(tree: Any) -> None:
-    try_study(parse_study, tree)
+    try_study(tree)
 
 
 # ---- YAML as text
 
-TEXTS = [path.read_text() for path in [ROOT / "config/test.yaml", *STUDIES]]
 LAUGHS = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n" + "".join(
     f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]\n" for i in range(1, 12)
 )

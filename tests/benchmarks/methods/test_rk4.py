@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from disc_model.benchmarks.methods import RunStatus, kernels
-from disc_model.benchmarks.methods.physics import Physics
-from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
+from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.scenes import Verdict
-from tests.benchmarks.methods.problems import BASE, judge, vector
+from tests.benchmarks.methods.problems import judge, vector
 from tests.references.printed import P, lively
 
 
@@ -37,23 +35,6 @@ def test_a_loss_of_contact_within_a_step_is_seen():
 
     # steps of 4e-5 s leave an error of 1.5e-7 s
     assert lost(4e-5) == pytest.approx(lost(1e-5), abs=3e-7, rel=0)
-
-
-@pytest.mark.compiled
-def test_rk4_at_its_stability_limit():
-    """h omega_max = 2 sqrt(2) lies at 6.453e-4 s."""
-    limit = STABILITY_LIMIT / Physics(BASE).omega.max()
-    assert limit == pytest.approx(6.453e-4, rel=1e-3)
-    below, found = judge("RK4", "stick_slip", 6.40e-4)
-    assert (len(below.kinds), below.separations) == (135, 0)
-    assert found.verdict is Verdict.INACCURATE
-    at, found = judge("RK4", "stick_slip", 6.45e-4)
-    assert at.separations > 100  # there are none
-    # so near the limit rounding decides how far it goes, on other processors to another side
-    assert found.verdict in (Verdict.WRONG_EVENTS, Verdict.UNSTABLE)
-    above, found = judge("RK4", "stick_slip", 7e-4)
-    assert above.outcome is RunStatus.NON_FINITE
-    assert found.verdict is Verdict.UNSTABLE
 
 
 @pytest.mark.compiled
