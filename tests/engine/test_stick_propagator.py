@@ -166,12 +166,13 @@ def test_samples_of_an_advance_fit_their_buffer() -> None:
     """The engine writes a whole advance before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
     run = _Run(_Request(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,))))
-    room, width = run.collector.rows.shape
-    run.collector.rows = np.full((4 * room, width), np.nan)
+    room, width = run.collector.buffers.sample_rows.shape
+    rows = np.full((4 * room, width), np.nan)
+    run.collector.buffers = run.collector.buffers._replace(sample_rows=rows)
     pauses = 0
     while run.advance() == exit_codes.PAUSED:
         pauses += 1
     assert pauses >= 1
-    assert np.isnan(run.collector.rows[room:]).all()
+    assert np.isnan(rows[room:]).all()
     # the longest advance has begun just before the pause: else this test shows nothing
-    assert np.isfinite(run.collector.rows[run.collector.capacity + 5000, 1])
+    assert np.isfinite(rows[run.collector.buffers.sample_capacity + 5000, 1])
