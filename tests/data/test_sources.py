@@ -93,7 +93,7 @@ def test_the_sources_of_a_result_are_what_it_imports(names: tuple[str, ...]) -> 
     found = reached([*roots, *modules], BESIDES.keys() - own)
     assert not found - own - BESIDES.keys(), "imported, and not listed"
     if not modules:  # of whole packages not all need be used
-        single = {name for entry in KINDS[kind].split() if entry not in KINDS for name in [entry]}
+        single = {*KINDS[kind].split()} - KINDS.keys()
         modules_listed = {name for name in single if f"disc_model.{name}" in GRAPH.modules and is_module(name)}
         assert not modules_listed - found - drawn_for(kind), "listed, and not imported"
 

@@ -26,7 +26,7 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     names : kinds of results, modules, packages and files, as in `disc_model.data.sources`
     files : further sources, such as a script
     """
-    digest = hashlib.sha256(repr(sorted(_kinds(names))).encode())
+    digest = hashlib.sha256()
     own = {path: path.relative_to(PACKAGE).as_posix() for path in source_files(*names)}
     # a script is hashed under its bare name, wherever it is installed
     for path, name in (own | {path: path.name for path in files}).items():
@@ -39,16 +39,15 @@ def source_files(*names: str) -> tuple[Path, ...]:
     """The files that names of sources stand for, sorted; a package stands for all files within it."""
     found: set[Path] = set()
     names = tuple(name.removeprefix("disc_model.") for name in names)
-    for name in {name for kind in _kinds(names) for name in KINDS[kind].split()}.union(names) - KINDS.keys():
+    for name in _meant(names) - KINDS.keys():
         path = PACKAGE / (name if "/" in name else name.replace(".", "/"))
         found |= {*path.rglob("*" if "/" in name else "*.py")} if path.is_dir() else {_file(path)}
     return tuple(sorted(path for path in found if path.is_file() and path.suffix != ".pyc"))
 
 
-def _kinds(names: Iterable[str]) -> set[str]:
-    """The kinds among names, and the kinds on which they depend."""
-    here = {name for name in names if name in KINDS}
-    return here.union(*(_kinds(KINDS[name].split()) for name in here))
+def _meant(names: Iterable[str]) -> set[str]:
+    """Names, and all that the kinds among them stand for."""
+    return {*names}.union(*(_meant(KINDS[name].split()) for name in names if name in KINDS))
 
 
 def _file(path: Path) -> Path:

@@ -143,10 +143,8 @@ def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
 
 
 Values = TypeVar("Values", xr.DataArray, xr.Dataset)
-GIVEN = "given"
-"""Word instead of a normalization for modes from a table."""
-MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", GIVEN: "modes of a table"}
-"""Title of a panel by normalization."""
+MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", "given": "modes of a table"}
+"""Title of a panel by normalization; "given" stands for modes from a table."""
 WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
 """Words of parameters in panel titles, those of the paper first."""
 MODELS = {"normal": WORDS["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
@@ -388,7 +386,7 @@ def normalizations(study: xr.Dataset) -> list[str]:
     if "normalization" in study.coords:
         return [str(name) for name in np.atleast_1d(study["normalization"].values)]
     base = stated_in(study, "base")
-    return [GIVEN if base.get("disc") else base["normalization"]]
+    return ["given" if base.get("disc") else base["normalization"]]
 
 
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
