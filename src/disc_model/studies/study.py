@@ -821,22 +821,20 @@ class GridStudy:
             for name in sorted(names_in(rule) - known.keys()):
                 more = suggestion(name, [*known], all_of_them=False)
                 self._add(("where",), f"{name} is no value of a point{more}", rule)
-        if self.where and not self.faults and next(points(self._needed(()), self.where, self.base), None) is None:
+        if self.where and not self.faults and next(self._points(()), None) is None:
             self._add(("where",), "leaves no point")
 
-    def _needed(self, names: Iterable[str]) -> list[Dimension]:
-        """Dimensions of some names, and those that the file's rules compare."""
+    def _points(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
+        """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
         wanted = {*names, *chain(*map(names_in, self.where))}
         ratios = [(name, *RATIOS[name]) for name in self.wanted & RATIOS.keys()]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
-        return [dim for dim in self.dims if not wanted.isdisjoint(dim.names)]
+        return points([dim for dim in self.dims if not wanted.isdisjoint(dim.names)], self.where, self.base)
 
     def _check_points(self) -> None:
         """Check the rules between parameters of which some vary; each is reported where it is broken first."""
-        related = self._needed(RELATED)
-        varied = [name for dim in related for name in dim.names]
-        every = points(related, self.where, self.base)
-        found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in every]
+        varied = [name for dim in self.dims for name in dim.names]
+        found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in self._points(RELATED)]
         ratios = {RATIOS[name][0]: name for name in varied if name in RATIOS}
         for fault in first_of_each(chain(*found)):
             name, hint = fault.path[0], ""
@@ -884,7 +882,7 @@ class GridStudy:
     def _out_of_reach(self, options: SensitivityOptions) -> Iterator[str]:
         """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        for point in points(self._needed([*options.distributions, *RELATED]), self.where, self.base):
+        for point in self._points([*options.distributions, *RELATED]):
             here = case_of({**self.base, **point}, self.discs)
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():

@@ -23,8 +23,6 @@ from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed, w
 
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
 """Outcomes of a start."""
-ROOM = 12
-"""Greatest number of stored attractors, those of most starts; there are seven at 10 rad/s and 385 N."""
 SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
 """Statistics of a stretch on an attractor."""
 SMALLEST = 2.0**-40
@@ -63,7 +61,8 @@ COORDINATES = {
     "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
     "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
     "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
-    "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, ROOM + 1)),
+    # those of most starts; there are seven at 10 rad/s and 385 N
+    "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
 }
 
 
