@@ -549,7 +549,7 @@ class GridStudy:
     scanned : parameters that the quantity varies by itself
     wanted : names that are to vary, even if the file describes them incorrectly
     base : values that do not vary
-    dims : in the order of `VARIED`
+    dims : in the order of `VARIED`; varied : names along them
     starts : starts of motions, by name
     plots : figures, by name
     """
@@ -566,6 +566,7 @@ class GridStudy:
         self.wanted = {str(name) for group in _groups(raw) for name in mapping(group)}
         self.base, self.asked = self._base()
         self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
+        self.varied = [name for dim in self.dims for name in dim.names]
         self._check()
 
     @cached_property
@@ -765,8 +766,7 @@ class GridStudy:
         """Check which names vary, which are given, and which are lacking."""
         base, wanted, scanned, over = mapping(self.raw.get("base")), self.wanted, self.scanned, self.document.batch.over
         asked, names = f"the quantity {self.quantity}", [dim.name for dim in self.dims]
-        varied = [name for dim in self.dims for name in dim.names]
-        for name in sorted({name for name in varied if varied.count(name) > 1}):
+        for name in sorted({name for name in self.varied if self.varied.count(name) > 1}):
             self._add(("axes", name), "varies along two dimensions")
         if not self.dims and not self.faults:
             self._add(("axes",), "is required: at least one axis or zip")
@@ -816,7 +816,7 @@ class GridStudy:
 
     def _check_where(self) -> None:
         """Check the file's own rules: they must compare known values and leave some points."""
-        known = {**Parameters.model_fields, **dict.fromkeys(name for dim in self.dims for name in dim.names)}
+        known = {**Parameters.model_fields, **dict.fromkeys(self.varied)}
         for rule in self.where:
             for name in sorted(names_in(rule) - known.keys()):
                 more = suggestion(name, [*known], all_of_them=False)
@@ -833,9 +833,8 @@ class GridStudy:
 
     def _check_points(self) -> None:
         """Check the rules between parameters of which some vary; each is reported where it is broken first."""
-        varied = [name for dim in self.dims for name in dim.names]
         found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in self._points(RELATED)]
-        ratios = {RATIOS[name][0]: name for name in varied if name in RATIOS}
+        ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
         for fault in first_of_each(chain(*found)):
             name, hint = fault.path[0], ""
             if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and not all(found):
@@ -843,7 +842,9 @@ class GridStudy:
             if name in ratios:
                 self._add(("axes", ratios[name]), f"{fault}{hint}")
             else:
-                self.faults.append(Fault(("axes" if name in varied else "base", name), fault.value, fault.rule + hint))
+                self.faults.append(
+                    Fault(("axes" if name in self.varied else "base", name), fault.value, fault.rule + hint)
+                )
 
     def _check_distributions(self) -> None:
         """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.
@@ -853,8 +854,7 @@ class GridStudy:
         if not isinstance(options := self.options, SensitivityOptions):
             return
         place, numbers = ("options", "distributions"), self._numbers()
-        varied = {name for dim in self.dims for name in dim.names}
-        varied |= {*numbers}.difference(NUMBERS) if "disc" in varied else set()
+        varied = {*self.varied, *({*numbers}.difference(NUMBERS) if "disc" in self.varied else ())}
         for name, given in options.distributions.items():
             own = _own(name, self.base)
             if name not in numbers:
@@ -901,7 +901,7 @@ class GridStudy:
 
     def _check_plots(self) -> None:
         # a faulty dimension counts as one without values
-        meant = sorted(self.wanted.difference(*(dim.names for dim in self.dims)))
+        meant = sorted(self.wanted.difference(self.varied))
         values: Values = {**dict.fromkeys(meant, ()), **self.values}
         for name, plot in self.plots.items():
             found: Iterable[Fault] = ()
