@@ -93,18 +93,9 @@ def test_the_sources_of_a_result_are_what_it_imports(names: tuple[str, ...]) -> 
     found = reached([*roots, *modules], BESIDES.keys() - own)
     assert not found - own - BESIDES.keys(), "imported, and not listed"
     if not modules:  # of whole packages not all need be used
-        single = {*KINDS[kind].split()} - KINDS.keys()
-        modules_listed = {name for name in single if f"disc_model.{name}" in GRAPH.modules and is_module(name)}
-        assert not modules_listed - found - drawn_for(kind), "listed, and not imported"
-
-
-def is_module(name: str) -> bool:
-    return (PACKAGE / f"{name.replace('.', '/')}.py").is_file()
-
-
-def drawn_for(kind: str) -> set[str]:
-    """What the modules import that draw figures of a kind."""
-    return reached([module for job, module in DRAWN if job == kind], ())
+        single = {name for name in KINDS[kind].split() if (PACKAGE / f"{name.replace('.', '/')}.py").is_file()}
+        drawn = reached([module for job, module in DRAWN if job == kind], ())
+        assert not single - KINDS.keys() - found - drawn, "listed, and not imported"
 
 
 def test_all_that_is_listed_is_there() -> None:

@@ -144,28 +144,13 @@ def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, phras
         load_study(path)
 
 
-def test_what_a_figure_shows_beside_is_checked(tmp_path: Path) -> None:
-    figure = {"kind": "stability_map", "x": "N", "y": "Omega", "overlays": {"growth": "other"}}
-    plane = {"N": [1], "Omega": [1]}
-    shown = {"study": "map", "quantity": "outcome", "options": {"horizon": 5}, "axes": plane, "figures": {"f": figure}}
-    other = {"study": "other", "quantity": "floquet", "axes": plane}
-    (tmp_path / "other.yaml").write_text(json.dumps(other))
-    assert parse_study(shown).grids([tmp_path])[1] == ("map",)
-    (tmp_path / "other.yaml").write_text(json.dumps(other | {"axes": plane | {"k": [2]}}))
-    fault = "must vary N, Omega beside normalization, and not N, Omega, k"
-    assert faults_of(parse_study(shown).grids, [tmp_path]) == [f"map: figures.f.overlays.growth = 'other': {fault}"]
-    (tmp_path / "other.yaml").unlink()
-    [fault] = faults_of(parse_study(shown).grids, [tmp_path])
-    assert fault.endswith("'other': no such study (known: map)")
-
-
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
-    plot = {"kind": "growth_map", "overlays": {"curves": "elsewhere"}}
+    plots = {name: {"kind": "growth_map", "overlays": {"curves": name}} for name in ("elsewhere", "four")}
     plane = {"quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
     texts = {
         "one": "study: one\nquantity: outcome\n",
         "two": "study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n",
-        "three": json.dumps(plane | {"study": "three", "figures": {"f": plot}}),
+        "three": json.dumps(plane | {"study": "three", "figures": plots}),
         "four": json.dumps(plane | {"study": "small"}),
         "five": json.dumps({"study": "five", "cases": {"A": CASE}}),
     }
@@ -177,7 +162,8 @@ def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None
         "one.yaml: axes.Omega: is required",
         "two.yaml: N: given twice, in lines 3 and 3",
         "study = 'three': is the name of another folder of results",
-        "three: figures.f.overlays.curves = 'elsewhere': no such study",
+        "three: figures.elsewhere.overlays.curves = 'elsewhere': no such study (known: five, four, one,",
+        "three: figures.four.overlays.curves = 'four': must be a study of the quantity stability_curves",
         "study = 'small': must be the name of the file",
         "study = 'five': must be a grid alone",
         "overrides.six: no such study (known: five, four, one, three, two)",

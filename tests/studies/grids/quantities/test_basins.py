@@ -16,14 +16,8 @@ from disc_model.studies.grids.quantities import basins
 from tests.stability.test_attractor import stretch
 from tests.studies.grids.conftest import compute, computed
 
-QUIET = Attractor(
-    Outcome.QUIET,
-    stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0),
-    0.015,
-    1,
-    -0.1,
-    np.zeros((1, 2)),
-)
+CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
+QUIET = Attractor(Outcome.QUIET, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
 APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 
 
