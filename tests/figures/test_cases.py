@@ -23,15 +23,11 @@ from disc_model.figures.parts import COLUMN, PAGE, save
 from tests.claims.made_up import DAMAGES, EACH_DAMAGE, damaged
 from tests.figures.grids.reading import labels
 
-STARTS = (0.0, 20.0, 53.0, 56.0)
-"""Of the stretches whose spectra are shown, s: contact is first lost at 54.4 s."""
+SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
 RECORDED = {
     "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
     "zoom": Window(start=56, stop=56.035, rate=1e5, theta=0.5),
-    **{
-        f"spectrum_{name}": Window(start=at, stop=at + 3, rate=4e3, theta=0.5)
-        for name, at in zip("abcd", STARTS, strict=True)
-    },
+    **{f"spectrum_{x}": Window(start=at, stop=at + 3, rate=4e3, theta=0.5) for x, at in SPECTRA.items()},
     "orbit": Window(start=59, rate=5e3, theta=0.5),
     **{f"around{j}": Window(start=56, stop=56.035, rate=1e4, theta=0.7 * j) for j in range(9)},
 }

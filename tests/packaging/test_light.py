@@ -49,17 +49,17 @@ else:
     raise AssertionError("it was drawn")
 import disc_model.benchmarks.answers.measure, disc_model.benchmarks.work_precision
 from disc_model.cli import main
-drawn = ["run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png"]
-for command in (["init", sys.argv[1] + ".study"], drawn):
+
+def code(*command):
     try:
-        main(command)
+        main([*command])
     except SystemExit as ended:
-        assert ended.code == 2, command
-for command in (["modes"], ["run", "--N", "200", "--Omega", "20", "--t-end", "0.02"]):
-    try:
-        main(command)
-    except SystemExit as ended:
-        assert not ended.code, command
+        return ended.code
+
+assert code("init", sys.argv[1] + ".study") == 2
+assert code("run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png") == 2
+assert not code("modes")
+assert not code("run", "--N", "200", "--Omega", "20", "--t-end", "0.02")
 main(["study", "my.yaml"])
 """
 
