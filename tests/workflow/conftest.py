@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping
@@ -13,7 +12,7 @@ from typing import Self
 
 import pytest
 
-from tests.processes import python, run
+from tests.processes import run
 
 ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
@@ -60,22 +59,9 @@ class Project:
         return {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1", **self.variables}
 
     def start(
-        self,
-        *options: str,
-        log: str = "run.log",
-        prepare: Callable[[], object] | None = None,
+        self, *options: str, log: str = "run.log", prepare: Callable[[], object] | None = None
     ) -> subprocess.Popen[bytes]:
-        """Run Snakemake in the background, in a session of its own; what it says is added to a file.
-
-        Background processes of a shell ignore SIGINT and would hand that on; this one does not, and does what
-        ``prepare`` says besides.
-        """
-
-        def child() -> None:
-            signal.signal(signal.SIGINT, signal.SIG_DFL)
-            if prepare is not None:
-                prepare()
-
+        """Run Snakemake in the background, in a session of its own, which does what ``prepare`` says; add to a log."""
         with (self.folder / log).open("ab") as file:
             return subprocess.Popen(
                 self.command(*options),
@@ -84,12 +70,8 @@ class Project:
                 stdout=file,
                 stderr=file,
                 start_new_session=True,
-                preexec_fn=child,
+                preexec_fn=prepare,
             )
-
-    def python(self, code: str) -> str:
-        """What a piece of code prints that is run with the copy's own sources."""
-        return python(code, cwd=self.folder, **self.own).stdout
 
     def products(self) -> dict[str, bytes]:
         """Content of every file that the study is about; no logs."""

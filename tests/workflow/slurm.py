@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tests import needs
+from tests.processes import run
 
 # No cgroups, so that it starts in any container: SLURM looks at the memory of jobs once a second instead, and kills
 # what exceeds its share.
@@ -76,10 +77,6 @@ class Cluster:
             process.kill()
             process.wait()
 
-    def start_controller(self) -> None:
-        self.start("slurmctld", "-D", "-f", str(self.folder / "slurm.conf"))
-        self.wait_until(lambda: "UP" in self.call("scontrol", "ping"), "slurmctld")
-
     def wait_until(self, ready: Callable[[], bool], daemon: str, seconds: float = 30.0) -> None:
         """Wait for a condition; a daemon that ended or is late makes SLURM unavailable, with what it said."""
         until = time.monotonic() + seconds
@@ -99,7 +96,8 @@ def cluster(folder: Path) -> Iterator[Cluster]:
     """A SLURM with two processors and one partition, main; raises Unavailable where it cannot be started."""
     if not needs.SLURM.met:
         raise Unavailable(needs.SLURM.reason)
-    slurm = Cluster(folder, _environment(folder))
+    path = os.pathsep.join([str(folder / "bin"), needs.SEARCH])
+    slurm = Cluster(folder, {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": path})
     _configure(folder)
     try:
         _start(slurm)
@@ -112,11 +110,6 @@ def die_with_parent() -> None:
     """Run in a new process: it gets SIGTERM when the process that started it ends, however that comes about."""
     pr_set_pdeathsig = 1
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
-
-
-def _environment(folder: Path) -> dict[str, str]:
-    bin_folder = folder / "bin"
-    return {"SLURM_CONF": str(folder / "slurm.conf"), "PATH": os.pathsep.join([str(bin_folder), needs.SEARCH])}
 
 
 def _configure(folder: Path) -> None:
@@ -143,9 +136,7 @@ def _configure(folder: Path) -> None:
 
 
 def _version() -> tuple[int, ...]:
-    program = needs.program("slurmd")
-    assert program, needs.SLURM.reason
-    phrase = subprocess.run([program, "-V"], capture_output=True, text=True, timeout=60, check=True).stdout
+    phrase = run(needs.program("slurmd"), "-V", timeout=60).stdout
     return tuple(int(number) for number in re.findall(r"\d+", phrase)[:2])
 
 
@@ -162,7 +153,8 @@ def _start(slurm: Cluster) -> None:
     # by force: temporary folders are closed to others, which munge takes for a mistake
     slurm.start("munged", "--foreground", "--force", *files)
     slurm.wait_until((slurm.folder / "munge.socket").exists, "munged")
-    slurm.start_controller()
+    slurm.start("slurmctld", "-D", "-f", str(slurm.folder / "slurm.conf"))
+    slurm.wait_until(lambda: "UP" in slurm.call("scontrol", "ping"), "slurmctld")
     slurm.start("slurmd", "-D", "-f", str(slurm.folder / "slurm.conf"))
     slurm.wait_until(lambda: "State=IDLE" in slurm.call("scontrol", "show", "node", "localhost"), "slurmd")
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 import xarray as xr
 
+from tests.processes import python
 from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
@@ -24,7 +25,8 @@ Jobs = Callable[[Project], set[str]]
 def batches(project: Project, name: str) -> set[str]:
     """The jobs of all batches that a study now has, its sources hashed as in the project."""
     code = f"from disc_model.studies.study import load_study; print(*load_study('config/{name}.yaml').grid.batches)"
-    return {f"compute_batch:{name}:{batch}" for batch in project.python(code).split()}
+    found = python(code, cwd=project.folder, **project.own).stdout.split()
+    return {f"compute_batch:{name}:{batch}" for batch in found}
 
 
 def whole_map(project: Project) -> set[str]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import needs
+from tests import needs, processes
 from tests.shell import shell
 from tests.workflow.conftest import TEXTS
 
@@ -73,8 +73,7 @@ def test_the_lock_of_a_killed_run_is_told_with_the_command_that_removes_it(tmp_p
         time.sleep(0.05)
     os.killpg(run.pid, signal.SIGKILL)
     run.wait()
-    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=300)
-    assert told.returncode != 0
-    [own] = re.findall("After a killed one: disc-model study (.*)", told.stderr)
-    subprocess.run([*command, *shlex.split(own)], cwd=tmp_path, check=True, timeout=300)
+    told = processes.run(*command, cwd=tmp_path, fails=True, timeout=300).stderr
+    [own] = re.findall("After a killed one: disc-model study (.*)", told)
+    processes.run(*command, *shlex.split(own), cwd=tmp_path, timeout=300)
     assert not list(locks.glob("*"))
