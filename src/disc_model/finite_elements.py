@@ -26,8 +26,6 @@ from disc_model.plausibility import ImplausibleValue, warn_of_doubts
 if TYPE_CHECKING:
     from skfem import MeshQuad
 
-SEEN = 1e-6
-"""Least amplitude under the slider, relative to the largest: modes below it move in the plane of the disc alone."""
 SAME_PLACE = 1e-9
 """m; the slider must run through a node of the mesh."""
 MOST_ELEMENTS = 100_000
@@ -148,7 +146,7 @@ def disc_of_section(
             break
         found += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
     largest = max((a for *_, a, _ in found), default=0.0)
-    kept = sorted(row for row in found if row[3] > SEEN * largest)
+    kept = sorted(row for row in found if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
     raise_faults(violations((kept, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
     names = ("omega", "diameters", "circles", "amplitude", "shapes")
     columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))

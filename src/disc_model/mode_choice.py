@@ -36,8 +36,6 @@ GIVEN_UP = (4, 0)
 with which they are compared."""
 HORIZON = 600.0
 """s, simulated at most until the first separation."""
-LATE = (20.0, 10.0)
-"""s, time from the first separation to the interval in which separations are counted, and length of that interval."""
 
 
 def choose_modes(
@@ -163,12 +161,11 @@ def first_separation(p: Parameters) -> float:
 
 
 def separation_rate(p: Parameters) -> float:
-    """Separations per second after the first one, over `LATE`; nan if there is none within `HORIZON`."""
+    """Separations per second from 20 to 30 s after the first one; nan if there is none within `HORIZON`."""
     first = _run(p, HORIZON, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         return math.nan
-    wait, length = LATE
-    start = first.first_separation + wait
+    start, length = first.first_separation + 20.0, 10.0
     late = _run(p, start, initial_state=first.final_state).final_state
     return float(_run(p, start + length, initial_state=late).statistics["separations"]) / length
 

@@ -32,8 +32,6 @@ Array = NDArray[np.float64]
 
 POINTS_PER_ROOT = 6
 """Grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought."""
-HUGE = 1e280
-"""Bessel functions larger than this are computed by a recurrence with a separate exponent."""
 WIDEST = 1e11
 """Greatest ratio of squared frequencies of disc and slider. Their error is then 1e-5, compared with 60 digits."""
 
@@ -88,15 +86,11 @@ class Modes:
             return float(np.sum((self.psi / self.omega) ** 2))
 
 
-def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call.
-
-    normalization : replaces that of the case if it is given
-    """
+def mode_arrays(p: Parameters) -> Modes:
+    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call."""
     if p.disc is not None:
         return modes_of_table(p.disc)
-    orthonormal = (normalization or p.normalization) == "orthonormal"
-    return _modes(_PLATE(p), orthonormal)
+    return _modes(_PLATE(p), p.normalization == "orthonormal")
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
@@ -431,7 +425,7 @@ def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
     """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
     exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])
-    far = ~(np.abs(value[1]) < HUGE)
+    far = ~(np.abs(value[1]) < 1e280)  # near the end of the range of floats
     if np.any(far):
         orders = np.broadcast_to(l, x.shape)
         for order in np.unique(orders[far]):

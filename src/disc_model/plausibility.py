@@ -71,7 +71,7 @@ def _deflected(p: Parameters) -> str:
     if p.disc is not None:  # its thickness is unknown
         return ""
     try:
-        deflection = p.N * mode_arrays(p, "orthonormal").flexibility  # of the physical plate
+        deflection = p.N * mode_arrays(p.replace(normalization="orthonormal")).flexibility  # of the physical plate
     except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
     # Linear theory holds up to about the thickness. The paper's cases have up to 8 times as much, and 211 at the

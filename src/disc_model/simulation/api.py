@@ -58,8 +58,6 @@ log = logging.getLogger(__name__)
 Choose = Callable[[Parameters, str], tuple[Parameters, str]]
 """Maps a case and the JSON text of its choice of modes to the case with its modes and a record of the choice."""
 
-AUDIT_EVERY = 256
-"""Steps between two audits of the energy. A compliant contact takes about four times as many steps per second."""
 MOST_STEPS = 2**62
 """Largest number of steps that the engine can count."""
 STEPS_PER_PAUSE = 100_000
@@ -158,7 +156,7 @@ def simulate(
                 code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
-    run.case.idle[run.limits.order].append(run.workspace)
+    run.case.idle[run.limits.order].append((run.state, run.probe, run.series))
     if kept is not None:
         kept.remove()
     return result
@@ -224,8 +222,7 @@ class _Run:
         self.case = case = engine_case(p)
         self.key = content_key(case.key + repr(ramps)) if ramps else case.key
         model, order = case.model, series_order(asked.tol)
-        self.workspace = take_workspace(case, order)
-        self.state = self.workspace.state
+        self.state, self.probe, self.series = take_workspace(case, order)
         anew = asked.initial_state is not None and write_state(case, asked.initial_state, self.state, self.key)
         longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
@@ -239,7 +236,7 @@ class _Run:
             max_steps=min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS),
             # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
             pause_after=max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1))),
-            audit_every=1 if every_step else AUDIT_EVERY,
+            audit_every=1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
         )
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
@@ -304,8 +301,7 @@ class _Run:
 
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `event_loop.run`."""
-        work = self.workspace
-        return self.model, work.series, work.state, work.probe, self.limits, self.collector.buffers
+        return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
 
     @property
     def carried(self) -> Contents:

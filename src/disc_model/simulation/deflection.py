@@ -18,8 +18,6 @@ from disc_model.simulation.result import Array, State, amplitude_faults, is_fini
 if TYPE_CHECKING:
     import xarray as xr
 
-_NOTHING = Record(events=False)
-
 
 def snapshots(
     p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
@@ -53,13 +51,13 @@ def snapshots(
     )
     raise_faults(foreign_case(p) + wrong)
     wanted: list[float] = [] if given is None else given.tolist()
-    state = static_start(p) if initial_state is None else initial_state
+    state, nothing = static_start(p) if initial_state is None else initial_state, Record(events=False)
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     raise_faults(violations(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
     found = []
     for time in wanted:
         if time > state.time:
-            state = simulate(p, time, tol=tol, initial_state=state, record=_NOTHING).raise_for_status().final_state
+            state = simulate(p, time, tol=tol, initial_state=state, record=nothing).raise_for_status().final_state
         found.append(state)
     return tuple(found)
 

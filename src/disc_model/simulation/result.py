@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -343,20 +343,9 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
 # ----------------------------------------------------------------------------------------------------
 # Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
 
-CASES = 32
-"""Number of cases whose constants and workspaces are cached: tens of kilobytes each, megabytes with 1000 modes."""
-
-
-class Workspace(NamedTuple):
-    """Arrays to which the engine writes; only one run uses them at a time.
-
-    state, probe : current state of the run, and state at a trial time ahead of it
-    series : Taylor series of one step; the next step overwrites them
-    """
-
-    state: layout.EngineState
-    probe: layout.EngineState
-    series: layout.Series
+Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
+"""Arrays to which the engine writes, for one run at a time: the run's state, the state at a trial time ahead of it, and
+Taylor series of one step, which the next step overwrites."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -387,7 +376,7 @@ class EngineCase:
         return self.parameters.key
 
 
-@lru_cache(maxsize=CASES)
+@lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
 def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case, cached for equal parameters."""
     warn_of_doubts(p)
@@ -430,10 +419,9 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     Workspaces are reused, because making one takes as long as 30 steps.
     """
     if not case.idle[order]:
-        state, probe = layout.build_state(case.model), layout.build_state(case.model)
-        return Workspace(state, probe, layout.build_series(case.model, order))
+        return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
     found = case.idle[order].pop()
-    for state in (found.state, found.probe):
+    for state in found[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     return found
 
@@ -517,8 +505,6 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
 
 SAME_HEIGHT = 1e-9
 """Tolerance of heights, relative to the disc's deflection: far above rounding, far below any intended difference."""
-SAME_AMPLITUDE = 1e-9
-"""Tolerance relative to the largest amplitude: modes from two processors differ by at most 1e-13 (measured)."""
 
 
 def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
@@ -568,7 +554,8 @@ def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) ->
     place = (*place, "mode_amplitudes")
     if not is_finite_array(own, len(amplitudes)):
         return [Fault(place, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
-    other = np.abs(own - amplitudes) > SAME_AMPLITUDE * np.max(np.abs(amplitudes), initial=0.0)
+    # modes from two processors differ by at most 1e-13 (measured)
+    other = np.abs(own - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
     rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
     return [
         Fault((*place, str(i)), as_text(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
