@@ -69,7 +69,7 @@ def styled() -> Iterator[None]:
     """Apply the common style instead of the user's settings; also a decorator of drawing functions."""
     with mpl.rc_context():
         mpl.rcdefaults()
-        mpl.style.use("disc_model.figures.disc_model")
+        mpl.style.use(Path(__file__).with_name("disc_model.mplstyle"))
         yield
 
 
