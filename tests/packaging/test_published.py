@@ -1,4 +1,4 @@
-"""What a public host is told: addresses, and definitions for GitHub Actions."""
+"""What a public host is told: addresses, and definitions for GitHub Actions; and the parts of `make test`."""
 
 import re
 import tomllib
@@ -46,3 +46,14 @@ def test_actions_call_targets_that_make_has() -> None:
     for path in WORKFLOWS.values():
         called = re.findall(r"make (?:PYTHON=python )?([\w-]+)", path.read_text(encoding="utf-8"))
         assert set(called) <= targets, path.name
+
+
+def test_every_file_of_quick_tests_is_in_one_part() -> None:
+    """Those of the workflow are not quick."""
+    phrase = run("make", "-n", "test-parts").stdout
+    parts = [ROOT / path for line in re.findall(r"pytest .*", phrase) for path in re.findall(r"tests/\S*", line)]
+    files = {path for path in (ROOT / "tests").rglob("test_*.py") if "workflow" not in path.parts}
+    assert len(files) > 50
+    assert all(part.exists() for part in parts)
+    for file in files:
+        assert sum(file == part or part in file.parents for part in parts) == 1, file
