@@ -70,7 +70,6 @@ def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: P
         (SMALL, "title: quiet", "title: calm", lambda _: TABLES),
         (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | TABLES),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
-        (MAP, "horizon: 1,", "horizon: 1.5,", whole_map),
         (MAP, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),  # the default as it was
         (MAP, "title: outcome", "title: what becomes of it", lambda _: MAP_TAIL),
     ],
@@ -130,7 +129,6 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
             "src/disc_model/engine/event_loop.py",
             lambda project: everything(project) | {"compile:simulate-rigid_vertical", "compile:floquet-rigid_vertical"},
         ),
-        ("src/disc_model/plate.py", everything),
         ("src/disc_model/simulation/api.py", everything),
         ("src/disc_model/stability/attractor/outcome.py", whole_map),
         ("src/disc_model/studies/grids/quantities/floquet.py", whole_growth),
@@ -146,7 +144,6 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         # the provenance page and the ledger are laid out alike
         ("src/disc_model/claims/section42.py", lambda _: {"check_claims", "describe_study"}),
         ("src/disc_model/claims/section42.yaml", lambda _: {"check_claims", "describe_study"}),
-        ("src/disc_model/cli/run.py", lambda _: set()),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:
