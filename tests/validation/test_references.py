@@ -25,13 +25,6 @@ ERROR_PER_TOL_VIOLENT = 10.0
 ROUNDING = 1e-13
 
 
-def _events(name, tol):
-    data = stored.load(name)
-    p = Parameters(**data["parameters"])
-    start = stored.engine_state(data["start"], p) if data["start"] else None
-    return simulate(p, data["t_end"], tol=tol, initial_state=start).events
-
-
 def test_modes_are_those_of_the_reference():
     data = stored.load("C")
     modes = plate_modes(Parameters(**data["parameters"]))
@@ -45,9 +38,11 @@ def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, sep
     data, errors = stored.load(name), []
     kinds = data["kinds"]
     assert (len(kinds), kinds.count("separation")) == (count, separations)
+    p = Parameters(**data["parameters"])
+    start = data["start"] and stored.engine_state(data["start"], p)
     tolerances = [10.0**-digits for digits in range(4, 16)]
     for tol in tolerances:
-        events = _events(name, tol)
+        events = simulate(p, data["t_end"], tol=tol, initial_state=start).events
         assert list(events["kind"]) == kinds
         assert list(events["phase"]) == data["phase"]
         errors.append(float(np.abs(events["time"].to_numpy() - stored.times_of(data)).max()))
