@@ -7,7 +7,7 @@ import pytest
 
 from disc_model.data import provenance
 from disc_model.data.provenance import PACKAGE, git_commit, source_files, source_hash
-from disc_model.data.sources import KINDS
+from disc_model.data.sources import KINDS, VERSIONS
 
 BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
 
@@ -44,7 +44,10 @@ def test_names_stand_for_kinds_modules_packages_and_files(monkeypatch: pytest.Mo
     found = {path.relative_to(PACKAGE).as_posix() for path in source_files("other", "disc_model.progress")}
     assert {"errors.py", "plate.py", "progress.py", "explorer/static/page.css", "figures/paper/disc.py"} <= found
     assert source_files("one") == tuple(path for path in source_files("other") if path.name != "plate.py")
-    assert source_hash("other") != source_hash("one")
+    before = source_hash("other")
+    provenance.source_hash.cache_clear()
+    monkeypatch.setitem(VERSIONS, "one", 2)
+    assert source_hash("other") != before
     provenance.source_hash.cache_clear()
     with pytest.raises(FileNotFoundError, match="missing"):
         source_files("missing")

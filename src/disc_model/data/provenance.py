@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from disc_model.bytecode import bytecode_of
-from disc_model.data.sources import KINDS
+from disc_model.data.sources import KINDS, VERSIONS
 
 PACKAGE = Path(__file__).resolve().parents[1]
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
@@ -26,7 +26,8 @@ def source_hash(*names: str, files: tuple[Path, ...] = ()) -> str:
     names : kinds of results, modules, packages and files, as in `disc_model.data.sources`
     files : further sources, such as a script
     """
-    digest = hashlib.sha256()
+    kinds = sorted(_meant(names) & KINDS.keys())
+    digest = hashlib.sha256(repr([(kind, VERSIONS.get(kind, 1)) for kind in kinds]).encode())
     own = {path: path.relative_to(PACKAGE).as_posix() for path in source_files(*names)}
     # a script is hashed under its bare name, wherever it is installed
     for path, name in (own | {path: path.name for path in files}).items():
