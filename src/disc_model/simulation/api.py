@@ -228,15 +228,13 @@ class _Run:
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
         most, every_step = asked.execution.max_steps, asked.record.audit_every_step
+        tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
+        most_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
+        # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
+        pause_after = max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1)))
+        audit_every = 1 if every_step else 256  # a compliant contact takes about four times as many steps per second
         self.limits = event_loop.Limits(
-            order=order,
-            tolerance=series_tolerance(asked.tol, compliant=p.contact_compliance != 0),
-            t_end=asked.t_end,
-            stop_at_first=asked.stop_at is not None,
-            max_steps=min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS),
-            # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
-            pause_after=max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1))),
-            audit_every=1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
+            order, tolerance, asked.t_end, asked.stop_at is not None, most_steps, pause_after, audit_every
         )
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for place, piece in reversed(tuple(enumerate(self.pieces))):
@@ -363,7 +361,7 @@ def _step_limit(model: layout.Model, duration: float) -> int:
 
 
 def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
-    time, phase = state.x[layout.TIME], PHASES[int(state.x[layout.PHASE])]
+    time, phase = float(state.x[layout.TIME]), PHASES[int(state.x[layout.PHASE])]
     text = f"{status.value}: at t = {time:.9g} s in {phase}"
     if status is Status.PARADOX:
         slope = float(np.dot(model.dw_dtheta, state.z))

@@ -173,15 +173,13 @@ class Collector:
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + sampling.SAME_INSTANT * t_end
         per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
+        counters, sampled = np.zeros(event_loop.N_COUNTERS, np.int64), np.zeros(len(grids), np.int64)
+        samplers = np.array(grids) if grids else np.zeros((0, 5))
+        sample_rows = np.empty((capacity + per_step, len(sampling.ROW)))
+        event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
+        # in order, as this takes half the time that names do
         self.buffers = event_loop.RunBuffers(
-            counters=np.zeros(event_loop.N_COUNTERS, np.int64),
-            phase_times=np.zeros(3),
-            audit=np.zeros(N_SUMS),
-            samplers=np.array(grids).reshape(-1, 5),
-            sampled=np.zeros(len(grids), np.int64),
-            sample_rows=np.empty((capacity + per_step, len(sampling.ROW))),
-            sample_capacity=capacity,
-            event_rows=np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW))),
+            counters, np.zeros(3), np.zeros(N_SUMS), samplers, sampled, sample_rows, capacity, event_rows
         )
         self.first_separation = np.array(math.nan)
         """Time of the first loss of contact, s; nan if there was none."""
