@@ -234,7 +234,8 @@ def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...]
         yield (), here
         return
     step, rest = place[0], place[1:]
-    if step in (here if isinstance(here, Mapping) else range(len(here)) if isinstance(here, list | tuple) else ()):
+    listed = range(len(here)) if isinstance(here, list | tuple) else ()
+    if step in (here if isinstance(here, Mapping) else listed):
         for path, end in _readings(rest, here[step]):
             yield (step, *path), end
     yield from _readings(rest, here)

@@ -86,11 +86,14 @@ class Modes:
             return float(np.sum((self.psi / self.omega) ** 2))
 
 
-def mode_arrays(p: Parameters) -> Modes:
-    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call."""
+def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
+    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call.
+
+    normalization : replaces that of the case if it is given
+    """
     if p.disc is not None:
         return modes_of_table(p.disc)
-    return _modes(_PLATE(p), p.normalization == "orthonormal")
+    return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:

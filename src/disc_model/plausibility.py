@@ -71,7 +71,7 @@ def _deflected(p: Parameters) -> str:
     if p.disc is not None:  # its thickness is unknown
         return ""
     try:
-        deflection = p.N * mode_arrays(p.replace(normalization="orthonormal")).flexibility  # of the physical plate
+        deflection = p.N * mode_arrays(p, "orthonormal").flexibility  # of the physical plate
     except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
     # Linear theory holds up to about the thickness. The paper's cases have up to 8 times as much, and 211 at the
@@ -83,8 +83,7 @@ def _deflected(p: Parameters) -> str:
 
 
 def _pitch(p: Parameters) -> str:
-    lowest = min(p.disc.omega) / math.tau if p.disc else 10.0  # Hz
-    if 10.0 <= lowest <= 1e5:
+    if p.disc is None or 10.0 <= (lowest := min(p.disc.omega) / math.tau) <= 1e5:  # Hz
         return ""
     return f"the lowest mode of the disc has {lowest:.3g} Hz: a table has frequencies in Hz or rad/s, by its column"
 

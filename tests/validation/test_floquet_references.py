@@ -63,6 +63,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     # beyond a fold on the way back another multiplier grows, and the static start leads elsewhere
     rates = np.log(np.abs(curve.multipliers)) / curve.period[:, None]
     assert np.max(np.min(np.abs(rates), axis=1)) < 1e-6
+    assert np.max(np.abs(curve.growth_rate[-12:])) < 1e-6
     for values in curve.values[-12::4]:
         here = p.replace(**dict(zip(names, map(float, values), strict=True)))
         assert floquet(here).growth_rate == pytest.approx(0, abs=1e-6)

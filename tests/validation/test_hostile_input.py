@@ -67,7 +67,7 @@ def test_parameters(given_fields: dict[str, Any]) -> None:
 
 @given(st.data())
 def test_study_with_one_hostile_node(data: st.DataObject) -> None:
-    study = data.draw(st.sampled_from(STUDIES))
+    study = data.draw(st.sampled_from(STUDIES[:1]) | st.sampled_from(STUDIES[1:]))  # one of cases, or of a grid
     path = data.draw(st.sampled_from(places(study)))
     try_study(planted(study, path, data.draw(trees)))
 

@@ -140,3 +140,25 @@ def test_rates_of_the_reference_balance_in_coordinates_fixed_in_space(law, phase
         assert f_rate == 0
     else:
         assert pytest.approx(direction * p.mu_k * R, abs=1e-9 * load) == T
+
+
+@pytest.mark.parametrize("law", ["default", "normal"])
+def test_an_impact_of_the_reference_keeps_momentum_and_loses_energy_by_the_approach(law):
+    """Half the impulse times the velocity of approach, less what a vertical force does on the moving slope."""
+    p = P.replace(**LAWS.get(law, {}))
+    run = taylor.Reference(taylor.problem_of(p), stored.reference_state(lively("separation", 0, p), p))
+    run.v = run.disc()[1] - 0.3
+    q, alpha, v, f = run.q, run.alpha, run.v, run.f
+
+    def energy():
+        return (run.alpha @ run.alpha + run.beta @ run.beta + q.m * run.v**2 + q.m * q.r_0**2 * run.f**2) / 2
+
+    before = energy()
+    run._switch("reattachment")
+    impulse, slope = q.m * (run.v - v), run.disc()[2] / q.r_0 * q.normal
+    assert impulse > 0
+    assert abs(slope) > 1e-4 or not q.normal
+    np.testing.assert_allclose((run.alpha - alpha).astype(float), (-q.s * impulse).astype(float), rtol=1e-12)
+    assert float(q.m * q.r_0 * (run.f - f)) == pytest.approx(float(-slope * impulse), rel=1e-12)
+    driven = 0 if q.normal else f * run.disc()[2]
+    assert float(before - energy()) == pytest.approx(float(impulse * (0.3 / 2 - driven)), rel=1e-9)

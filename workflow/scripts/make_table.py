@@ -48,7 +48,7 @@ def main(name: str, csv: str, md: str, html: str, path: str) -> None:
         table, missing = table_2_or_why(case)
         table, note = table.round(3), missing or note
     table.to_csv(csv, index=False)
-    table = table.rename(columns=NAMES)
+    table.columns = [NAMES[str(column)] for column in table.columns]
     rows = ([cell(x) for x in row] for row in table.itertuples(index=False))
     lines = [f"# {TITLES[name]}", "", note, "", *markdown_table(table.columns, rows)]
     Path(md).write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -276,15 +276,18 @@ def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Pat
     for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
         for key in ("remarks", "undecided"):  # keys without a text use the common one
             raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
-        check = raw.get("check")
+        check, cases = str(raw.get("check")), raw.get("cases")
         named.add(check)
         faults += [] if check in checks else [f"{file}: {name}: no check {check}"]
+        faults += [f"{file}: {name}: no key id, which its name is"] if "id" in raw else []
         try:
             found.append(Claim.model_validate(raw | {"id": name, "check": checks.get(check, Answer)}))
         except ValidationError as error:
             faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
         faults += [
-            f"{file}: {name}: no case {one} in the paper's" for one in raw.get("cases", {}) if one not in paper_cases()
+            f"{file}: {name}: no case {one} in the paper's"
+            for one in (cases if isinstance(cases, dict) else ())
+            if one not in paper_cases()
         ]
     faults += [f"{name}: a check without a text" for name in sorted(checks.keys() - named)]
     if faults:
@@ -327,7 +330,7 @@ def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
 
 def _named(cases: Mapping[str, CaseView], names: Names) -> list[CaseView]:
     """The cases of these names, all if true."""
-    return [case for name, case in cases.items() if names is True or name in names]
+    return [cases[name] for name in (cases if names is True else names)]
 
 
 def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:

@@ -57,8 +57,8 @@ class Sentences(string.Formatter):
     def format_field(self, value: Any, spec: str) -> str:
         if isinstance(value, list | np.ndarray):
             return ", ".join(self.format_field(each, spec) for each in value)
-        spec, _, unit = spec.partition(" ")
-        return f"{format(UNITS[unit] * value, spec)} {unit}" if unit else format(value, spec)
+        own, _, unit = spec.rpartition(" ")
+        return f"{format(UNITS[unit] * value, own)} {unit}" if unit in UNITS else format(value, spec)
 
 
 class Passage(_Templates):

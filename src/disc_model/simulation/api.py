@@ -223,7 +223,9 @@ class _Run:
         self.key = content_key(case.key + repr(ramps)) if ramps else case.key
         model, order = case.model, series_order(asked.tol)
         self.state, self.probe, self.series = take_workspace(case, order)
-        anew = asked.initial_state is not None and write_state(case, asked.initial_state, self.state, self.key)
+        at_switch = False
+        if asked.initial_state is not None:
+            at_switch = write_state(case, asked.initial_state, self.state, self.key)
         longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
         self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
@@ -240,7 +242,7 @@ class _Run:
         for place, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < asked.t_end:
                 self._enter(place)
-        if anew:
+        if at_switch:
             self._begin_at_switch()
 
     def _enter(self, place: int) -> None:

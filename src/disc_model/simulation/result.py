@@ -263,7 +263,7 @@ class Result:
         return groups
 
     def _scalars(self) -> dict[str, float]:
-        """Values of `disc_model.data.variables.SCALARS`."""
+        """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}
         return values | {

@@ -231,10 +231,8 @@ class ReturnMap:
         code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[variational.DURATION, variational.STICK_TIME]].tolist()
         counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
-        by_start, by = (
-            self._section.jacobian[:, first : first + count].copy()
-            for first, count in ((0, self.size), (self._first, len(self._names)))
-        )
+        jacobian, last = self._section.jacobian, self._first + len(self._names)
+        by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first : last].copy()
         return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
 
     def next_release(self, start: State) -> tuple[int, Array]:
@@ -306,9 +304,9 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
             if fresh:
                 return None
         if flight.residual > goal and ratio > 0.05:  # a better step is followed by another with its Jacobian
-            if used >= 14:
+            if used >= 14:  # Jacobians
                 return None
-            again = follow(flight.start, coarse=used < 3)
+            again = follow(flight.start, coarse=used < 3)  # the first ones only give a direction
             if not again.returned:
                 return None
             jacobian, used, fresh = again.jacobian, used + 1, True

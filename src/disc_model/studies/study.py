@@ -882,8 +882,9 @@ class GridStudy:
     def _out_of_reach(self, options: SensitivityOptions) -> Iterator[str]:
         """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
-        for point in self._points([*options.distributions, *RELATED]):
-            here = case_of({**self.base, **point}, self.discs)
+        every = (point.items() for point in self._points([*options.distributions, *RELATED]))
+        for point in dict.fromkeys(tuple((name, at) for name, at in items if name != SAMPLE) for items in every):
+            here = case_of({**self.base, **dict(point)}, self.discs)
             ends: dict[str, list[float]] = {}
             for name, given in options.distributions.items():
                 scale = _own(name, here) if given.relative else 1.0

@@ -24,6 +24,8 @@ from disc_model.figures.grids.cells import (
     unresolved,
 )
 from disc_model.figures.grids.growth_map import Curve, parted
+from disc_model.figures.grids.stability_map import set_scales
+from disc_model.figures.kinds import StabilityMap
 from disc_model.figures.parts import save
 from disc_model.studies.grids.quantities import regions
 from tests.figures.grids.reading import ON_EACH_SCALE, draw, labels
@@ -85,6 +87,14 @@ def test_a_hatch_on_dark_red_could_not_be_seen() -> None:
 )
 def test_evenly_spaced_values_have_a_linear_axis(name: str, values: np.ndarray, scale: str) -> None:
     assert scale_of(name, values) == scale
+
+
+def test_a_logarithmic_axis_has_no_tick_beyond_its_values() -> None:
+    """The axis itself reaches a fiftieth farther: there 500 g were named, though no point has so much."""
+    ax = Figure().subplots()
+    study = xr.Dataset(coords={"m": np.geomspace(0.01, 0.49, 9), "N": np.arange(3.0)})
+    set_scales([ax], study, StabilityMap(x="m", y="N"))
+    assert ax.get_xticks().tolist() == pytest.approx([10, 20, 50, 100, 200])
 
 
 def test_what_there_is_without_a_cycle_is_told_apart() -> None:

@@ -204,7 +204,7 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> N
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
             ticks = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
-            ticks = ticks[ticks >= 0.999 * values[values > 0][0]]
+            ticks = ticks[(ticks >= 0.999 * values[values > 0][0]) & (ticks <= 1.001 * values[-1])]
             axis.set_major_locator(FixedLocator([*[0.0] * (scale == "symlog"), *ticks]))
             axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(NullFormatter())

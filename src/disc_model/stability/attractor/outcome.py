@@ -282,13 +282,14 @@ class _OutcomeSearch:
 
     def _stays_in_contact(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
+        # not before 70 s are simulated, as a test costs as much as 50 to 400 s of simulation
         tested = self.early and self.found.simulated >= 70.0 and self.horizon - self.found.time >= LONGEST_LEG
         if not tested or not self._grows or self.at is None or not self.torus.shows_torus(self.at):
             return False
         # it may pass an unstable one, or a border of its phases that no derivative shows: it is watched for 40 s
         result, segment = final_segment(self.p, self.found.state, 40.0, 40.0, self.tol)
         self.found.simulated += result.final_state.time - self.found.time
-        if segment is None or segment.P_min < 0.05 * self.p.N:
+        if segment is None or segment.P_min < 0.05 * self.p.N:  # too near to a loss of contact to exclude one
             return False
         code, x = self.torus.map.next_release(result.final_state)
         return code == RETURNED and self.torus.shows_no_change(x)

@@ -73,6 +73,7 @@ def made_up(**changes: Any) -> xr.Dataset:
     } | changes
     dims = {1: "Omega", 2: ("Omega", "mode")}
     made = {name: (dims[value.ndim], value) for name, value in values.items()}
+    made["status"] = ("Omega", np.zeros(401, int), {"flag_meanings": "ok excluded"})
     return xr.Dataset(made, {"Omega": speeds, "mode": [1]})
 
 
@@ -118,9 +119,18 @@ def test_speeds_that_a_rule_leaves_out_are_an_end_of_the_axis() -> None:
     left_out = study["Omega"].values > 10.05
     for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate", "sliding_frequency"):
         study[name][left_out] = np.nan
-    study["status"] = ("Omega", left_out.astype(int), {"flag_meanings": "ok excluded"})
+    study["status"][:] = left_out.astype(int)
     found = summarised(study, "campbell", CampbellOptions().model_dump())
     assert words(found, "crossing_effect")[0] == "unresolved"
+
+
+def test_no_crossing_lies_between_speeds_of_which_a_rule_leaves_those_between_out() -> None:
+    """The modes' frequencies were interpolated over the gap, and crossings found where no speed is."""
+    study = made_up()
+    gap = abs(study["Omega"].values - 10) < 1
+    for left_out in (gap, np.ones(401)):
+        study["status"][:] = left_out.astype(int)
+        assert summarised(study, "campbell", CampbellOptions().model_dump())["n_crossings"] == 0
 
 
 def test_gaps_are_bridged_and_ends_are_not() -> None:

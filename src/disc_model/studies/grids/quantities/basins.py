@@ -61,7 +61,7 @@ COORDINATES = {
     "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
     "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
     "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
-    # those of most starts; there are seven at 10 rad/s and 385 N
+    # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
     "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
 }
 

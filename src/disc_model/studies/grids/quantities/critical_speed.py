@@ -7,6 +7,7 @@ horizon lies within this uncertainty, the motion is simulated from its start.
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -55,7 +56,8 @@ def compute_point(point: Point, options: CriticalSpeedOptions) -> tuple[dict[str
 
     def look(i: int) -> None:
         """Compute the motion at the i-th speed of the lattice, which is not known yet."""
-        found = motions[i] = motion(p.replace(Omega=speed(i)), options)
+        # their return maps would take megabytes each for a disc of many modes
+        found = motions[i] = replace(motion(p.replace(Omega=speed(i)), options), near=None, departed=None)
         none = math.isnan(found.first_separation) and found.status == "ok"
         known[i] = math.inf if none else found.first_separation
 

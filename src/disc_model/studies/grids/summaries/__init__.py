@@ -20,7 +20,7 @@ def summary_of(quantity: str) -> Any:
     """The summary of a quantity, or None: a module with `COLUMNS` and `COORDINATES` as a quantity has them.
 
     Its function `summarise(cell, options)` returns values by column, for a merged dataset that has only the summarised
-    dimension left, without points that a rule of the grid excludes.
+    dimension left. Of its points at least one has a status other than `EXCLUDED`.
     """
     if not QUANTITIES[quantity].over:
         return None
@@ -39,7 +39,7 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     over = QUANTITIES[quantity].over
     others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != over}
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*others.values())]
-    kept = [cell.isel({over: flag_names(cell["status"]) != EXCLUDED}) for cell in cells]
-    rows = [summary.summarise(cell, checked) if cell.sizes[over] else {} for cell in kept]
+    kept = [bool((flag_names(cell["status"]) != EXCLUDED).any()) for cell in cells]
+    rows = [summary.summarise(cell, checked) if any_left else {} for cell, any_left in zip(cells, kept, strict=True)]
     variables = variables_of(summary, rows, checked, others)
     return study.assign_coords(own_coordinates(summary, checked)).assign(variables)

@@ -9,13 +9,14 @@ at its ends.
 
 import math
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import EXCLUDED, Variable, flag_names
 from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.points import Coordinate, listed
 
@@ -44,8 +45,11 @@ COORDINATES = {"crossing": Coordinate("1", "number of the crossing", lambda o: r
 
 
 def summarise(cell: xr.Dataset, options: CampbellOptions) -> dict[str, Any]:
-    """Summarise over the speeds, which ascend."""
-    found = crossings(cell.transpose("Omega", ...), options)
+    """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
+    left = flag_names(cell["status"]) != EXCLUDED
+    stretches = np.split(np.arange(len(left)), np.flatnonzero(np.diff(left)) + 1)
+    axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if left[stretch[0]]]
+    found = chain.from_iterable(crossings(axis, options) for axis in axes)
     rows = sorted(found, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
     columns = listed(rows[: options.max_crossings])
     return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.sobol import Indices, share, sobol_intervals
-from disc_model.data.variables import Variable, flag_names
+from disc_model.data.variables import EXCLUDED, Variable, flag_names
 from disc_model.studies.document import SensitivityOptions
 from disc_model.studies.grids.points import DRAWS, SAMPLE_CYCLES, SAMPLE_OUTCOMES, UNSTABLE, Coordinate, with_ends
 
@@ -54,7 +54,8 @@ COORDINATES = {
 
 
 def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
-    """Summarise over the samples."""
+    """Summarise over the samples that no rule of the grid leaves out."""
+    cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
     words = flag_names(cell["cycle"].transpose("sample", "variant"))
     drawn = words[:, : len(DRAWS)].ravel()
     outcomes = flag_names(cell["outcome"])
