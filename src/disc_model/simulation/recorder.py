@@ -235,6 +235,8 @@ class Collector:
 
     def events(self) -> Array:
         """All recorded events, shape (n, len(EVENT_ROW))."""
+        if len(self._events) == 1:  # of most runs, whose rows are not copied once more
+            return self._events[0]
         return np.concatenate([np.zeros((0, len(event_loop.EVENT_ROW))), *self._events])
 
     def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
