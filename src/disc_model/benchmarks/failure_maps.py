@@ -94,10 +94,15 @@ def _facts(scene: str, diameters: int) -> dict[str, float]:
     return {
         "modes": float(real_modes(diameters, 0)),
         "omega_max": top,
-        "step_limit": STABILITY_LIMIT / top,
+        "step_limit": _step_limit(p),
         "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
         "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
     }
+
+
+def _step_limit(p: Parameters) -> float:
+    """Linear stability limit of RK4, s."""
+    return STABILITY_LIMIT / float(mode_arrays(p).omega.max())
 
 
 @lru_cache(maxsize=64)
@@ -121,7 +126,7 @@ def observed_step_limit(diameters: int) -> float:
     Compare with 2 sqrt(2)/omega_max.  Its relative precision is 2e-3.
     """
     problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
-    theory = _facts("stick_slip", diameters)["step_limit"]
+    theory = _step_limit(problem.parameters)
     low, high = 0.7 * theory, 1.5 * theory
     while high / low > 1.0 + 2e-3:
         middle = math.sqrt(low * high)
