@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import EXCLUDED, flag_names
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.run import own_coordinates, variables_of
 
@@ -20,7 +19,7 @@ def summary_of(quantity: str) -> Any:
     """The summary of a quantity, or None: a module with `COLUMNS` and `COORDINATES` as a quantity has them.
 
     Its function `summarise(cell, options)` returns values by column, for a merged dataset that has only the summarised
-    dimension left. Of its points at least one has a status other than `EXCLUDED`.
+    dimension left; a rule of the grid may leave out some of its points, or all.
     """
     if not QUANTITIES[quantity].over:
         return None
@@ -36,10 +35,7 @@ def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> 
     if summary is None:
         return study
     checked = SimpleNamespace(**options)
-    over = QUANTITIES[quantity].over
-    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != over}
+    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != QUANTITIES[quantity].over}
     cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*others.values())]
-    kept = [bool((flag_names(cell["status"]) != EXCLUDED).any()) for cell in cells]
-    rows = [summary.summarise(cell, checked) if any_left else {} for cell, any_left in zip(cells, kept, strict=True)]
-    variables = variables_of(summary, rows, checked, others)
+    variables = variables_of(summary, [summary.summarise(cell, checked) for cell in cells], checked, others)
     return study.assign_coords(own_coordinates(summary, checked)).assign(variables)

@@ -56,6 +56,8 @@ COORDINATES = {
 def summarise(cell: xr.Dataset, options: SensitivityOptions) -> dict[str, Any]:
     """Summarise over the samples that no rule of the grid leaves out."""
     cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
+    if not cell.sizes["sample"]:
+        return {}
     words = flag_names(cell["cycle"].transpose("sample", "variant"))
     drawn = words[:, : len(DRAWS)].ravel()
     outcomes = flag_names(cell["outcome"])
