@@ -16,17 +16,17 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from docs.make_gallery import shrink
+from docs.truncation_passages import TEXTS, as_markdown
 
-from disc_model.benchmarks import truncation_pages
-from disc_model.benchmarks.answers import report
+from disc_model.benchmarks.answers.measure import points as answered_points
 from disc_model.benchmarks.answers.questions import QUESTIONS
 from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
-from disc_model.benchmarks.texts import as_markdown
+from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import load
-from disc_model.data.texts import read_passages
 from disc_model.errors import DiscModelError, script
+from docs import truncation_passages
 
 SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
@@ -36,7 +36,6 @@ PAGES = ("README.md", "docs/method.md", "docs/benchmark.md", "docs/truncation.md
 """Pages with passages."""
 FIGURES = ("overview", "failure_maps", "answers", "prices", "answer_maps", "contact_truncation")
 """Figures that are shown in docs/gallery."""
-TEXTS = read_passages(Path(__file__).with_name("benchmark_texts.yaml"))
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Panel letters of the scenes in the overview."""
 Rows = list[dict[str, Any]]
@@ -67,7 +66,7 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
         "glue": _glue(points[points["solver"] == "heyoka"]),
         "call": _whole_call(points[points["scene"] == JUDGED[0]]),
         "costs": _costs(points),
-        "answers": _answers(report.points(answers)),
+        "answers": _answers(answered_points(answers)),
     }
 
 
@@ -115,9 +114,11 @@ def _answers(found: pd.DataFrame) -> Table:
     """
     table: Table = {}
     for (label, line, name), part in found.groupby(["label", "line", "answer"], sort=False):
-        best = part[part["verdict"] == "right"].nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
-        cell = {"wrong": part["setting"][part["verdict"] == "wrong"].tolist()} | (best[0] if best else {})
-        table.setdefault(str(label), {})[name] = report.right_numbers(part) if line in report.MODELS else cell
+        right, wrong = (part[part["verdict"] == verdict] for verdict in ("right", "wrong"))
+        best = right.nsmallest(1, "seconds")[["seconds", "at"]].to_dict("records")
+        cell = {"wrong": wrong["setting"].tolist()} | (best[0] if best else {})
+        numbers = ", ".join(f"{count:.0f}" for count in right["setting"])
+        table.setdefault(str(label), {})[name] = numbers if line in CONTACTS else cell
     return table
 
 
@@ -132,7 +133,7 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
     cycle = answers["series, from the cycle itself"]["growth_rate"]
     heads = [*(f"({own['letter']}), times" for own in run["own"]), "(d), ms"]
     asked = {
-        name: f"{own.title}, to {report.within(own.enough, own.units)}"
+        name: f"{own.title}, to {_within(own.enough, own.units)}"
         for name, own in QUESTIONS.items()
         if any(name in line for line in answers.values())
     }
@@ -149,7 +150,13 @@ def passages(run: Mapping[str, Any]) -> dict[str, str]:
 def stored_passages(docs: Path) -> dict[str, str]:
     """All passages of the stored run, those on the number of modes among them."""
     speed, modes = (json.loads((docs / f"{name}.json").read_text(encoding="utf-8")) for name in STORED)
-    return passages(speed) | truncation_pages.passages(modes)
+    return passages(speed) | truncation_passages.passages(modes)
+
+
+def _within(enough: float, units: str) -> str:
+    """Tolerance of an answer as text."""
+    unit = units.replace("rad s-1", "rad/s").replace("s-1", "1/s")
+    return f"{enough:g}" if units == "1" else f"{enough:g} {unit}"
 
 
 def _printed(table: Table, titles: Mapping[str, str]) -> str:
@@ -212,7 +219,7 @@ def main(bench: str = "results/bench", root: str = "") -> None:
         run = summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
         _store(run, docs / "benchmark.json")
     if "contact_truncation" in there:
-        _store(truncation_pages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
+        _store(truncation_passages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
     known = stored_passages(docs)
     for page in (top / name for name in PAGES):
         page.write_text(fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")

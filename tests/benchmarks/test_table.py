@@ -20,16 +20,12 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     coarse = frame[(frame["scene"] == "stick_slip") & (frame["setting"] == "step=0.0004")].iloc[0]
     assert coarse["times_series"] == pytest.approx((1e-5 / 4e-4) / (1e-3 + 6e-5), rel=1e-6)
     assert math.isnan(frame[frame["method"] == "Radau"]["times_series"].iloc[0])
-    text = table.to_markdown(dataset)
-    assert "\n## stick slip\n\n| method | setting |" in text
-    assert "| RK4 | step=0.0001 | converged | 0.1 | 1e-08 |" in text
-    assert "| - |" in text
+    assert row["verdict"] == "converged"
     # at its default the series takes 1 ms a further second; RK4 is right to 1e-10 s between two of its
     # steps, at 3.16e-5 s, which takes 0.316 s
     step = (1e-10 / 1e8) ** 0.25
     expected = {"series": 1.0, "RK4": pytest.approx(1e-5 / step / 1e-3, rel=1e-3)}
     assert headline(measured_points(dataset)) == {"stick_slip": expected}
-    assert "to 1e-10 s: RK4, fixed step 316." in text
     without = table.table(dataset.sel(solver=["RK4"]))
     assert without["times_series"].isna().all()
 

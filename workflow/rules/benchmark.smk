@@ -28,11 +28,9 @@ BENCH_FIGURES = {
 
 rule bench:
     input:
-        f"{BENCH}/table.md",
         f"{BENCH}/table.csv",
         f"{BENCH}/table_avx2.csv",
-        f"{BENCH}/answers.md",
-        f"{BENCH}/contact_truncation.md",
+        f"{BENCH}/answers.csv",
         collect(
             f"{BENCH}/figures/{{figure}}.{{suffix}}",
             figure=BENCH_FIGURES,
@@ -46,7 +44,6 @@ rule measure_work_precision:
     output:
         nc=f"{BENCH}/work_precision{{target}}.nc",
         csv=f"{BENCH}/table{{target}}.csv",
-        md=f"{BENCH}/table{{target}}.md",
     log:
         f"{BENCH}/logs/measure_work_precision{{target}}.log",
     wildcard_constraints:
@@ -84,7 +81,7 @@ rule merge_answers:
         collect(f"{BENCH}/answers/{{part}}.nc", part=[*QUESTIONED, "cycle", "models"]),
     output:
         nc=f"{BENCH}/answers.nc",
-        md=f"{BENCH}/answers.md",
+        csv=f"{BENCH}/answers.csv",
     log:
         f"{BENCH}/logs/merge_answers.log",
     conda:
@@ -93,21 +90,6 @@ rule merge_answers:
         made_of=made_of("merge_answers"),
     shell:
         "job merge_answers {output} {input} > {log} 2>&1"
-
-
-rule report_truncation:
-    input:
-        f"{BENCH}/contact_truncation.nc",
-    output:
-        f"{BENCH}/contact_truncation.md",
-    log:
-        f"{BENCH}/logs/report_truncation.log",
-    conda:
-        "../envs/disc_model.yaml"
-    params:
-        made_of=made_of("report_truncation"),
-    shell:
-        "job report_truncation {input} {output} > {log} 2>&1"
 
 
 rule draw_benchmark:

@@ -1,4 +1,4 @@
-"""The measured points as a table, and its summary."""
+"""The measured points as a table, and costs at equal error."""
 
 import math
 
@@ -9,7 +9,6 @@ import xarray as xr
 from disc_model.benchmarks.grid import TABLES, words
 from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import JUDGED, Verdict
-from disc_model.benchmarks.texts import TEXTS, report
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error (s) required of the other methods."""
@@ -81,13 +80,3 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     )
     counts = dict.fromkeys(("events", "separations", "repeats"), int)
     return derived.astype(counts)[[*SHOWN.values()]].set_axis([*SHOWN], axis=1)
-
-
-def to_markdown(dataset: xr.Dataset) -> str:
-    """The table as Markdown: a section per scene, with machine and `headline` above."""
-    scenes = []
-    for scene, found in headline(measured_points(dataset)).items():
-        others = sorted((ratio, METHODS[name].label) for name, ratio in found.items() if name != "series")
-        scenes.append({"scene": scene, "methods": [{"label": label, "ratio": ratio} for ratio, label in others]})
-    about = TEXTS["speed_page"].fill(machine=dataset.attrs["machine"], error=DEFAULT, scenes=scenes)
-    return report(dataset.attrs["title"], about, table(dataset), "scene")

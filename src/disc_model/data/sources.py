@@ -19,7 +19,6 @@ _QUESTIONS = (
     "truncation benchmarks.answers.questions benchmarks.answers.simulated analysis.classify "
     "analysis.sobol " + _REFERENCES
 )
-_TEXTS = "benchmarks.texts benchmarks/texts.yaml data.texts"
 _ANSWERS = "benchmarks.answers.measure benchmarks.answers.modelled benchmarks.truncation continuation " + _QUESTIONS
 
 KINDS = {
@@ -65,9 +64,8 @@ KINDS = {
     "make_table": "check_claims",
     "build_explorer": "figure explorer explorer/static",
     # the benchmark
-    "measure_work_precision": f"{_BENCHMARK} {_TEXTS} benchmarks.table benchmarks.work_precision {_REFERENCES}",
+    "measure_work_precision": f"{_BENCHMARK} benchmarks.table benchmarks.work_precision {_REFERENCES}",
     "measure": f"{_BENCHMARK} {_ANSWERS} benchmarks.failure_maps",
-    "merge_answers": f"{_BENCHMARK} {_ANSWERS} {_TEXTS} benchmarks.answers.report",
-    "report_truncation": f"dataset {_GRID} benchmarks.truncation_pages {_TEXTS}",
+    "merge_answers": f"{_BENCHMARK} {_ANSWERS}",
 }
 """The sources of each kind, by its name."""

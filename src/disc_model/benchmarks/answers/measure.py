@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks.answers import modelled, questions, simulated
@@ -24,6 +25,7 @@ from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.data.dataset import json_attribute
 from disc_model.data.provenance import versions
+from disc_model.data.variables import flag_names
 
 log = logging.getLogger(__name__)
 
@@ -68,6 +70,15 @@ def measure(
 def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
     """All parts as one dataset, with the attributes of the first."""
     return xr.concat(parts, "row", combine_attrs="override")
+
+
+def points(dataset: xr.Dataset) -> pd.DataFrame:
+    """All rows, in the order in which they were measured; status, verdict and setting (``at``) in words."""
+    found = dataset.to_dataframe()
+    counted = found["varies"] == "diameters"
+    at = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
+          for count, kind, x in zip(counted, found["varies"], found["setting"], strict=True)]  # fmt: skip
+    return found.assign(at=at, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
 
 
 def _of_method(name: str, values: Sequence[float] | None, asked: Sequence[str]) -> Iterator[Row]:

@@ -5,9 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-
-from disc_model.benchmarks import truncation_pages
-from disc_model.benchmarks.truncation_pages import ALL, TABLED, passages, settled, summary, text
+from docs.truncation_passages import ALL, TABLED, passages, settled, summary
 
 MODES = (1.0, 9.0, 17.0, 34.0, 165.0)
 
@@ -82,10 +80,3 @@ def test_tables_show_both_contacts_in_a_cell(study: xr.Dataset) -> None:
     [last] = [row for row in rows if row.startswith("| 16, 4 |")]
     assert last.split(" | ")[3] == "- / -"
     assert any("within 200 s" in row and "20 to 30 s after the first separation" in row for row in rows)
-
-
-def test_the_page_beside_the_figures_holds_all(study: xr.Dataset) -> None:
-    found = text(study)
-    for passage in passages(summary(study)).values():
-        assert passage.strip() in found
-    assert truncation_pages.text(study).endswith("|\n")

@@ -1,7 +1,7 @@
-"""Results of `contact_study` in the docs: tables, and statements on convergence made from the numbers.
+"""Passages on the number of modes: tables, and statements on convergence made from the numbers.
 
-`summary` extracts the numbers from the dataset of one run, which are stored as ``docs/contact_truncation.json``.  All
-texts are written from that file.
+`summary` extracts the numbers from the dataset of one run, that of `disc_model.benchmarks.truncation.contact_study`.
+They are stored as ``docs/contact_truncation.json``, and all texts are written from that file.
 """
 
 from __future__ import annotations
@@ -9,18 +9,28 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
-from disc_model.benchmarks.grid import TABLES
-from disc_model.benchmarks.texts import TEXTS, as_markdown
+from disc_model.data.dataset import markdown_table
+from disc_model.data.texts import read_passages
+
+TEXTS = read_passages(Path(__file__).with_name("benchmark_texts.yaml"))
 
 
 class Column(NamedTuple):
-    """A quantity of the tables; ``variables.toml`` explains its properties."""
+    """A quantity of the tables.
+
+    title : of a row; costs have none
+    head : of a column
+    tolerance : relative, within which models agree: 1 % or better for the motion in contact, and 10 % for values from
+        ten seconds of an irregular motion
+    scale, digits : for display
+    """
 
     title: str
     head: str
@@ -33,7 +43,17 @@ class Column(NamedTuple):
         return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
 
 
-ALL = {name: Column(*given) for name, given in TABLES["contact_truncation_tables"].items()}
+ALL = {
+    "lowest_coupled": Column("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
+    "growth_rate": Column("growth rate", "growth, 1/s", 1e-2, 1.0, 3),
+    "first_separation": Column("first separation", "first separation, s", 1e-2, 1.0, 5),
+    "separations": Column("rate of separations", "separations per s", 1e-1, 1.0, 3),
+    "separated_share": Column("time in separation", "time in separation", 1e-1, 1.0, 2),
+    "u_range": Column("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
+    "force_max_separating": Column("largest force", "largest force, N", 1e-1, 1.0, 3),
+    "cost": Column("", "cost in contact, ms/s", math.nan, 1e3, 2),
+    "cost_separating": Column("", "cost after it, ms/s", math.nan, 1e3, 2),
+}
 TABLED = {name: column for name, column in ALL.items() if column.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
@@ -138,7 +158,6 @@ def _upper(case: str) -> str:
     return case[:1].upper() + case[1:]
 
 
-def text(study: xr.Dataset) -> str:
-    """All texts as one page: the table beside the figures of ``make bench``."""
-    known = passages(summary(study))
-    return TEXTS["truncation_page"].fill(**{name: passage.strip("\n") for name, passage in known.items()})
+def as_markdown(frame: pd.DataFrame) -> str:
+    """A table in Markdown."""
+    return "\n".join(markdown_table(frame.columns, frame.itertuples(index=False)))
