@@ -15,6 +15,8 @@ def told() -> xr.DataTree:
 
 @pytest.fixture
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Growth rates and energies that fit it, without a search for cycles and a simulation."""
+    """Growth rates, energies and repeated simulations that fit it, without a search for cycles and a simulation."""
+    again = made_up.case("F13", made_up.AS_TOLD["F13"])
+    monkeypatch.setattr("disc_model.claims.model.simulate_again", lambda p, until: again)
     monkeypatch.setattr(energy, "course", made_up.course_as_told)
     monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)

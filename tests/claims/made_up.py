@@ -9,6 +9,7 @@ import dataclasses
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Self
@@ -20,6 +21,8 @@ import xarray as xr
 import yaml
 
 from disc_model.claims.energy import Powers
+from disc_model.claims.ledger import views
+from disc_model.claims.measures import CaseView
 from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
@@ -344,9 +347,20 @@ TO_THE_CONTRARY = dict.fromkeys(SPECS, GROWING) | stories(TEXTS["to the contrary
 """The opposite in all that is claimed."""
 
 
+@cache
+def case(name: str, story: Story) -> xr.DataTree:
+    """A case of the paper, told once; most tests change few of them."""
+    return tell(SPECS[name], story)
+
+
 def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
     """The study's merged cases, as far as claims look at them."""
-    return xr.DataTree.from_dict({f"/{name}": tell(SPECS[name], story) for name, story in stories.items()})
+    return xr.DataTree.from_dict({f"/{name}": case(name, story) for name, story in stories.items()})
+
+
+def cases(stories: Mapping[str, Story], scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
+    """Cases and grid studies for checks."""
+    return views(xr.DataTree(), scans) | {name: CaseView(name, case(name, story)) for name, story in stories.items()}
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")

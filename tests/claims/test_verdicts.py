@@ -49,7 +49,7 @@ class World:
             for name, function in self.disc.items():
                 for module in (disc, section44):
                     patch.setattr(module, name, function)
-            cases = views(made_up.made_up(self.stories), self.scans)
+            cases = made_up.cases(self.stories, self.scans)
             return {name: BY_NAME[name].evaluate(cases).verdict for name in self.claims}
 
 
@@ -196,10 +196,10 @@ def test_a_motion_that_still_grows_has_no_steady_state(told: xr.DataTree) -> Non
 # One claim, one story
 
 
-def judged(claim: str, tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None, **damage: Any) -> Finding:
+def judged(claim: str, cases: Mapping[str, CaseView], **damage: Any) -> Finding:
     """What one claim makes of made-up cases, some of them changed."""
-    changed = {name: damaged(tree[name], change) for name, change in damage.items()}
-    return BY_NAME[claim].evaluate(views(tree.assign(changed), scans))
+    changed = {name: CaseView(name, damaged(cases[name].node, change)) for name, change in damage.items()}
+    return BY_NAME[claim].evaluate({**cases, **changed})
 
 
 def without_the_last_reattachment(groups: Groups) -> Groups:
@@ -209,13 +209,13 @@ def without_the_last_reattachment(groups: Groups) -> Groups:
 
 
 @pytest.mark.parametrize("row", made_up.TEXTS["verdicts"], ids=lambda row: f"{row['claim']}: {row['verdict']}")
-def test_a_verdict_follows_from_what_there_is(row: dict[str, Any], told: xr.DataTree) -> None:
-    tree = made_up.made_up(made_up.stories(row["cases"], made_up.AS_TOLD)) if "cases" in row else told
+def test_a_verdict_follows_from_what_there_is(row: dict[str, Any]) -> None:
+    told = made_up.stories(row["cases"], made_up.AS_TOLD) if "cases" in row else made_up.AS_TOLD
     scans = made_up.scans(**row["scans"]) if row.get("scans") is not None else None
     damage = {name: root_with(**values) for name, values in row.get("says", {}).items()}
     if "unending" in row:
         damage[row["unending"]] = without_the_last_reattachment
-    found = judged(row["claim"], tree, scans, **damage)
+    found = judged(row["claim"], made_up.cases(told, scans), **damage)
     words = f"{found.ours}; {found.remark}"
     assert (found.verdict, row.get("lacks", "~") in words) == (row["verdict"], False)
     assert row.get("phrase", "") in words
@@ -223,7 +223,7 @@ def test_a_verdict_follows_from_what_there_is(row: dict[str, Any], told: xr.Data
 
 def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
     """The second was looked for where only one was asked for: an IndexError ended the table."""
-    cases = views(made_up.made_up(some("F21", signal=made_up.one_more)))
+    cases = made_up.cases(some("F21", signal=made_up.one_more))
     assert "with several = 1" in BY_NAME["F29b"].settle(lambda one: one.evaluate(cases))[1]
 
 
@@ -235,7 +235,7 @@ def test_half_of_a_whole_is_not_doubled_to_all_of_it() -> None:
 
 def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     """Growth rates were judged at one value of every parameter."""
-    cases, claim = views(made_up.made_up(some("S43E100", "F02", "S43E200"))), BY_NAME["S43E"]
+    cases, claim = made_up.cases(some("S43E100", "F02", "S43E200")), BY_NAME["S43E"]
     judge = lambda one, *changed: one.evaluate(cases, *changed)  # noqa: E731
     assert claim.settle(judge)[1] == "stable"
     told = made_up.cycle_as_told
@@ -252,8 +252,8 @@ def test_other_simulations_of_a_case_are_a_remark(
     story: Story, verdict: str, turned: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first separation at 385 N, 15.1 rad/s held, though a spring 0.1 % stiffer keeps contact."""
-    cases, told = views(made_up.made_up(some("F13"))), made_up.AS_TOLD["F13"]
-    again = lambda p, until: made_up.tell(made_up.SPECS["F13"], told if p.k == 5e4 else story)  # noqa: E731
+    cases, told = made_up.cases(some("F13")), made_up.AS_TOLD["F13"]
+    again = lambda p, until: made_up.case("F13", told if p.k == 5e4 else story)  # noqa: E731
     monkeypatch.setattr("disc_model.claims.model.simulate_again", again)
     found, by = BY_NAME["F13"].settle(lambda one, *changed: one.evaluate(cases, *changed))
     assert (found.verdict, by) == (verdict, turned)
@@ -262,7 +262,7 @@ def test_other_simulations_of_a_case_are_a_remark(
 
 def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Motions that repeat after 45 and 180 releases used to be called irregular."""
-    cases = views(made_up.made_up(some("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k")))
+    cases = made_up.cases(some("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k"))
     repeated = np.tile(0.05 + 0.03 * np.random.default_rng(1).random(45), 40)
     monkeypatch.setattr(CaseView, "intervals", lambda case, *_: repeated)
     found = {claim: BY_NAME[claim].evaluate(cases) for claim in ("F05", "F07", "F22", "F28", "A2")}
@@ -277,12 +277,10 @@ def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.M
 
 
 @pytest.mark.parametrize("claim", ["F05", "F07", "F22", "F28", "F21q", "F29b"])
-def test_between_regular_and_chaotic_nothing_is_decided(
-    claim: str, told: xr.DataTree, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_between_regular_and_chaotic_nothing_is_decided(claim: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
     monkeypatch.setattr(CaseView, "intervals", lambda case, *_: 0.1 + 0.01 * np.random.default_rng(1).random(400))
-    assert judged(claim, told).verdict == UNDECIDED
+    assert judged(claim, made_up.cases(made_up.AS_TOLD)).verdict == UNDECIDED
 
 
 def test_a_time_has_the_digits_that_repeats_agree_in(told: xr.DataTree) -> None:
@@ -328,7 +326,7 @@ def test_a_history_of_one_bin_is_no_evidence() -> None:
 # Both normalisations
 
 
-def test_the_two_normalisations_side_by_side(told: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_two_normalisations_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
     def cycle(p: Parameters) -> Any:
         if p.contact == "bonded":
             raise Missing("no stick-slip cycle")
@@ -336,8 +334,9 @@ def test_the_two_normalisations_side_by_side(told: xr.DataTree, monkeypatch: pyt
 
     monkeypatch.setattr(measures, "cycle_of", cycle)
     names = ("F02", "F02free", "F04", "F13", "F17", "F18", "F20", "T2kp18", "S43N550", "S43N550a")
-    contrary = made_up.made_up(made_up.TO_THE_CONTRARY)
-    here, there = (xr.DataTree.from_dict({name: tree[name] for name in names}) for tree in (told, contrary))
+    here, there = (
+        made_up.made_up({name: told[name] for name in names}) for told in (made_up.AS_TOLD, made_up.TO_THE_CONTRARY)
+    )
     there = made_up.orthonormal(there)
     there["F20"] = damaged(there["F20"], DAMAGES["failed"])
     found = ledger.compare(here, there)
@@ -365,11 +364,12 @@ def test_the_two_normalisations_side_by_side(told: xr.DataTree, monkeypatch: pyt
         assert not np.any(table.map(lambda cell: "nan" in str(cell)))
 
 
-def test_the_same_motions_are_judged_alike_under_both(told: xr.DataTree) -> None:
+def test_the_same_motions_are_judged_alike_under_both() -> None:
     """But for what looks at natural frequencies with the slider attached, which are others."""
-    few = xr.DataTree.from_dict({name: told[name] for name in ("F02", "F04", "F07", "F13", "F17")})
+    few = made_up.made_up({name: made_up.AS_TOLD[name] for name in ("F02", "F04", "F07", "F13", "F17")})
     found = ledger.compare(few, made_up.orthonormal(few).drop_nodes("X30"))
     assert len(found.sections) == 3
     assert [text.partition(":")[0] for text in found.sections[2][2]["Statement"]] == ["F27b"]
-    judged = [claim.evaluate(views(told, made_up.scans())) for claim in CLAIMS]
+    cases = made_up.cases(made_up.AS_TOLD, made_up.scans())
+    judged = [claim.evaluate(cases) for claim in CLAIMS]
     assert all(finding.ours for finding in judged)

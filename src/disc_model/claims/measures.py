@@ -65,9 +65,14 @@ class CaseView:
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
-        return float(self.node.dataset[name].item())
+        return float(self._scalars[name].item())
 
-    @property
+    # xarray makes a dataset of a node anew each time, and claims are judged again for each bound
+    @cached_property
+    def _scalars(self) -> xr.Dataset:
+        return self.node.to_dataset()
+
+    @cached_property
     def parameters(self) -> Parameters:
         p = Parameters.model_validate_json(self.node.attrs["parameters"])
         return p.replace(**{self.larger: CHANGED * getattr(p, self.larger)}) if self.larger else p
@@ -162,7 +167,7 @@ class CaseView:
         """Largest growth rate of small disturbances of its cycle, 1/s; nan if there is none."""
         return growth_or_nan(self.parameters)
 
-    @property
+    @cached_property
     def events(self) -> xr.Dataset:
         """Stored events; raises `Missing` if the case stores none."""
         return self._held(dataset.events)
@@ -197,7 +202,7 @@ class CaseView:
         found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
         return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
 
-    @property
+    @cached_property
     def history(self) -> xr.Dataset:
         """Least and greatest values of variables within the bins of the window `history`; raises `Missing`."""
         return self._held(dataset.ranges, "history")

@@ -341,7 +341,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
     found = case.parameters
-    wanted = Parameters(**paper["parameters"], normalization=found.normalization)  # the study chooses it
+    wanted = _parameters(name, found.normalization)
     if wanted != found:
         differ = [key for key in Parameters.model_fields if getattr(wanted, key) != getattr(found, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
@@ -352,6 +352,12 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     if case.status == "ok" and case["time_reached"] < until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {until:g} s are needed")
     return case
+
+
+@cache
+def _parameters(name: str, normalization: str) -> Parameters:
+    """Those of a case of the paper, with the study's normalisation."""
+    return Parameters(**paper_cases()[name]["parameters"], normalization=normalization)
 
 
 def _after(case: CaseView) -> Mapping[str, Any] | None:
