@@ -11,7 +11,6 @@ import pytest
 import disc_model
 from disc_model import Execution, ParameterError, Parameters, Poincare, Ramp, Record, State, Window, simulate
 from disc_model.data import dataset
-from disc_model.stability.bifurcation import bifurcation_samples
 from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_border, continue_cycle
 from disc_model.stability.curves import stability_curves
@@ -92,11 +91,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         right("states r", "empty", theta="zero negative pair empty"),
     ),
     (disc_model.floquet, {"p": P}, right(guess="None")),
-    (
-        bifurcation_samples,
-        {"p": P, "name": "Omega", "values": [20.0], "transient": 0.1, "samples": 2},
-        right(values="pair", transient="zero", initial_state="None", theta="zero negative digits"),
-    ),
     (continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, right(guess="None")),
     (continue_border, PLANE | {"kind": "fold"}, right(guess="None")),
     (StepControl, {}, right("growth easy sharpest", ALL, scale="None", max_points="huge")),

@@ -20,7 +20,6 @@ import disc_model as dm
 from disc_model import cli
 from disc_model.figures.kinds import PLOTS
 from disc_model.plausibility import doubts
-from disc_model.stability.bifurcation import bifurcation_samples
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import ReturnMap
@@ -107,7 +106,7 @@ def shown(r: float, theta: float, **case: Any) -> None:
 
 
 PUBLIC = "Parameters Window Poincare Record Disc Ramp choose_modes simulate snapshots floquet steady_sliding"
-STABILITY = (continue_cycle, lyapunov_exponents, bifurcation_samples, ReturnMap)
+STABILITY = (continue_cycle, lyapunov_exponents, ReturnMap)
 MADE = {
     **{name: given_to(getattr(dm, name)) for name in PUBLIC.split()},
     **{one.__name__: given_to(one) for one in (*STABILITY, simulated_from, shown, table)},

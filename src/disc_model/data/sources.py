@@ -47,7 +47,7 @@ KINDS = {
     "hysteresis": "point settled studies.grids.quantities.hysteresis",
     "ramps": "point case studies.grids.quantities.ramps",
     "basins": "point settled analysis.sobol studies.grids.quantities.basins",
-    "bifurcation": "point settled stability.bifurcation studies.grids.quantities.bifurcation",
+    "bifurcation": "point settled studies.grids.quantities.bifurcation",
     "lyapunov": "point case stability.lyapunov stability.return_map studies.grids.quantities.lyapunov",
     "stability_curves": "point continuation stability.curves stability.resonances "
     "studies.grids.quantities.stability_curves",

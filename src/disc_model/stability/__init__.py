@@ -1,4 +1,4 @@
-"""Stability of motions: limit cycles and their multipliers, steady sliding, bifurcations, Lyapunov exponents.
+"""Stability of motions: limit cycles and their multipliers, steady sliding, Lyapunov exponents.
 
 `return_map` maps a state from one release of stick to the next, with the derivative, and finds fixed points and their
 multipliers. `cycle` finds the stick-slip cycle of a case. `continuation` follows the cycle in one parameter, through

@@ -1,5 +1,6 @@
-"""What a motion settles to, sampled at switches."""
+"""What a motion settles to, sampled at switches or once a turn of the drive."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -7,12 +8,31 @@ import pytest
 
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Start
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Poincare, Record, Start
 from disc_model.studies.document import BifurcationOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import bifurcation
+from tests.stability.test_attractor import paradox
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
+
+
+def test_samples_are_those_of_the_simulator() -> None:
+    p = Parameters(N=200, Omega=50, n_diameters=1)
+    values, _ = bifurcation.compute_point(Point(p), BifurcationOptions(transient=0.1, samples=2, tol=1e-9))
+    turn = 2 * math.pi / p.Omega
+    run = simulate(p, 2.6 * turn, tol=1e-9, record=Record(poincare=Poincare(start=0.9 * turn)))
+    np.testing.assert_allclose(values["psi"], run.poincare["psi"], rtol=0, atol=1e-7)
+    assert values["status"] == "ok"
+
+
+def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    p, start = paradox()
+    monkeypatch.setattr(bifurcation, "make_initial_state", lambda *_: start)
+    values, message = bifurcation.compute_point(Point(p), BifurcationOptions(transient=0.1, samples=2))
+    assert (values["status"], len(values["psi"]), len(values["phase"])) == ("paradox", 0, 0)
+    assert message == "the simulation ended early: paradox"
 
 
 def test_stretches_of_one_motion_are_alike() -> None:

@@ -9,19 +9,20 @@ from scipy.stats import wasserstein_distance
 
 from disc_model.analysis.classify import closure, shortest_period
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
+from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate, state_after
-from disc_model.simulation.case import Record
+from disc_model.simulation.case import Poincare, Record
 from disc_model.simulation.result import Result, State
 from disc_model.stability.attractor.classification import SAME, SMALLEST, Regularity, cycle_reached, regularity
 from disc_model.stability.attractor.outcome import FIRST_LEG, at_rest
-from disc_model.stability.bifurcation import SAMPLED, STATUS_NAMES, bifurcation_samples
 from disc_model.stability.return_map import case_faults
 from disc_model.studies.document import BifurcationOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point
 
 REPEATS = 1e-11
 """Greatest difference of intervals of a periodic motion, s: rounding leaves 1e-13 s on a cycle."""
+SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 STEADY = ("unknown", "no", "yes")
 COLUMNS = {
     "status": STATUS,
@@ -45,23 +46,31 @@ COORDINATES = {"sample": Coordinate("1", "number of the turn after the transient
 
 def compute_point(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
     """Sample the motion from the static start or from the point's own start."""
-    if options.section == "event":
-        return _at_switches(point, options)
+    return _once_a_turn(point, options) if options.section == "stroboscopic" else _at_switches(point, options)
+
+
+def _once_a_turn(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
+    """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are missing."""
     p = point.parameters
-    data = bifurcation_samples(
-        p,
-        "Omega",
-        [p.Omega],
-        transient=options.transient,
-        samples=options.samples,
-        initial_state=make_initial_state(p, point.start, options.tol),
-        theta=options.theta,
-        tol=options.tol,
-    ).isel(Omega=0)
-    status = STATUS_NAMES[int(data["status"])]
-    values: dict[str, Any] = {name: data[name].values for name in COLUMNS if name in data}
-    values |= {"status": status, "phase": data["phase"].values + 1, "transient_time": options.transient}
-    return values, "" if status == "ok" else f"the simulation ended early: {status}"
+    raise_faults(violations((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn")))
+    turn = 2 * math.pi / p.Omega
+    first = math.ceil(options.transient / turn)
+    # both ends lie between samples, so that rounding neither adds one nor leaves one out
+    end = (first + options.samples - 0.5) * turn
+    record = Record(poincare=Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta))
+    start = make_initial_state(p, point.start, options.tol)
+    run = simulate(p, end, tol=options.tol, initial_state=start, record=record)
+    reached, taken = run.final_state.time, run.poincare
+    assert taken is not None
+    values = {name: taken[name] for name in SAMPLED} | {
+        "phase": taken["phase"] + 1,  # after "none"
+        "status": run.status.value,
+        "first_separation": run.first_separation,
+        "separations": int(run.statistics["separations"]),
+        "stick_fraction": run.statistics["time_stick"] / reached if reached else math.nan,
+        "transient_time": options.transient,
+    }
+    return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
 
 
 def _at_switches(point: Point, options: BifurcationOptions) -> tuple[dict[str, Any], str]:
