@@ -15,6 +15,7 @@ from rich.table import Column, Table
 
 from disc_model.disc import read_disc
 from disc_model.errors import Fault, ParameterError
+from disc_model.mode_choice import choose_modes
 from disc_model.parameters import Parameters, Strict
 from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
@@ -94,8 +95,6 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
 def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
     """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
-    from disc_model.mode_choice import choose_modes
-
     given: dict[str, Any] = dict(case)
     try:
         if "disc" in case:

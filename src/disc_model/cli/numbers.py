@@ -18,8 +18,10 @@ from disc_model.cli.case import (
 )
 from disc_model.disc import damping_ratios, disc_table
 from disc_model.errors import Fault, raise_faults, suggestion
+from disc_model.flexibility import residual_flexibility
 from disc_model.kernels import KINDS, compile_kernels
 from disc_model.parameters import CYCLE_TOLERANCES, CycleTolerance
+from disc_model.plate import coupled_natural_frequencies, mode_arrays
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
 
@@ -31,9 +33,6 @@ def modes(
     case: dict[str, str],
 ) -> None:
     """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
-    from disc_model.flexibility import residual_flexibility
-    from disc_model.plate import coupled_natural_frequencies, mode_arrays
-
     faults: list[str] = []
     parameters, choice = parameters_of(case, faults)
     raise_faults(faults)

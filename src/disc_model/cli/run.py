@@ -12,14 +12,16 @@ import typer
 from pydantic import Field
 
 from disc_model.cli.case import case_lines, option, parameters_of, print_rows, with_case_options
+from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.parameters import TOLERANCES, Count, Parameters, Seconds, Tolerance
+from disc_model.simulation.case import Record, Window
+from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.ramps import faults as ramp_faults
+from disc_model.truncation import ModeChoice
 
 if TYPE_CHECKING:
-    from disc_model.simulation.case import Record, Window
-    from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result
-    from disc_model.truncation import ModeChoice
 
 PLOT_POINTS = 4000
 """Points across a plot: more samples are reduced to the least and greatest of each bin."""
@@ -71,7 +73,6 @@ def run(
     faults += _file_faults(plot, save, checkpoint)
     raise_faults(faults)  # all faults at once, before kernels load
     from disc_model.simulation.api import Execution, simulate
-    from disc_model.simulation.case import Record
 
     record = Record(windows=tuple(windows.values())) if windows else None
     if plot is not None and record is None:
@@ -108,9 +109,6 @@ def _values(text: str) -> dict[str, Any]:
 
 def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp, ...]:
     """Ramps from texts such as ``Omega:to=5,start=100,end=400``; faults are appended to `faults`."""
-    from disc_model.simulation.ramps import Ramp
-    from disc_model.simulation.ramps import faults as faults_of
-
     found: list[Ramp] = []
     for i, text in enumerate(texts):
         name, named, given = text.partition(":")
@@ -123,15 +121,12 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
         except ParameterError as error:
             faults += (fault.inside(("ramp", str(i))) for fault in error.faults)
     if not faults:  # with faults, other parameters may be meant
-        faults += faults_of(p, tuple(found), poincare=False)
+        faults += ramp_faults(p, tuple(found), poincare=False)
     return tuple(found)
 
 
 def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict[str, Window]:
     """Windows by name, from texts such as ``late:last=3,rate=4000``; faults are appended to `faults`."""
-    from disc_model.data.variables import BESIDE_WINDOWS
-    from disc_model.simulation.case import Window
-
     found: dict[str, Window] = {}
     for i, text in enumerate(texts):
         name, named, given = text.rpartition(":")
@@ -176,8 +171,6 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
 
 def plot_record(t_end: float) -> Record:
     """Record of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
-    from disc_model.simulation.case import Record, Window
-
     bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
     whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)
     end = Window(start=max(0.0, t_end - ZOOM), stop=t_end, rate=4 * PLOT_RATE)
