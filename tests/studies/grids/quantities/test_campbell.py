@@ -13,7 +13,6 @@ from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
 from disc_model.studies.document import CampbellOptions
 from disc_model.studies.grids.summaries import campbell, summarised
-from disc_model.studies.grids.summaries.campbell import bridged
 from tests.studies.grids.conftest import SMALL, computed
 
 
@@ -111,6 +110,8 @@ def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     found = campbell.summarise(gone, CampbellOptions())
     assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
     assert effects(gone) == ["no_cycle"]
+    gone["stick_slip_frequency"][195:] = np.nan
+    assert campbell.summarise(gone, CampbellOptions())["n_crossings"] == 0, "nothing is known beyond the last cycle"
 
 
 def test_speeds_that_a_rule_leaves_out_are_an_end_of_the_axis() -> None:
@@ -131,13 +132,6 @@ def test_no_crossing_lies_between_speeds_of_which_a_rule_leaves_those_between_ou
     for left_out in (gap, np.ones(401)):
         study["status"][:] = left_out.astype(int)
         assert summarised(study, "campbell", CampbellOptions().model_dump())["n_crossings"] == 0
-
-
-def test_gaps_are_bridged_and_ends_are_not() -> None:
-    speeds = np.arange(6.0)
-    values = np.array([np.nan, 1, np.nan, 3, 4, np.nan])
-    np.testing.assert_array_equal(bridged(speeds, values), [np.nan, 1, 2, 3, 4, np.nan])
-    assert np.isnan(bridged(speeds, np.full(6, np.nan))).all()
 
 
 def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:

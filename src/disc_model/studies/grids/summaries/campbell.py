@@ -59,7 +59,7 @@ def crossings(cell: xr.Dataset, options: CampbellOptions) -> Iterator[dict[str, 
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
     growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
     speeds = cell["Omega"].values
-    releases = bridged(speeds, cell["stick_slip_frequency"].values)
+    releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
     turns = cell["rotation_frequency"].values
     highest = int(cell["diameters"].max())
     for i, mode in enumerate(cell["mode"].values):
@@ -94,14 +94,6 @@ def frequency_of(mode: xr.Dataset) -> Array:
     known = np.isfinite(more) & (mode["mac"].values >= 0.75)
     speeds = mode["Omega"].values
     return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
-
-
-def bridged(speeds: Array, values: Array) -> Array:
-    """Values whose gaps, except at the ends, are filled by linear interpolation."""
-    known = np.isfinite(values)
-    if not known.any():
-        return values
-    return np.interp(speeds, speeds[known], values[known], left=np.nan, right=np.nan)
 
 
 def effect_of(detuning: Array, place: int, growth: Array, leading: Array, options: CampbellOptions) -> dict[str, Any]:
