@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from disc_model.benchmarks import failure_maps
+from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.registry import METHODS
-from disc_model.benchmarks.scenes import Verdict
+from disc_model.benchmarks.scenes import Verdict, errors
 from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
+from disc_model.plate import mode_arrays
 
 
 @pytest.fixture
@@ -27,7 +29,6 @@ def test_maps_of_steps_and_of_tolerances(tmp_path) -> None:
     assert found["modes"].values.tolist() == [3, 5]
     assert found["step_limit"].values == pytest.approx(2 * math.sqrt(2) / found["omega_max"].values)
     assert found["shortest_phase"].values.min() > 0
-    assert "observed_limit" not in found
     engine = failure_maps.failure_map("series", "separating", (1, 2), (1e-6, 1e-10))
     assert (engine["verdict"].values == Verdict.CONVERGED).all()
     adaptive = failure_maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
@@ -48,5 +49,10 @@ def test_heyoka_is_compiled_compactly_for_maps() -> None:
 @pytest.mark.parametrize("diameters", [2, 4])
 def test_observed_stability_limit_is_the_linear_one(diameters):
     """2 sqrt(2)/omega_max is exact for a linear undamped system; stick-slip and damping shift it by 3 % at most."""
-    theory = float(failure_maps.failure_map("RK4", "separating", (diameters,), (1e-3,))["step_limit"][0])
-    assert failure_maps.observed_step_limit(diameters) == pytest.approx(theory, rel=0.03)
+    problem, answer = (
+        find("stick_slip", diameters) for find in (failure_maps.short_problem, failure_maps.engine_answer)
+    )
+    limit = STABILITY_LIMIT / float(mode_arrays(problem.parameters).omega.max())
+    results = [METHODS["RK4"].solve(problem, share * limit) for share in (0.97, 1.03)]
+    unstable = [errors(problem, answer, result).verdict is Verdict.UNSTABLE for result in results]
+    assert unstable == [False, True]

@@ -48,8 +48,7 @@ def failure_map(
 
     Returns
     -------
-    Dataset: `VARIABLES` along (diameters, value) and `FACTS` along diameters; ``observed_limit`` is there for RK4 in
-    ``stick_slip`` only, see `observed_step_limit`.
+    Dataset: `VARIABLES` along (diameters, value) and `FACTS` along diameters.
     """
     own = METHODS[method].economical()
 
@@ -60,9 +59,6 @@ def failure_map(
         return {"verdict": found.verdict, "event_error": found.event_time, "longest_step": result.longest_step}
 
     facts = {diameters: _facts(scene, diameters) for diameters in truncations}
-    if method == "RK4" and scene == "stick_slip":
-        for diameters in truncations:
-            facts[diameters]["observed_limit"] = observed_step_limit(diameters)
     about = {"scene": scene, "budget": own.map_budget, "span": SPANS[scene]}
     return _map_of(own, _settings(own) if values is None else values, VARIABLES, measure, facts, about)
 
@@ -94,15 +90,10 @@ def _facts(scene: str, diameters: int) -> dict[str, float]:
     return {
         "modes": float(real_modes(diameters, 0)),
         "omega_max": top,
-        "step_limit": _step_limit(p),
+        "step_limit": STABILITY_LIMIT / top,
         "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
         "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
     }
-
-
-def _step_limit(p: Parameters) -> float:
-    """Linear stability limit of RK4, s."""
-    return STABILITY_LIMIT / float(mode_arrays(p).omega.max())
 
 
 @lru_cache(maxsize=64)
@@ -118,21 +109,6 @@ def engine_answer(scene: str, diameters: int) -> Answer:
     """The series engine's answer to `short_problem`, at the tightest tolerance."""
     result = METHODS["series"].solve(short_problem(scene, diameters), REFERENCE_TOL)
     return Answer(result.times.astype(np.longdouble), result.kinds, result.final, error=REFERENCE_TOL)
-
-
-def observed_step_limit(diameters: int) -> float:
-    """Largest step (s) at which RK4 completes a second of stick-slip without diverging energy, by bisection.
-
-    Compare with 2 sqrt(2)/omega_max.  Its relative precision is 2e-3.
-    """
-    problem, answer = short_problem("stick_slip", diameters), engine_answer("stick_slip", diameters)
-    theory = _step_limit(problem.parameters)
-    low, high = 0.7 * theory, 1.5 * theory
-    while high / low > 1.0 + 2e-3:
-        middle = math.sqrt(low * high)
-        unstable = scenes.errors(problem, answer, METHODS["RK4"].solve(problem, middle)).verdict is Verdict.UNSTABLE
-        low, high = (low, middle) if unstable else (middle, high)
-    return low
 
 
 # ----------------------------------------------------------------------------------------------------
