@@ -106,7 +106,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, right(start="zero")),
     (RUN.value_at, {"name": "N", "times": 0.0}, right(times=ANY)),
     (RUN.to_tree, {}, right(names=f"None {FILE}")),
-    (RUN.to_dataset, {}, {}),
     (RUN.save, {"path": "x"}, right(path=FILE, names=f"None {FILE}")),
     (RUN.final_state.save, {}, right(path=FILE)),
     (State.load, {}, right(path=FILE)),

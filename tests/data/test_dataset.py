@@ -73,14 +73,8 @@ def test_a_window_takes_no_others_name(names: list[str]) -> None:
         simulate(Parameters(N=200, Omega=20), 0.001, record=record).to_tree(names)
 
 
-def test_a_group_of_a_result_is_a_dataset(result: Result) -> None:
-    tree = result.to_tree()
-    assert list(tree.children) == ["events", "sample_0", "sample_1", "poincare"]
-    xr.testing.assert_identical(result.to_dataset(), tree.to_dataset())
-    for name, node in tree.children.items():
-        xr.testing.assert_identical(result.to_dataset(name), node.to_dataset())
-    with pytest.raises(ParameterError, match="group='sample_2': must be one of '', 'events', 'sample_0'"):
-        result.to_dataset("sample_2")
+def test_windows_without_names_are_numbered(result: Result) -> None:
+    assert list(result.to_tree().children) == ["events", "sample_0", "sample_1", "poincare"]
 
 
 @pytest.mark.compiled

@@ -217,6 +217,9 @@ class Result:
     def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
         """The whole result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
 
+        Its root holds the scalars, and its groups are "events" (along `event`), one per window, and "poincare" (along
+        `time`).
+
         Parameters
         ----------
         names : names of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
@@ -226,30 +229,7 @@ class Result:
         ParameterError
             If the names are not distinct, or not as many as windows.
         """
-        from disc_model.data.dataset import to_tree
-
-        return to_tree(self._groups(names))
-
-    def to_dataset(self, group: str = "") -> xr.Dataset:
-        """One group of `to_tree` as a dataset.
-
-        Parameters
-        ----------
-        group : "" for the scalars, "events" (along `event`), "sample_0", ... or "poincare" (along `time`)
-
-        Raises
-        ------
-        ParameterError
-            If the group does not exist.
-        """
-        groups = self._groups()
-        if not isinstance(group, str) or group not in groups:
-            raise ParameterError(f"group={as_text(group)}: must be one of {', '.join(map(repr, groups))}")
-        return groups[group]
-
-    def _groups(self, names: Sequence[str] | None = None) -> dict[str, xr.Dataset]:
-        """Datasets by group: "" for the scalars, "events", one per window, "poincare"."""
-        from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
+        from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset, to_tree
 
         scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
         if self.ramps:
@@ -260,7 +240,7 @@ class Result:
             groups[name] = samples_dataset(data, window.theta)
         if self.poincare is not None and self.record.poincare is not None:
             groups["poincare"] = samples_dataset(self.poincare, self.record.poincare.theta)
-        return groups
+        return to_tree(groups)
 
     def _scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
