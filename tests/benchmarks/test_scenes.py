@@ -30,11 +30,6 @@ def test_the_stored_answers_are_those_of_the_references(scene, name):
     assert answer(scene).error < 1e-15
 
 
-def test_users_state_no_start_but_that_of_the_separating_motion():
-    stated = {scene for scene in scenes.MOTIONS if scenes.users_start(scene) is not None}
-    assert stated == {"separating"}
-
-
 TASK, RIGHT = problem("stick_slip"), answer("stick_slip")
 
 

@@ -122,11 +122,6 @@ def problem(name: str) -> Problem:
     return Problem(p, start(p), t_end, max_step=max_step)
 
 
-def users_start(name: str) -> State | None:
-    """The initial state that a user of this package states for a scene: none for the static start."""
-    return None if MOTIONS[name][1] is static_start else problem(name).start
-
-
 @lru_cache(maxsize=8)
 def answer(name: str) -> Answer:
     """The correct answer of a scene."""
