@@ -11,7 +11,6 @@ from disc_model import ParameterError, Parameters, Poincare, Record, Status, Win
 from disc_model.errors import DiscModelError, Fault, StatusBase, as_text, script
 from disc_model.parameters import Checked, CycleTolerance, Real, Strict, Tolerance
 from disc_model.stability.cycle import CycleStatus
-from disc_model.stability.lyapunov import LyapunovStatus
 from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError, parse_study
 from tests.studies.refused import faults_of
@@ -93,7 +92,7 @@ def test_a_changed_copy_is_checked() -> None:
 
 # ---- statuses
 
-ALL = [status for kind in (Status, CycleStatus, LyapunovStatus, SlidingStatus) for status in kind]
+ALL = [status for kind in (Status, CycleStatus, SlidingStatus) for status in kind]
 
 
 @pytest.mark.parametrize("status", ALL, ids=repr)

@@ -98,7 +98,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         lyapunov_exponents,
         {"p": P, "duration": 0.1},
-        right(transient="zero", initial_state="None", leave_out_trivial="True flag"),
+        right(initial_state="None", leave_out_trivial="True flag"),
     ),
     (Window, {"rate": 1.0}, right("last envelope", "None", start="zero", stop=LATE, theta="zero negative")),
     (Poincare, {}, right(start="zero", stop=LATE, theta="zero negative")),

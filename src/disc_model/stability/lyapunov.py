@@ -8,29 +8,17 @@ column is then the velocity of the motion, which stays so, and the others are ke
 
 import math
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import exit_codes, layout, saltation, tangent, variational
-from disc_model.errors import StatusBase, as_text, raise_faults, violations
+from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import TOLERANCES, Parameters, is_number, is_whole, limits_faults
 from disc_model.progress import compiling
-from disc_model.simulation.api import simulate
 from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
-
-
-class LyapunovStatus(StatusBase):
-    """How the computation ended; `advice` says what to do."""
-
-    OK = "ok", "All of the time asked for was covered."
-    PARADOX = "paradox", "Painleve's paradox ended the motion: lower mu_k or N."
-    STALLED = "stalled", "Switches followed each other without the clock moving: perturb the start."
-    NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
-    STEP_LIMIT = "step_limit", "The transient took more steps than any motion should: check the magnitudes."
-
 
 _BLOCKS = 16
 MOST_INTERVALS = 10_000_000
@@ -53,33 +41,21 @@ class Lyapunov:
         below the tolerance within one interval; a shorter `interval` resolves it
     errors : 1/s, shape (count,): the standard error from the scatter of 16 segments of the time covered. The
         difference between its two halves replaces it if that is larger. nan for -inf
-    duration : s, time covered after the transient
+    duration : s, time covered, without that in which the columns converged
     separations : losses of contact in that time
-    history : 1/s, shape (16, count), the exponents of the segments
+    converged : whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`
     trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : state at the end of the motion
     """
 
-    status: LyapunovStatus
+    status: Status
     exponents: Array
     errors: Array
     duration: float
     separations: int
-    history: Array = field(repr=False)
+    converged: NDArray[np.bool_]
     final_state: State
     trivial_exponent: float = math.nan
-
-    @property
-    def converged(self) -> NDArray[np.bool_]:
-        """Whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`."""
-        share, least = CONVERGED
-        same = _drift(self.history) <= np.maximum(share * np.abs(self.exponents), least)
-        return np.asarray(same & np.isfinite(self.exponents))
-
-    @property
-    def chaotic(self) -> bool:
-        """Whether the largest exponent is positive by more than four of its errors."""
-        return bool(self.exponents[0] > CLEAR * self.errors[0] and self.exponents[0] > 0)
 
 
 @compiling()
@@ -87,7 +63,6 @@ def lyapunov_exponents(
     p: Parameters,
     duration: float,
     *,
-    transient: float = 0.0,
     count: int = 2,
     interval: float = 0.01,
     initial_state: State | None = None,
@@ -99,13 +74,12 @@ def lyapunov_exponents(
     Parameters
     ----------
     p : the case
-    duration : s, averaging time. It follows the transient and an equal time in which the columns converge to their
-        directions: with rates that differ by 0.05/s that takes tens of seconds
-    transient : s, simulated first and left out
+    duration : s, averaging time. It follows an equal time in which the columns converge to their directions: with
+        rates that differ by 0.05/s that takes tens of seconds
     count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
         u, u'; one less if the trivial one is left out
     interval : s, between orthonormalisations; the duration holds at most `MOST_INTERVALS` of them
-    initial_state : state at the start; None is the static start
+    initial_state : state at the start, such as that after a transient; None is the static start
     tol : tolerance, as in `simulate`
     leave_out_trivial : whether to leave out the exponent along the motion, which is zero; it does not exist without
         events, as in steady sliding
@@ -115,20 +89,13 @@ def lyapunov_exponents(
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
-    _check(p, duration, transient, count, interval, initial_state, tol, leave_out_trivial)
-    duration, transient, interval, tol = float(duration), float(transient), float(interval), float(tol)
-    start = initial_state
-    if transient > 0:
-        begin = 0.0 if initial_state is None else initial_state.time
-        run = simulate(p, begin + transient, tol=tol, initial_state=initial_state)
-        start = run.final_state
-        if not run.status.complete:
-            return _nothing(LyapunovStatus(run.status.value), count, 0.0, start)
+    _check(p, duration, count, interval, initial_state, tol, leave_out_trivial)
+    duration, interval, tol = float(duration), float(interval), float(tol)
     case, order = engine_case(p), series_order(tol)
     model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
     series, state = layout.build_series(model, order), layout.build_state(model)
-    if start is not None:
-        write_state(case, start, state)
+    if initial_state is not None:
+        write_state(case, initial_state, state)
     t = tangent.build_tangent(model, layout.WIDTH, order)
     columns, rows = t.now.reshape(-1, layout.WIDTH), coordinate_rows(model)
     metric = energy_scale(model)[rows, None]
@@ -148,14 +115,14 @@ def lyapunov_exponents(
     longest = longest_step(model, order, 10 * tolerance)
     length = duration / steps
     course = variational.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
-    logs, status = np.full((steps, count), -math.inf), LyapunovStatus.OK
+    logs, status = np.full((steps, count), -math.inf), Status.OK
     done = 0
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
         code = variational.integrate(model, series, state, t, course)
         if code != exit_codes.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = LyapunovStatus.NON_FINITE if code == exit_codes.TIME_OVER else LyapunovStatus(ENDS[code])
+            status = Status.NON_FINITE if code == exit_codes.TIME_OVER else Status(ENDS[code])
             break
         _bind(model, state, t)
         growth, left = _orthonormalise(columns, rows, metric, left, vanished)
@@ -189,42 +156,32 @@ def _orthonormalise(
 
 
 def _summary(
-    status: LyapunovStatus, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
+    status: Status, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
 ) -> Lyapunov:
     """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or one more)."""
     covered = len(logs) * interval
-    if len(logs) < _BLOCKS:
-        return _nothing(status, count, covered, end)
+    if len(logs) < _BLOCKS:  # too little time was covered
+        nan = np.full(count, math.nan)
+        return Lyapunov(status, nan, nan, covered, 0, np.zeros(count, bool), end)
     history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
-    with np.errstate(invalid="ignore"):  # of -inf
-        errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), _drift(history))
     exponents, trivial = np.sum(logs, axis=0) / covered, math.nan
+    with np.errstate(invalid="ignore"):  # of -inf
+        drift = np.abs(np.subtract(*(np.mean(half, axis=0) for half in np.split(history, 2))))
+        errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), drift)
+    share, least = CONVERGED
+    converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
     order = np.argsort(-exponents, kind="stable")
     # a motion at rest or in steady sliding has no trivial exponent
     if leave_out_trivial and log[variational.RELEASES] + log[variational.STICKS] + log[variational.SEPARATIONS] > 0:
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
     order, separations = order[:count], int(log[variational.SEPARATIONS])
-    return Lyapunov(status, exponents[order], errors[order], covered, separations, history[:, order], end, trivial)
-
-
-def _drift(history: Array) -> Array:
-    """Difference between the means of the two halves: (count,)."""
-    one, two = np.split(history, 2)
-    with np.errstate(invalid="ignore"):  # of -inf
-        return np.asarray(np.abs(np.mean(one, axis=0) - np.mean(two, axis=0)))
-
-
-def _nothing(status: LyapunovStatus, count: int, covered: float, state: State) -> Lyapunov:
-    """The result without exponents: too little time was covered."""
-    nan = np.full(count, math.nan)
-    return Lyapunov(status, nan, nan, covered, 0, np.full((_BLOCKS, count), math.nan), state)
+    return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
 
 
 def _check(
     p: Parameters,
     duration: float,
-    transient: float,
     count: int,
     interval: float,
     initial_state: State | None,
@@ -242,7 +199,6 @@ def _check(
     starts = initial_state is None or isinstance(initial_state, State)
     faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
-        (_is_within(transient, 0), "transient", transient, "must be finite and >= 0"),
         (counts, "count", count, f"must be a whole number from 1 to {most}"),
         (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
         (starts, "initial_state", initial_state, "must be a State"),

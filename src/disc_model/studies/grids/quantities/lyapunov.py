@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 from disc_model.data.variables import Variable
-from disc_model.simulation.api import make_initial_state, state_after
+from disc_model.simulation.api import state_after
 from disc_model.simulation.result import State
-from disc_model.stability.lyapunov import LyapunovStatus, lyapunov_exponents
+from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.studies.document import LyapunovOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point
 
@@ -32,14 +32,13 @@ COORDINATES = {
 
 
 def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
-    """Compute the exponents from the static start or from the point's own start."""
+    """Compute the exponents after the transient."""
     found = lyapunov_exponents(
         point.parameters,
         options.duration,
-        transient=options.transient,
         count=options.exponents,
         interval=options.interval,
-        initial_state=make_initial_state(point.parameters, point.start, options.tol),
+        initial_state=state_at(point, options),
         tol=options.tol,
         leave_out_trivial=True,
     )
@@ -53,7 +52,7 @@ def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any
         "averaging_time": found.duration,
         "separations": found.separations,
     }
-    return values, "" if found.status is LyapunovStatus.OK else found.status.advice
+    return values, "" if found.status.complete else found.status.advice
 
 
 def state_at(point: Point, options: LyapunovOptions) -> State:
