@@ -227,19 +227,3 @@ def test_extremes_are_one_clear_error(changes: dict[str, float], text: str, norm
     p = P.replace(normalization=normalization, **changes)
     with pytest.raises(ModeError, match=text):
         _ = residual_flexibility(p), coupled_natural_frequencies(p)
-
-
-@given(st.integers(1, 60), st.floats(0.1, 3.0))
-def test_bessel_functions_far_below_their_order_agree_with_scipy(l: int, x: float) -> None:
-    value, exponent = plate_module._bessel_small(l, np.array([x]))
-    expected = [special.jv(l, x), special.yv(l, x), special.iv(l, x), special.kv(l, x)]
-    assert_allclose((value * np.exp(exponent))[:, 0], expected, rtol=1e-11)
-
-
-def test_bessel_functions_beyond_the_range_of_floats_keep_their_exponent() -> None:
-    value, exponent = plate_module._bessel(np.array([60]), np.array([1e-6]))
-    assert np.all(np.isfinite(value))
-    assert np.all(np.isfinite(exponent))
-    # J Y -> -1/(pi l) and I K -> 1/(2 l) as x -> 0
-    product = value[[0, 2]] * value[[1, 3]] * np.exp(exponent[[0, 2]] + exponent[[1, 3]])
-    assert_allclose(product[:, 0], [-1 / (60 * np.pi), 1 / 120], rtol=1e-10)

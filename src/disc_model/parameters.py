@@ -16,9 +16,9 @@ from importlib.util import find_spec
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args, get_type_hints
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
 
-from disc_model.errors import Fault, ParameterError, as_text, faults_of
+from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -99,13 +99,12 @@ def in_si(value: Any, unit: Units) -> Any:
         return unfit
 
 
-def number(value: Any, unit: str = "") -> Any:
+def number(value: Any) -> Any:
     """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else.
 
     Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
     treats it so.
     """
-    value = in_si(value, unit)
     if isinstance(value, Unfit):
         kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
         kind += ", such as rpm; Hz may mean turns or radians" * (value.unit == "rad/s")
@@ -451,54 +450,72 @@ class Disc(Checked):
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
     omega: tuple[Annotated[Finite, _within(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
-    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = ()
-    circles: tuple[Annotated[Count, Field(ge=0)], ...] = ()
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field((), validate_default=True)
+    circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
     static_compliance: Positive | None = None
     radii: tuple[Positive, ...] = Field((), repr=False)
     shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
 
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
 
-    @model_validator(mode="before")
-    @classmethod
-    def _complete(cls, data: Any) -> Any:
-        """Fill in the optional columns."""
-        if not isinstance(data, Mapping):
-            return data
-        diameters, omega = data.get("diameters"), data.get("omega")
-        if not (isinstance(diameters, tuple | list) and isinstance(omega, tuple | list)):
-            return data
-        ratio, circles = data.get("damping_ratio") or (0.0,) * len(diameters), data.get("circles") or ()
-        if not circles and len(omega) == len(diameters) and all(map(is_number, omega)):
-            order = sorted(range(len(omega)), key=omega.__getitem__)
-            circles = [sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega))]
-        return {**data, "damping_ratio": ratio, "circles": circles}
+    def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+        super().__init__(*unnamed, **data)
+        raise_faults(self._unequal_columns() or self._faults_of_modes(counted="circles" not in data))
 
+    @field_validator("damping_ratio", "circles")
     @classmethod
-    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        given = {name: data[name] for name in cls._columns if isinstance(data.get(name), tuple | list)}
+    def _complete(cls, column: tuple[float, ...], info: Any) -> tuple[float, ...]:
+        """The column, or what stands for it where it is left out: no damping, and circles counted by frequency."""
+        diameters, omega = (info.data.get(name, ()) for name in ("diameters", "omega"))
+        if column or len(omega) != len(diameters):
+            return column
+        if info.field_name == "damping_ratio":
+            return (0.0,) * len(diameters)
+        order = sorted(range(len(omega)), key=omega.__getitem__)
+        return tuple(sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega)))
+
+    def _unequal_columns(self) -> list[str]:
+        """Faults of the number of modes, and of columns that lack some or have more."""
+        count = len(self.diameters)
         faults: list[str] = []
-        count = len(given.get("diameters", ()))
-        if "diameters" in given and not 1 <= count <= MOST_MODES:
+        if not 1 <= count <= MOST_MODES:
             faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
-        for name, column in given.items():
+        for name in self._columns:
+            column = getattr(self, name)
             if len(column) != count and (column or name in ("omega", "amplitude")):
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
-        faults += _shape_faults(data.get("radii", ()), data.get("shapes", ()))
-        if faults or not {"diameters", "omega", "amplitude"} <= given.keys():
-            return faults
-        try:
-            diameters = [whole(x) for x in given["diameters"]]
-            omega, amplitude = ([float(number(x)) for x in given[name]] for name in ("omega", "amplitude"))
-            circles = [whole(x) for x in given.get("circles", ())]
-        except ValueError:
-            return []
-        largest = max(map(abs, amplitude))
-        if not largest:
-            faults.append(Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc"))
-        elif math.isfinite(largest):
-            faults += limits_faults("largest amplitude", largest, AMPLITUDES)
-        return faults + _repeated(diameters, omega, circles)
+        lengths = {len(self.radii)} if self.radii else set()
+        if {*map(len, self.shapes)} != lengths or lengths == {1}:
+            rule = "must be two or more, with a value of the shape of every mode at each"
+            faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
+        elif any(a >= b for a, b in pairwise(self.radii)):
+            faults.append(Fault.of(("radii",), list(self.radii), "must ascend"))
+        return faults
+
+    def _faults_of_modes(self, counted: bool) -> list[str]:
+        """Faults of the amplitudes, and of modes given twice, often as the halves of a pair, which must be given once.
+
+        counted : whether circles were left out, so that modes far apart in frequency are different ones
+        """
+        faults = limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES)
+        if not any(self.amplitude):
+            faults = [Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc")]
+        same = self.diameters if counted else [*zip(self.diameters, self.circles, strict=True)]
+        pairs = ((i, j) for j in range(len(same)) for i in range(j) if same[i] == same[j])
+        for i, j in pairs:
+            apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
+            if counted and apart >= 0.05:  # as far apart they are no halves of a pair
+                continue
+            name = f"modes {i + 1} and {j + 1} have {self.diameters[j]} nodal diameters"
+            if apart < 1e-9:
+                rule = f"{name} and one frequency: each mode, and each pair of modes, must be given once"
+            else:
+                rule = (
+                    f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
+                    f"pair once, by its mean frequency, and what splits it is neglected"
+                )
+            faults.append(Fault.of(("omega", str(j)), self.omega[j], rule))
+        return faults[:3]
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -519,41 +536,6 @@ class Disc(Checked):
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""
         return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
-
-
-def _shape_faults(radii: Any, shapes: Any) -> list[str]:
-    """Faults of the shapes as a whole."""
-    if not all(isinstance(column, tuple | list) for column in (radii, shapes, *shapes)):
-        return []  # the types of the fields report it
-    faults: list[str] = []
-    if any(len(shape) != len(radii) for shape in shapes) or bool(radii) != bool(shapes) or len(radii) == 1:
-        rule = "must be two or more, with a value of the shape of every mode at each"
-        faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
-    elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
-        faults.append(Fault.of(("radii",), list(radii), "must ascend"))
-    return faults
-
-
-def _repeated(diameters: list[int], omega: list[float], circles: list[int]) -> list[str]:
-    """Faults of modes that are given twice, often as the halves of a pair, which must be given once."""
-    faults: list[str] = []
-    for j in range(len(diameters)):
-        for i in range(j):
-            if diameters[i] != diameters[j] or (circles and circles[i] != circles[j]):
-                continue
-            apart = abs(omega[j] - omega[i]) / max(abs(omega[i]), abs(omega[j]), 1e-300)
-            if not (circles or apart < 0.05):  # as far apart they are no halves of a pair
-                continue
-            name = f"modes {i + 1} and {j + 1} have {diameters[j]} nodal diameters"
-            if apart < 1e-9:
-                rule = f"{name} and one frequency: each mode, and each pair of modes, must be given once"
-            else:
-                rule = (
-                    f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
-                    f"pair once, by its mean frequency, and what splits it is neglected"
-                )
-            faults.append(Fault.of(("omega", str(j)), omega[j], rule))
-    return faults[:3]
 
 
 class Parameters(Checked):

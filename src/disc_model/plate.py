@@ -425,33 +425,10 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 
 
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
-    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x).
+
+    Y and K are infinite where they leave the range of floats: for 60 diameters at radii below 5e-5 of the outer one.
+    """
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
     exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])
-    far = ~(np.abs(value[1]) < 1e280)  # near the end of the range of floats
-    if np.any(far):
-        orders = np.broadcast_to(l, x.shape)
-        for order in np.unique(orders[far]):
-            here = far & (orders == order)
-            value[:, here], exponent[:, here] = _bessel_small(int(order), x[here])
-    return value, exponent
-
-
-def _bessel_small(l: int, x: Array) -> tuple[Array, Array]:
-    """As `_bessel` for `x` (n,) far below the order `l`, where the functions leave the range of floats.
-
-    J and I by their power series behind the factor (x/2)^l/l!; Y and K by their upward recurrences, which are
-    stable, rescaled at every order.
-    """
-    value, exponent = np.empty((4, x.size)), np.empty((4, x.size))
-    quarter = (x / 2) ** 2
-    value[0], value[2] = special.hyp0f1(l + 1, -quarter), special.hyp0f1(l + 1, quarter)
-    exponent[0] = exponent[2] = l * np.log(x / 2) - special.gammaln(l + 1)
-    for row, start, sign in ((1, special.yv, -1.0), (3, special.kv, 1.0)):
-        before, now, log = start(0, x), start(1, x), np.zeros(x.size)
-        for order in range(1, l):
-            before, now = now, 2 * order / x * now + sign * before
-            size = np.abs(now)
-            before, now, log = before / size, now / size, log + np.log(size)
-        value[row], exponent[row] = now, log
     return value, exponent
