@@ -209,10 +209,12 @@ def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
             if not isinstance(name, str):
                 comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
                 yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
-            yield from faults_of_names(value, (*path, str(name)))
+            if isinstance(value, dict | list | tuple):
+                yield from faults_of_names(value, (*path, str(name)))
     elif isinstance(data, list | tuple):
         for i, value in enumerate(data):
-            yield from faults_of_names(value, (*path, str(i)))
+            if isinstance(value, dict | list | tuple):
+                yield from faults_of_names(value, (*path, str(i)))
 
 
 @functools.cache

@@ -8,6 +8,7 @@ growth rate of the leading multiplier's part.  Near repetition alone proves noth
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -75,6 +76,11 @@ class NearCycle:
     distance: Array
     jacobian: Array
     waited: float = 0.0
+
+    @cached_property
+    def leading(self) -> ComplexArray:
+        """See `_left_vector`."""
+        return _left_vector(self.jacobian)
 
     @property
     def kind(self) -> Outcome:
@@ -146,9 +152,8 @@ def departs_after(near: NearCycle, horizon: float) -> bool:
     begun = first_release(near.cycle.parameters) + near.waited
     room = max(0, math.ceil((horizon - begun) / near.cycle.period))
     # the leading part alone excludes most motions at once
-    leading = _left_vector(near.jacobian)
     right = _left_vector(near.jacobian.T)
-    part = float(abs(leading @ near.distance)) / float(abs(leading @ right))
+    part = float(abs(near.leading @ near.distance)) / float(abs(near.leading @ right))
     grown = math.log(max(part / near.map.deflection, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
     return grown <= math.log(2 * AMPLITUDES[0]) and departure(near, room)[0] >= (room - 1) * near.cycle.period
 
@@ -180,7 +185,6 @@ def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[floa
 def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
     """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
     cycle, jacobian, x = near.cycle, near.jacobian, near.x
-    leading = _left_vector(jacobian)
     least = ARRIVED * near.map.deflection if cycle.stable else 0.0
     # the errors of coarse flights would matter at a smaller distance
     coarse = bool(np.linalg.norm(distance) > SAME_POINT * near.map.deflection)
@@ -193,7 +197,7 @@ def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> boo
         error = float(np.linalg.norm(at - x - expected))
         if not flight.returned or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
             return False
-        parts.append(float(abs(leading @ (at - x))))
+        parts.append(float(abs(near.leading @ (at - x))))
     return _at_rate(parts, (counts[1] - counts[0]) * cycle.period, cycle.growth_rate, least)
 
 
@@ -246,7 +250,7 @@ def _faster(near: NearCycle, distance: Array) -> float:
 
     The phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders.
     """
-    left, right = _left_vector(near.jacobian), _left_vector(near.jacobian.T)
+    left, right = near.leading, _left_vector(near.jacobian.T)
     right = right / (left @ right)
     real = near.cycle.multipliers[0].imag == 0
     at, done, before = near.x + distance, 0, float(abs(left @ distance))
@@ -269,9 +273,13 @@ def _faster(near: NearCycle, distance: Array) -> float:
 # Steady sliding
 
 
+_sliding = lru_cache(maxsize=1)(steady_sliding)
+"""Asked at the end of each leg of a motion."""
+
+
 def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
-    if state.phase != "slip" or not (sliding := steady_sliding(p)).stable:
+    if state.phase != "slip" or not (sliding := _sliding(p)).stable:
         return False
     modes, give = mode_arrays(p), contact_compliance(p)
     ones = np.ones_like(modes.omega)

@@ -180,6 +180,8 @@ def find_outcome(
     """
     found = OutcomeResult(state=start)
     course, first = _OutcomeSearch(p, horizon, tol, furthest, early, late, found), None
+    if isinstance(near, NearCycle):
+        course.map = near.map  # a new one takes as long as a return to the section ten times over
     if early and start is None and course.map is not None:
         near = cycle_of_static_start(p) if near is None else near
         if isinstance(near, NearCycle):
