@@ -14,10 +14,9 @@ from pydantic import Field
 from disc_model.cli.case import case_lines, option, parameters_of, print_rows, with_case_options
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
-from disc_model.parameters import TOLERANCES, Count, Parameters, Seconds, Tolerance
+from disc_model.parameters import TOLERANCES, Count, Seconds, Tolerance
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.ramps import Ramp
-from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.truncation import ModeChoice
 
 if TYPE_CHECKING:
@@ -69,9 +68,9 @@ def run(
     until = option("stop_at", stop_at, Literal[*STOPS], faults, default=None)
     most = option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None)
     windows = _windows(window or [], end, faults)
-    ramps = _ramps(ramp or [], p, faults)
-    faults += _file_faults(plot, save, checkpoint)
-    raise_faults(faults)  # all faults at once, before kernels load
+    ramps = _ramps(ramp or [], faults)
+    faults += _file_faults(plot, save)
+    raise_faults(faults)  # all at once, before kernels load; `simulate` checks the rest
     from disc_model.simulation.api import Execution, simulate
 
     record = Record(windows=tuple(windows.values())) if windows else None
@@ -107,7 +106,7 @@ def _values(text: str) -> dict[str, Any]:
     return {key.strip(): value for key, _, value in pairs} if all(sign for _, sign, _ in pairs) else {}
 
 
-def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp, ...]:
+def _ramps(texts: Sequence[str], faults: list[str]) -> tuple[Ramp, ...]:
     """Ramps from texts such as ``Omega:to=5,start=100,end=400``; faults are appended to `faults`."""
     found: list[Ramp] = []
     for i, text in enumerate(texts):
@@ -120,8 +119,6 @@ def _ramps(texts: Sequence[str], p: Parameters, faults: list[str]) -> tuple[Ramp
             found.append(Ramp(parameter=name, **values))
         except ParameterError as error:
             faults += (fault.inside(("ramp", str(i))) for fault in error.faults)
-    if not faults:  # with faults, other parameters may be meant
-        faults += ramp_faults(p, tuple(found), poincare=False)
     return tuple(found)
 
 
@@ -146,7 +143,7 @@ def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict
     return found
 
 
-def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) -> Iterator[str]:
+def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:
     """Reasons why files cannot be written, found before the simulation instead of after it."""
     if plot is not None:
         from matplotlib.backend_bases import FigureCanvasBase
@@ -163,10 +160,6 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
             yield f"{name}={str(path)!r}: must be in a folder that exists"
         elif not may_be_file(path):
             yield f"{name}={str(path)!r}: {NAME_RULE}"
-    if checkpoint is not None:
-        from disc_model.simulation.recorder import faults
-
-        yield from faults(checkpoint, 0)
 
 
 def plot_record(t_end: float) -> Record:
