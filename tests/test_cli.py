@@ -285,19 +285,8 @@ def test_a_wrong_study_is_told_before_snakemake_starts(
     assert called() is None
 
 
-def test_the_one_study_of_the_folder_is_computed(
-    command: Command, called: Callable[[], list[str]], monkeypatch
-) -> None:
-    """Without a file the study of the paper was computed, whatever the folder held."""
-    assert "FILES: a study file is required, and this folder has none" in command.error("study")
-    assert called() is None
-    monkeypatch.setenv("COLUMNS", "200")
-    assert "figures of paper" in command.out("list", "figures")
-    Path("mine.yaml").write_text(STUDY)
-    Path("other.yaml").write_text("study_of: something else\n")
-    assert command.run("study") == (3, "", "study file: mine.yaml\n")
-    assert called()[-2:] == ["--configfile", str(Path("mine.yaml").resolve())]
-    assert "growth" in command.out("list", "figures")
-    Path("second.yml").write_text(STUDY)
+def test_without_a_file_nothing_is_computed(command: Command, called: Callable[[], None]) -> None:
+    """The study of the paper was, whatever the folder held."""
     for asked in (["study"], ["list", "figures"]):
-        assert "this folder has several: mine.yaml, second.yml" in command.error(*asked)
+        assert "Missing argument 'files'" in command.error(*asked)
+    assert called() is None

@@ -27,15 +27,14 @@ if TYPE_CHECKING:
     Grids = dict[str, GridStudy]
 
 PACKAGE = Path(__file__).resolve().parents[1]
-PAPER = Path("config/paper.yaml")
 INTERRUPTED = 130
 """Exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells."""
 KINDS = ("studies", "figures", "cases", "outdated")
-FILES = typer.Argument(help="study files, later ones laid over earlier ones; this folder's if it holds one only")
+Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
 def study(
-    files: Annotated[list[Path] | None, FILES] = None,
+    files: Files,
     cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
     dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
@@ -47,30 +46,22 @@ def study(
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
-        files = files or [_own_file()]
         _read(files)
     options = [*(target or []), f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
     command = _command(files, [*options, *shlex.split(snakemake)])
-    code = _plan(command) if dry_run else _run(command)
-    if code and any((directory / ".snakemake" / "locks").glob("*")):
-        own = shlex.join(["disc-model", "study", *map(str, files), "--directory", str(directory), "--unlock"])
-        typer.echo(
-            f"The folder is locked, by another run or by one that was killed. After a killed one: {own}", err=True
-        )
-    raise typer.Exit(code)
+    raise typer.Exit(_plan(command) if dry_run else _run(command))
 
 
 def list_(
     what: Annotated[
         str, typer.Argument(metavar="|".join(KINDS), help="what to list", autocompletion=lambda: list(KINDS))
     ],
-    files: Annotated[list[Path] | None, FILES] = None,
+    files: Files,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path(),
 ) -> None:
     """List the grid studies, figures or cases of a study, or what of its results is outdated."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
-    files = files or [_own_file(otherwise=_paper())]
     chosen, grids = _read(files)
     computed = (directory / "results").is_dir() and find_spec("snakemake") is not None
     states = _summary(files, directory) if computed or what == "outdated" else {}
@@ -113,29 +104,6 @@ def init(
 
 # ----------------------------------------------------------------------------------------------------
 # Parts
-
-
-def _own_file(otherwise: Path | None = None) -> Path:
-    """The only study file of the working folder; if there is none, ``otherwise``."""
-    found = [
-        path
-        for path in sorted([*Path().glob("*.yaml"), *Path().glob("*.yml")])
-        if re.search(r"^study\s*:", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE)
-    ]
-    if len(found) == 1:
-        typer.echo(f"study file: {found[0]}", err=True)
-        return found[0]
-    if otherwise and not found:
-        return otherwise
-    there = f"this folder has several: {', '.join(map(str, found))}" if found else "this folder has none"
-    raise ParameterError(
-        Fault(("FILES",), "", f"a study file is required, and {there} (the paper's study: {_paper()})")
-    )
-
-
-def _paper() -> Path:
-    """The paper's study: that of the working folder, or else that of the package."""
-    return PAPER if PAPER.exists() else PACKAGE / PAPER
 
 
 def _require_snakemake() -> None:
