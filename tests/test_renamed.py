@@ -14,7 +14,7 @@ from disc_model.errors import ParameterError
 from disc_model.figures.kinds import KINDS, Mark
 from disc_model.renamed import RENAMED, renamed
 from disc_model.studies.document import QUANTITIES, STATIC, VARIED, BifurcationOptions, RecordSpec
-from disc_model.studies.grids.summaries import summary_of
+from disc_model.studies.grids.merge import summary_of
 
 MODELS: list[type[BaseModel]] = [*(entry.options for entry in QUANTITIES.values()), *KINDS.values(), Mark, RecordSpec]
 

@@ -14,7 +14,7 @@ from disc_model.figures.kinds import KINDS as FIGURES
 from disc_model.figures.kinds import OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE
 from disc_model.studies.document import QUANTITIES
-from disc_model.studies.grids.summaries import summary_of
+from disc_model.studies.grids.merge import summary_of
 
 SCRIPTS = Path(__file__).parents[2] / "workflow" / "scripts"
 GRAPH = grimp.build_graph("disc_model", exclude_type_checking_imports=True)

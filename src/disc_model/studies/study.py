@@ -66,8 +66,8 @@ from disc_model.studies.document import (
     Value,
     blocks_of,
 )
+from disc_model.studies.grids.merge import summary_of
 from disc_model.studies.grids.run import module_of, own_coordinates
-from disc_model.studies.grids.summaries import summary_of
 from disc_model.studies.rules import holds, names_in
 from disc_model.truncation import FREQUENCIES, ModeRequest, asked_modes
 

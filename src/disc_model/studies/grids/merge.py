@@ -11,6 +11,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -19,9 +20,9 @@ import xarray as xr
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
+from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import STATUSES
-from disc_model.studies.grids.run import POINT, describe
-from disc_model.studies.grids.summaries import summarised
+from disc_model.studies.grids.run import POINT, describe, own_coordinates, variables_of
 from disc_model.studies.rules import holds
 
 
@@ -117,3 +118,33 @@ def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
         specification[key] = {name: one for named in every for name, one in sorted(named.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
     return common | common_provenance(batches)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Summaries: they are made again at each merge, so that changing them recomputes no batch
+
+
+def summary_of(quantity: str) -> Any:
+    """The summary of a quantity, or None: a module with `COLUMNS` and `COORDINATES` as a quantity has them.
+
+    Its function `summarise(cell, options)` returns values by column, for a merged dataset that has only the summarised
+    dimension left; a rule of the grid may leave out some of its points, or all.
+    """
+    if not QUANTITIES[quantity].over:
+        return None
+    # their import loads the engine, which most merges do not need
+    from disc_model.studies.grids.summaries import campbell, sensitivity
+
+    return campbell if quantity == "campbell" else sensitivity
+
+
+def summarised(study: xr.Dataset, quantity: str, options: Mapping[str, Any]) -> xr.Dataset:
+    """A merged study with the summary of its quantity, if there is one; options are as in the batches."""
+    summary = summary_of(quantity)
+    if summary is None:
+        return study
+    checked = SimpleNamespace(**options)
+    others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != QUANTITIES[quantity].over}
+    cells = [study.isel(dict(zip(others, place, strict=True))) for place in np.ndindex(*others.values())]
+    variables = variables_of(summary, [summary.summarise(cell, checked) for cell in cells], checked, others)
+    return study.assign_coords(own_coordinates(summary, checked)).assign(variables)

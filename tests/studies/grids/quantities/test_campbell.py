@@ -12,7 +12,8 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
 from disc_model.studies.document import CampbellOptions
-from disc_model.studies.grids.summaries import campbell, summarised
+from disc_model.studies.grids.merge import summarised
+from disc_model.studies.grids.summaries import campbell
 from tests.studies.grids.conftest import SMALL, computed
 
 
