@@ -25,11 +25,9 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
     rows = [tree.to_dataset() for tree in cases.values()]
     table = xr.concat(rows, dim="case", join="exact", combine_attrs="override", data_vars="all", coords="minimal")
     table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
-    texts = {"message": [row.attrs["message"] for row in rows]}
-    for name in sorted({name for label in labels.values() for name in label}):
-        texts[name] = [labels.get(case, {}).get(name, "") for case in cases]
-    for name, values in texts.items():
-        table[name] = ("case", np.array(values, dtype=str), {"long_name": _TEXTS.get(name, name)})
+    texts = [{"message": row.attrs["message"], **labels.get(case, {})} for case, row in zip(cases, rows, strict=True)]
+    for name, meaning in _TEXTS.items():
+        table[name] = ("case", np.array([text.get(name, "") for text in texts], dtype=str), {"long_name": meaning})
     table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
     tree = xr.DataTree(table)
     for name, case in cases.items():

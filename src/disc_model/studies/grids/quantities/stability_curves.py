@@ -4,7 +4,7 @@ from dataclasses import asdict
 from typing import Any
 
 from disc_model.data.variables import Variable
-from disc_model.stability.curves import StabilityCurve, stability_curves
+from disc_model.stability.curves import stability_curves
 from disc_model.studies.document import StabilityCurvesOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 
@@ -49,18 +49,17 @@ def compute_point(point: Point, options: StabilityCurvesOptions) -> tuple[dict[s
         tol=options.tol,
     )
     # the array holds the longest curve
-    rows = [_row(curve) for curve in sorted(curves, key=lambda curve: -len(curve.period))]
+    rows = [
+        {
+            "kind": curve.kind,
+            "x": curve.values[:, 0],
+            "y": curve.values[:, 1],
+            "adjoins_stable_cycle": curve.adjoins_stable_cycle,
+            "period": curve.period,
+            "multiplier_re": curve.multipliers.real,
+            "multiplier_im": curve.multipliers.imag,
+            **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
+        }
+        for curve in sorted(curves, key=lambda curve: -len(curve.period))
+    ]
     return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_continuation_failures": len(notes)}, ""
-
-
-def _row(curve: StabilityCurve) -> dict[str, Any]:
-    return {
-        "kind": curve.kind,
-        "x": curve.values[:, 0],
-        "y": curve.values[:, 1],
-        "adjoins_stable_cycle": curve.adjoins_stable_cycle,
-        "period": curve.period,
-        "multiplier_re": curve.multipliers.real,
-        "multiplier_im": curve.multipliers.imag,
-        **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
-    }
