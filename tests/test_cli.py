@@ -215,29 +215,22 @@ def mine(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("what", "parts"),
     [
-        ("studies", ("mine", "floquet", "mu_s x mu_k", "4", "not computed")),
+        ("studies", ("mine", "floquet", "mu_s x mu_k", "4")),
         ("figures", ("growth", "heat_map", "seen", "history")),
         ("cases", ("A", "one case", "μ_k = 0.2", "1")),
     ],
 )
 def test_what_a_study_has_is_listed(command: Command, monkeypatch, mine: Path, what: str, parts: tuple) -> None:
     monkeypatch.setenv("COLUMNS", "200")
-    out = command.out("list", what, str(mine), "--directory", str(mine.parent))
+    out = command.out("list", what, str(mine))
     assert all(part in out for part in parts)
 
 
-def test_a_result_that_is_out_of_date_is_not_listed_as_there(command: Command, monkeypatch, mine: Path) -> None:
-    """Whatever lay there was said to be there."""
-    summary = "output_file\tstatus\tplan\nresults/mine/mine.nc\tparams changed\tupdate pending\n"
+def test_what_is_out_of_date_is_listed_as_snakemake_sees_it(command: Command, monkeypatch, mine: Path) -> None:
+    summary = "output_file\tstatus\tplan\nresults/a.nc\tok\tno update\nresults/b.nc\tmissing\tupdate pending\n"
     monkeypatch.setattr(cli_studies.subprocess, "run", lambda *_, **__: subprocess.CompletedProcess([], 0, summary, ""))
-    monkeypatch.setenv("COLUMNS", "200")
-    for file in ("mine.nc", "figures/growth.png"):
-        (mine.parent / "results" / "mine" / file).parent.mkdir(parents=True, exist_ok=True)
-        (mine.parent / "results" / "mine" / file).touch()
-    assert "outdated" in command.out("list", "studies", str(mine), "--directory", str(mine.parent))
-    figures = command.out("list", "figures", str(mine), "--directory", str(mine.parent))
-    assert re.search("growth.* there ", figures)
-    assert re.search("seen.* not computed ", figures)
+    out = command.out("list", "outdated", str(mine))
+    assert out == "results/b.nc: missing\n1 of 2 files are missing or out of date\n"
 
 
 def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ def test_values_and_commands_that_are_gone_are_refused_with_their_successors(
         BifurcationOptions.model_validate({"transient": 1, "section": "switch"})
     (fault,) = error.value.faults
     assert fault == "section='switch': must be 'stroboscopic' or 'event': it is now called event"
-    for words, new in ((["warm"], "compile"), (["list", "stale"], "outdated")):
+    for words, new in ((["warm"], "compile"), (["list", "stale", "my.yaml"], "outdated")):
         with pytest.raises(SystemExit):
             cli.main(words)
         assert capsys.readouterr().err.endswith(f": it is now called {new}\n")

@@ -8,7 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from disc_model.studies.study import GridStudy, Study
 
     Grids = dict[str, GridStudy]
+    Rows = Iterator[tuple[str, ...]]
 
 PACKAGE = Path(__file__).resolve().parents[1]
 INTERRUPTED = 130
@@ -63,21 +64,13 @@ def list_(
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
     chosen, grids = _read(files)
-    computed = (directory / "results").is_dir() and find_spec("snakemake") is not None
-    states = _summary(files, directory) if computed or what == "outdated" else {}
-    outdated = {file: status for file, status in states.items() if status is not None}
     if what == "outdated":
-        for file, status in outdated.items():
-            typer.echo(f"{file}: {status}")
-        typer.echo(f"{len(outdated)} of {len(states)} files are missing or out of date")
+        states = _summary(files, directory)
+        outdated = [f"{file}: {status}" for file, status in states.items() if status is not None]
+        typer.echo("\n".join([*outdated, f"{len(outdated)} of {len(states)} files are missing or out of date"]))
         return
     rows, heads = LISTS[what]
-
-    def state(file: str) -> str:
-        """Whether a result is there, and up to date."""
-        return "not computed" if not (directory / file).exists() else "outdated" if file in outdated else "there"
-
-    Console().print(table(f"{what} of {chosen.name}", heads, rows(chosen, grids, state), overflow="fold"))
+    Console().print(table(f"{what} of {chosen.name}", heads, rows(chosen, grids), overflow="fold"))
 
 
 def init(
@@ -170,39 +163,34 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
     return chosen, {name: grids[name] for name in asked}
 
 
-Rows = Iterator[tuple[str, ...]]
-StateOf = Callable[[str], str]
-
-
-def _studies(chosen: Study, grids: Grids, state: StateOf) -> Rows:
+def _studies(chosen: Study, grids: Grids) -> Rows:
     for name, grid in grids.items():
-        made = state(f"results/{name}/{name}.nc")
-        yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title, made
+        yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title
 
 
-def _figures(chosen: Study, grids: Grids, state: StateOf) -> Rows:
+def _figures(chosen: Study, grids: Grids) -> Rows:
     from disc_model.figures.paper.catalogue import CATALOGUE
 
-    found = [(chosen.name, name, "paper", CATALOGUE[name].title) for name in chosen.figures]
-    found += [(chosen.name, name, plot.kind, plot.title or plot.case) for name, plot in chosen.plots.items()]
-    for study_name, grid in grids.items():
-        found += [(study_name, name, shown.kind, shown.title or grid.title) for name, shown in grid.plots.items()]
-    for study_name, name, kind, title in found:
-        yield name, kind, title, state(f"results/{study_name}/figures/{name}.png")
+    for name in chosen.figures:
+        yield name, "paper", CATALOGUE[name].title
+    for name, plot in chosen.plots.items():
+        yield name, plot.kind, plot.title or plot.case
+    for grid in grids.values():
+        for name, shown in grid.plots.items():
+            yield name, shown.kind, shown.title or grid.title
 
 
-def _cases(chosen: Study, grids: Grids, state: StateOf) -> Rows:
+def _cases(chosen: Study, grids: Grids) -> Rows:
     from disc_model.data.variables import values_text
 
     for name, case in chosen.cases.items():
-        made = state(f"results/{chosen.name}/cases/{name}.nc")
-        yield name, case.title, values_text(dict(chosen.specs[name].parameters)), f"{case.t_end:g}", made
+        yield name, case.title, values_text(dict(chosen.specs[name].parameters)), f"{case.t_end:g}"
 
 
 LISTS = {
-    "studies": (_studies, ("study", "quantity", "dimensions", "points", "title", "results")),
-    "figures": (_figures, ("figure", "kind", "title", "results")),
-    "cases": (_cases, ("case", "title", "parameters", "t_end (s)", "results")),
+    "studies": (_studies, ("study", "quantity", "dimensions", "points", "title")),
+    "figures": (_figures, ("figure", "kind", "title")),
+    "cases": (_cases, ("case", "title", "parameters", "t_end (s)")),
 }
 
 
