@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import Any
 from unittest.mock import Mock
 
@@ -11,9 +12,10 @@ import pandas as pd
 import pytest
 import xarray as xr
 import yaml
+from pydantic import ValidationError
 
 from disc_model import Parameters
-from disc_model.claims import SCANS, measures
+from disc_model.claims import SCANS, disc, measures, section41, section42, section43, section44, survival
 from disc_model.claims.ledger import CLAIMS, check_claims, views
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import (
@@ -30,6 +32,7 @@ from disc_model.claims.model import (
     paper_cases,
 )
 from disc_model.claims.pages import to_markdown
+from disc_model.claims.survival import CONCLUSIONS
 from disc_model.data.dataset import Missing
 from disc_model.simulation.api import run_case
 from disc_model.stability.cycle import floquet
@@ -142,7 +145,9 @@ TEXT = {
 
 def claims_from(tmp_path: Path, checks: dict[str, Callable[..., Answer]], **texts: object) -> tuple[Claim, ...]:
     (tmp_path / "x.yaml").write_text(yaml.safe_dump(texts, sort_keys=False), encoding="utf-8")
-    return claims(checks, "x.yaml", folder=tmp_path)
+    module = ModuleType("x")
+    vars(module).update(checks, __file__=str(tmp_path / "x.py"))
+    return claims(module)
 
 
 def claim_of(tmp_path: Path, check: Callable[..., Answer], **more: object) -> Claim:
@@ -187,14 +192,20 @@ def test_a_verdict_says_which_bound_it_turns_on(tmp_path: Path, bounds: dict[str
 def test_texts_and_checks_that_do_not_fit_are_refused_at_once(tmp_path: Path) -> None:
     unknown = TEXT | {"check": "decide"}
     texts = {"Known": TEXT | {"case": {"F02": 1}}, "Undecidable": unknown, "Elsewhere": TEXT | {"cases": {"F99": 1}}}
-    with pytest.raises(ClaimError) as refused:
-        claims_from(tmp_path, dict.fromkeys("AB", lambda: Answer(True)), **texts)
-    assert str(refused.value).splitlines() == [
-        "x.yaml: Known.case: Extra inputs are not permitted",
-        "x.yaml: Undecidable: no check decide",
-        "x.yaml: Elsewhere: no case F99 in the paper's",
-        "B: a check without a text",
+    with pytest.raises(ValidationError) as refused:
+        claims_from(tmp_path, {"A": lambda: Answer(True)}, **texts)
+    assert [(".".join(map(str, fault["loc"])), fault["msg"]) for fault in refused.value.errors()] == [
+        ("x.yaml: Known.case", "Extra inputs are not permitted"),
+        ("x.yaml: Undecidable.check", "Input should be callable"),
+        ("x.yaml: Elsewhere.cases", "Value error, no case F99 in the paper's"),
     ]
+
+
+def test_every_check_has_a_text() -> None:
+    for modules, those in (((disc, section41, section42, section43, section44), CLAIMS), ((survival,), CONCLUSIONS)):
+        found = {one for module in modules for one in vars(module).values() if isinstance(one, FunctionType)}
+        checks = {one for one in found if one.__annotations__.get("return") is Answer}
+        assert checks == {claim.check for claim in those}
 
 
 def test_a_number_that_a_text_lacks_is_named(tmp_path: Path) -> None:

@@ -230,7 +230,7 @@ def test_one_further_frequency_is_judged_with_half_the_bound_as_well() -> None:
 def test_half_of_a_whole_is_not_doubled_to_all_of_it() -> None:
     """F26 was undecided, since no decrease at all is as good as one to 100 %."""
     judge = lambda one: Finding("", HOLDS if one.bounds["part"] == 0.5 else FAILS)  # noqa: E731
-    assert BY_NAME["F26"].turned_by(judge, HOLDS) == "does not hold with part = 0.3333, part = 0.6667"
+    assert BY_NAME["F26"].settle(judge)[1] == "does not hold with part = 0.3333, part = 0.6667"
 
 
 def test_a_parameter_changed_by_a_thousandth_may_turn_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:

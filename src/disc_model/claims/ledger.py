@@ -8,15 +8,14 @@ import xarray as xr
 
 from disc_model.claims import disc, measures, section41, section42, section43, section44, survival
 from disc_model.claims.measures import CaseView
-from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, checks_of, claims
+from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import values_text
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
-SECTIONS = (disc, section41, section42, section43, section44)
-CLAIMS = claims(checks_of(*SECTIONS), *(f"{section.__name__.rpartition('.')[2]}.yaml" for section in SECTIONS))
+CLAIMS = claims(disc, section41, section42, section43, section44)
 """All claims, in the order of the files."""
 
 

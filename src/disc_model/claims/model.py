@@ -5,18 +5,18 @@ module beside that file, or of another section's. The check receives cases and b
 verdict, and the numbers for the text's sentences.
 """
 
-import inspect
 import json
+from collections import ChainMap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 import numpy as np
 import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
 
 from disc_model.analysis.classify import SETTLED
 from disc_model.claims.measures import STRETCH, Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
@@ -37,7 +37,7 @@ PAPER = FOLDER.parent / "config" / "paper.yaml"
 
 
 class ClaimError(DiscModelError):
-    """Texts and checks that do not fit together."""
+    """A text with a number that its check does not return."""
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -143,6 +143,13 @@ class Claim(BaseModel):
     apart: str = ""
     also: str = ""
 
+    @field_validator("cases")
+    @classmethod
+    def _of_the_paper(cls, cases: dict[str, float]) -> dict[str, float]:
+        if unknown := cases.keys() - paper_cases().keys():
+            raise ValueError(f"no case {', '.join(sorted(unknown))} in the paper's")
+        return cases
+
     def fill(self, sentence: str) -> str:
         """A sentence with the claim's numbers, such as the paper's value or the tolerance."""
         return Sentences({}, self.numbers).fill(sentence)
@@ -198,32 +205,34 @@ class Claim(BaseModel):
     def settle(self, judge: Callable[..., Finding]) -> tuple[Finding, str]:
         """Final result of the claim, undecided if a halved or doubled threshold changes the verdict; and such changes.
 
-        That other simulations change it is a remark: the paper speaks of one, with exactly its values.
+        So do changes of a parameter if it is `computed`. That other simulations change it is a remark: the paper speaks
+        of one, with exactly its values. The changes are "stable" if there are none, and "" if nothing can be changed.
 
-        judge : result of a claim, this one or with other thresholds; with a parameter changed if it is `computed`
+        judge : result of a claim, this one or with other thresholds; with a parameter changed if a name is given
         """
         found = judge(self)
-        turned = self.turned_by(judge, found.verdict)
-        if turned not in ("", "stable") and found.verdict != UNDECIDED:
-            remark = "; ".join(filter(None, (f"not robust: {turned}", found.remark)))
-            found = replace(found, verdict=UNDECIDED, remark=remark)
-        if not self.simulated or found.verdict.startswith(NOT_COMPUTED):
-            return found, turned
-        others = _turns({name: judge(self, name).verdict for name in PHYSICAL}, found.verdict)
-        if others:
-            others += " (each 0.1 % larger)"
-            remark = "; ".join(filter(None, (found.remark, f"only for these very values: {others}")))
+        verdict = found.verdict
+        if verdict.startswith(NOT_COMPUTED) or not (self.bounds or self.computed or self.simulated):
+            return found, ""
+        others = {text: judge(other).verdict for text, other in self._with_other_bounds().items()}
+        larger = {name: judge(self, name).verdict for name in (PHYSICAL if self.computed or self.simulated else ())}
+        if self.computed:
+            others |= {f"{name} 0.1 % larger": other for name, other in larger.items()}
+        turned, only = _turns(others, verdict), _turns(larger, verdict) if self.simulated else ""
+        if turned and verdict != UNDECIDED:
+            found = replace(found, verdict=UNDECIDED, remark=_joined(f"not robust: {turned}", found.remark))
+        if only:
+            only += " (each 0.1 % larger)"
+            remark = _joined(found.remark, f"only for these very values: {only}")
             found = replace(found, verdict=REMARK if found.verdict == HOLDS else found.verdict, remark=remark)
-        return found, "; ".join(filter(None, (turned.replace("stable", ""), others))) or "stable"
+        return found, _joined(turned, only) or "stable"
 
-    def turned_by(self, judge: Callable[..., Finding], verdict: str) -> str:
-        """The bounds, halved or doubled, or the parameters, changed, that change the verdict; "stable" without any.
+    def _with_other_bounds(self) -> dict[str, Self]:
+        """The claim with each bound halved and doubled, by what is changed.
 
         Of ratios between 0.5 and 2 the distance from 1 is halved or doubled, of parts of a whole the ratio to the rest.
         """
-        if not (self.bounds or self.computed) or verdict.startswith(NOT_COMPUTED):
-            return ""
-        others = {}
+        found = {}
         for name, bound in self.bounds.items():
             for factor in (0.5, 2.0):
                 other = factor * bound
@@ -231,11 +240,8 @@ class Claim(BaseModel):
                     other = 1 + factor * (bound - 1)
                 elif name in SHARES:
                     other /= 1 + (factor - 1) * bound
-                changed = self.model_copy(update={"bounds": self.bounds | {name: other}})
-                others[f"{name} = {other:.4g}"] = judge(changed).verdict
-        if self.computed:
-            others |= {f"{name} 0.1 % larger": judge(self, name).verdict for name in PHYSICAL}
-        return _turns(others, verdict) or "stable"
+                found[f"{name} = {other:.4g}"] = self.model_copy(update={"bounds": self.bounds | {name: other}})
+        return found
 
     def _found(self, answer: Answer, cases: Mapping[str, CaseView]) -> Finding:
         values = self.numbers | {**cases, "cases": rows(cases.values())} | answer.values
@@ -257,46 +263,32 @@ class Claim(BaseModel):
             ) from None
 
 
-def checks_of(*modules: ModuleType) -> dict[str, Callable[..., Answer]]:
-    """The checks of some modules by name: their functions that return an `Answer`."""
-    found = {name: one for module in modules for name, one in vars(module).items() if inspect.isfunction(one)}
-    return {name: one for name, one in found.items() if inspect.signature(one).return_annotation is Answer}
-
-
-def claims(checks: Mapping[str, Callable[..., Answer]], *files: str, folder: Path = FOLDER) -> tuple[Claim, ...]:
-    """The claims of these files, each with its check, in the files' order.
+def claims(*modules: ModuleType) -> tuple[Claim, ...]:
+    """The claims of these modules, in the order of the files beside them.
 
     Raises
     ------
-    ClaimError
-        For a text without a check, a check without a text, and all other faults of texts, together.
+    pydantic.ValidationError
+        With all faults of the files.
     """
-    faults, found, named = [], [], set()
-    common, texts = _read(FOLDER / "common.yaml"), [(file, _read(folder / file)) for file in files]
-    for file, name, raw in [(file, name, raw) for file, read in texts for name, raw in read.items()]:
-        for key in ("remarks", "undecided"):  # keys without a text use the common one
-            raw[key] = {one: text or common.get(one) for one, text in raw.get(key, {}).items()}
-        check, cases = str(raw.get("check")), raw.get("cases")
-        named.add(check)
-        faults += [] if check in checks else [f"{file}: {name}: no check {check}"]
-        faults += [f"{file}: {name}: no key id, which its name is"] if "id" in raw else []
-        try:
-            found.append(Claim.model_validate(raw | {"id": name, "check": checks.get(check, Answer)}))
-        except ValidationError as error:
-            faults += [f"{file}: {name}.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()]
-        faults += [
-            f"{file}: {name}: no case {one} in the paper's"
-            for one in (cases if isinstance(cases, dict) else ())
-            if one not in paper_cases()
-        ]
-    faults += [f"{name}: a check without a text" for name in sorted(checks.keys() - named)]
-    if faults:
-        raise ClaimError("\n".join(faults))
-    return tuple(found)
+    checks, common = ChainMap(*map(vars, modules)), _read(FOLDER / "common.yaml")
+    texts: dict[str, dict[str, Any]] = {}
+    for module in modules:
+        file = Path(str(module.__file__)).with_suffix(".yaml")
+        for name, raw in _read(file).items():
+            check = raw.get("check")
+            texts[f"{file.name}: {name}"] = text = raw | {"id": name, "check": checks.get(check, check)}
+            for key in {"remarks", "undecided"} & raw.keys():  # names without a text have the common one
+                text[key] = {one: sentence or common.get(one) for one, sentence in raw[key].items()}
+    return tuple(TypeAdapter(dict[str, Claim]).validate_python(texts).values())
 
 
 # ----------------------------------------------------------------------------------------------------
 # Checks of the evidence
+
+
+def _joined(*texts: str) -> str:
+    return "; ".join(filter(None, texts))
 
 
 def _turns(others: Mapping[str, str], verdict: str) -> str:

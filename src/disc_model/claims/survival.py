@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures, section42
 from disc_model.claims.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
-from disc_model.claims.model import Answer, checks_of, claims
+from disc_model.claims.model import Answer, claims
 from disc_model.claims.pages import Comparison, page_texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, stated_in
@@ -285,7 +285,7 @@ def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
     return (None, "open" if holds else "none") if None in holds or not holds else (True, "")
 
 
-CONCLUSIONS = claims(checks_of(sys.modules[__name__]), "survival.yaml")
+CONCLUSIONS = claims(sys.modules[__name__])
 
 # ----------------------------------------------------------------------------------------------------
 # The page
