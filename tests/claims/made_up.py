@@ -23,7 +23,7 @@ import yaml
 from disc_model.claims.energy import Powers
 from disc_model.claims.ledger import views
 from disc_model.claims.measures import CaseView
-from disc_model.data.dataset import events_dataset, failed_groups, samples_dataset
+from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies
@@ -229,7 +229,7 @@ def tell(spec: CaseSpec, story: Story) -> xr.DataTree:
     """The case as its file would hold it."""
     p, end = spec.parameters, spec.t_end
     reached = min(end, story.first if spec.stop_at and story.separates else math.inf)
-    root = failed_groups(p, end, spec.tol, "")[""]
+    root = scalars_dataset(p, {"t_end": end, "tol": spec.tol}, "failed", "")
     if spec.start != Start():
         root.attrs["start"] = spec.start.model_dump_json()
     values = {
@@ -476,7 +476,7 @@ def root_with(**values: float) -> Callable[[Groups], Groups]:
 
 def _failed(groups: Groups) -> Groups:
     p = Parameters.model_validate_json(groups[""].attrs["parameters"])
-    return failed_groups(p, 100.0, 1e-10, "NonFinite: overflow")
+    return {"": scalars_dataset(p, {"t_end": 100.0, "tol": 1e-10}, "failed", "NonFinite: overflow")}
 
 
 def _events_cut(count: int) -> Callable[[Groups], Groups]:

@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.claims import disc, measures, section41, section42, section43, section44, survival
 from disc_model.claims.measures import CaseView
 from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, claims
-from disc_model.claims.pages import Comparison, page_texts
+from disc_model.claims.pages import TEXTS, Comparison
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import values_text
 from disc_model.parameters import Parameters
@@ -60,7 +60,7 @@ def views(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = None) -> d
 
 def compare(published: xr.DataTree, orthonormal: xr.DataTree) -> Comparison:
     """Compare merged cases (see `disc_model.data.dataset`) of the two normalisations."""
-    texts, old, new = page_texts("normalisation"), views(published), views(orthonormal)
+    texts, old, new = TEXTS["normalisation"], views(published), views(orthonormal)
     shared = _once([case for name, case in old.items() if name in new])
     failed = [name for name in shared if "failed" in (old[name].status, new[name].status)]
     whole = [name for name in shared if name not in failed]

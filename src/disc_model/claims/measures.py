@@ -205,11 +205,11 @@ class CaseView:
     @cached_property
     def history(self) -> xr.Dataset:
         """Least and greatest values of variables within the bins of the window `history`; raises `Missing`."""
-        return self._held(dataset.ranges, "history")
+        return self._held(dataset.samples, "history", 1, envelope=True)
 
-    def _held(self, ask: Callable[..., xr.Dataset], *args: Any) -> xr.Dataset:
+    def _held(self, ask: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
         try:
-            return ask(self.node, *args)
+            return ask(self.node, *args, **options)
         except Missing as reason:
             raise Missing(f"case {self.name} {reason}") from None
 

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from html import escape
 from string import Template
 from typing import Any
@@ -14,17 +13,12 @@ import yaml
 from disc_model.claims.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED
 from disc_model.data.dataset import markdown_table
 
+TEXTS: dict[str, dict[str, Any]] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))
+"""The texts of each page."""
 CLASSES = {HOLDS: "good", REMARK: "note", FAILS: "bad", UNDECIDED: "note"}
 CLASSES |= dict.fromkeys((NOT_TESTABLE, NOT_COMPUTED), "none")
 CLAIM_WIDTHS = (5, 11, 18, 13, 30, 9, 14)
 """Widths of the ledger's columns, in per cent."""
-
-
-@cache
-def page_texts(name: str) -> Mapping[str, Any]:
-    """The texts of a page."""
-    texts: Mapping[str, Any] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))[name]
-    return texts
 
 
 def page(title: str, *body: str) -> str:
@@ -43,7 +37,7 @@ def to_markdown(table: pd.DataFrame) -> str:
 
 def ledger(table: pd.DataFrame) -> str:
     """The table of claims as a page, with the counts of the verdicts above it."""
-    texts, summary = page_texts("ledger"), f"{len(table)} statements; {_counts(table)}"
+    texts, summary = TEXTS["ledger"], f"{len(table)} statements; {_counts(table)}"
     rows = [_claim(row) for row in table.to_dict("records")]
     return page(texts["title"], f"<p>{escape(summary)}.</p>", _table(texts["head"], rows, CLAIM_WIDTHS))
 

@@ -37,13 +37,6 @@ def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
     return Answer(count >= fewest and force == 0.0, count=count, span=span, rate=rate, force=force)
 
 
-def contact_is_lost_upward(case: CaseView, *, share: float) -> Answer:
-    lost = case.switches("separation")
-    velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
-    upward = float(np.mean(velocity > 0))
-    return Answer(upward >= share, upward=upward, count=velocity.size, velocity=velocity.mean(), height=height.mean())
-
-
 def separations_are_short(*cases: CaseView, part: float) -> Answer:
     found = []
     for case in cases:

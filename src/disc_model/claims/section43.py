@@ -258,14 +258,17 @@ def lowest_position(case: CaseView, *, bound: float) -> Answer:
 
 
 def always_upward(*cases: CaseView, share: float) -> Answer:
-    shares: list[dict[str, Any]] = []
+    """Whether the disc, and with it the slider, moves upward where contact is lost, in that part of the separations."""
+    found: list[dict[str, Any]] = []
     for case in cases:
-        velocity = case.switches("separation")["u_velocity"].values
+        lost = case.switches("separation")
+        velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
         if case.separates and not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         if velocity.size:
-            shares.append({"case": case, "upward": float(np.mean(velocity > 0))})
-    return Answer(min((row["upward"] for row in shares), default=0.0) >= share, shares=shares)
+            means = {"velocity": velocity.mean(), "height": height.mean()}
+            found.append({"case": case, "upward": float(np.mean(velocity > 0)), "count": velocity.size, **means})
+    return Answer(min((row["upward"] for row in found), default=0.0) >= share, shares=found)
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, few: float) -> Answer:

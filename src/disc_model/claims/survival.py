@@ -19,7 +19,7 @@ from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.claims import measures, section42
 from disc_model.claims.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
 from disc_model.claims.model import Answer, claims
-from disc_model.claims.pages import Comparison, page_texts
+from disc_model.claims.pages import TEXTS, Comparison
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, stated_in
 
@@ -304,10 +304,9 @@ def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 def page_of(table: pd.DataFrame) -> Comparison:
     """Results of `judge` as a page: all verdicts at a glance, then their evidence."""
-    texts = page_texts("survival")
+    texts = TEXTS["survival"]
     verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
-    first = pd.DataFrame({"Conclusion": [one.claim for one in CONCLUSIONS]})
-    first["Place"] = [one.location for one in CONCLUSIONS]
+    first = pd.DataFrame([(one.claim, one.location) for one in CONCLUSIONS], columns=["Conclusion", "Place"])
     for model in MODELS:
         first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
     sections = [("At a glance", texts["introduction"], first)]

@@ -63,15 +63,10 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
     return xr.Dataset(data, attrs={"theta": theta})
 
 
-def failed_groups(p: Parameters, t_end: float, tol: float, message: str) -> dict[str, xr.Dataset]:
-    """Groups of a case that raised an error: all its scalars, unknown except the status, t_end and tol."""
-    return {"": scalars_dataset(p, {"t_end": t_end, "tol": tol}, "failed", message)}
-
-
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
     """The root of a case: its scalars.
 
-    values : values of `SCALARS` except the status; missing if not given
+    values : values of `SCALARS` except the status; missing if not given, as most are of a case that failed
     """
     known = {"status": STATUSES.index(status), **values}
     data: dict[str, Any] = {
@@ -360,17 +355,8 @@ def events(case: xr.DataTree) -> xr.Dataset:
     return found
 
 
-def samples(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
-    """A window of single samples, at least `at_least` of them; raises `Missing` if it holds ranges."""
-    return _window(case, name, at_least, envelope=False)
-
-
-def ranges(case: xr.DataTree, name: str, at_least: int = 1) -> xr.Dataset:
-    """A window of ranges, each variable as ``_min`` and ``_max``, with at least `at_least` bins."""
-    return _window(case, name, at_least, envelope=True)
-
-
-def _window(case: xr.DataTree, name: str, at_least: int, envelope: bool) -> xr.Dataset:
+def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False) -> xr.Dataset:
+    """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min`` and ``_max``."""
     found = group(case, name)
     if any(str(key).endswith("_min") for key in found) != envelope:
         instead = "samples, not as ranges: its window needs" if envelope else "ranges, not as samples: its window has"

@@ -246,11 +246,6 @@ def presentation_of(name: str) -> Shown:
     return Shown("", f"{symbol}({diameters}, {circles})", unit)
 
 
-def symbol_of(name: str) -> str:
-    """A parameter's symbol, or its name if it has none."""
-    return (SHOWN[name].symbol if name in SHOWN else "") or name
-
-
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
     """Label of the axis of a variable in `SHOWN`, and the factor from SI to its unit.
 
@@ -284,5 +279,6 @@ def values_text(values: Mapping[str, Any]) -> str:
             elif name in ("N", "Omega") or value != field.default:
                 number = isinstance(value, float | int)  # some parameters may be words, which have no unit
                 shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
-                texts.append(f"{symbol_of(name)} = {shown}")
+                symbol = SHOWN[name].symbol if name in SHOWN else ""
+                texts.append(f"{symbol or name} = {shown}")
     return ", ".join(texts)

@@ -9,6 +9,7 @@ from importlib.resources import files
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path
+from string import Template
 from typing import Any, NamedTuple
 
 from cmcrameri import cm
@@ -68,9 +69,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "contents": texts.replace("<", "\\u003c"),  # so that none of them ends the enclosing HTML element
         "script": "\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     }
-    # in one pass over the template, so that inserted text is not searched
-    first, *rest = _part("page.html").split("@")
-    return first + "".join(parts[text] if i % 2 == 0 else text for i, text in enumerate(rest))
+    return Template(_part("page.html")).substitute(parts)
 
 
 def gallery(pictures: Sequence[Picture]) -> str:

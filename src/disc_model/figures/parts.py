@@ -137,7 +137,7 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
     """Ranges over the run, up to the time in s that the paper shows; two bins define the bin width."""
-    found = dataset.ranges(case, "history", at_least=2)
+    found = dataset.samples(case, "history", envelope=True)
     shown = found.sel(time=slice(None, until))
     return shown if shown.sizes["time"] > 1 else found
 

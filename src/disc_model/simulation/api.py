@@ -487,7 +487,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
     choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
         for a case that asks for such a choice
     """
-    from disc_model.data.dataset import failed_groups, json_attribute, to_tree
+    from disc_model.data.dataset import json_attribute, scalars_dataset, to_tree
 
     p, truncation = spec.parameters, spec.truncation
     try:
@@ -503,7 +503,8 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
         )  # fmt: skip
     except DiscModelError as error:
         log.error("no result: %s", error)
-        tree = to_tree(failed_groups(p, spec.t_end, spec.tol, f"{type(error).__name__}: {error}"))
+        known = {"t_end": spec.t_end, "tol": spec.tol}
+        tree = to_tree({"": scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}")})
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree([name for name, _ in spec.windows])
