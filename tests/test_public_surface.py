@@ -12,7 +12,7 @@ import disc_model
 from disc_model import Execution, ParameterError, Parameters, Poincare, Ramp, Record, State, Window, simulate
 from disc_model.data import dataset
 from disc_model.stability.branch import StepControl
-from disc_model.stability.continuation import continue_border, continue_cycle
+from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.curves import stability_curves
 from disc_model.stability.lyapunov import lyapunov_exponents
 
@@ -92,7 +92,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (disc_model.floquet, {"p": P}, right(guess="None")),
     (continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, right(guess="None")),
-    (continue_border, PLANE | {"kind": "fold"}, right(guess="None")),
     (StepControl, {}, right("growth easy sharpest", ALL, scale="None", max_points="huge")),
     (stability_curves, PLANE | {"lines": (200.0,)}, right(lines="pair empty", max_points="huge")),
     (

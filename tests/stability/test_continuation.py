@@ -1,8 +1,10 @@
 """Continuation on a map that is solved by hand: every point, every fold and every border is known."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from disc_model import ParameterError, Parameters
@@ -13,6 +15,7 @@ from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CorrectorFailed, CycleProblem, StepControl
 from disc_model.stability.continuation import (
     BORDER,
+    changed_event,
     continue_border,
     continue_cycle,
 )
@@ -175,6 +178,27 @@ def test_what_cannot_be_followed_is_noted(monkeypatch):
     assert stability_curves(P, ("Omega", "N"), BOX, [300.0], points=9)[0] == []
 
 
+def with_events(*events):
+    """What is read of a simulation of ten seconds: events, each a kind and a time."""
+    rows = [(kind, float(time)) for kind, time in map(str.split, events)]
+    return SimpleNamespace(t_end=10.0, events=pd.DataFrame(rows, columns=["kind", "time"]))
+
+
+@pytest.mark.parametrize(
+    ("other", "change"),
+    [
+        (("slip_to_stick 2.01", "stick_to_slip 3"), "a separation disappears"),
+        (("separation 1.01", "reattachment 2", "slip_to_stick 3"), "a reattachment appears"),
+        (("separation 1.01", "slip_to_stick 1.5", "stick_to_slip 1.8"), "a stop appears"),
+        (("separation 1.01", "slip_to_stick 2.9"), "a stop disappears"),
+        (("separation 1.01",), "what grazes was not found"),
+    ],
+)
+def test_the_first_event_that_two_motions_do_not_share_is_named(other, change):
+    cycle = with_events("separation 1", "slip_to_stick 2.02", "stick_to_slip 3", "separation 4")
+    assert changed_event(cycle, with_events(*other)) == change
+
+
 def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatch):
     """The toy's cycle separates once more beyond 15.5 rad/s; it continues smoothly, as no true one would."""
 
@@ -186,18 +210,18 @@ def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatc
         def next_release(self, near):
             return RETURNED, near.a
 
-    def grazing(p, state, period):
+    def simulated(p, duration, **_):
         assert p.Omega == pytest.approx(15.5, abs=1e-4)
-        assert period == PERIOD
-        return "a further separation is missed by 1e-9"
+        assert duration == 2 * PERIOD
+        return with_events("slip_to_stick 1", "separation 2" if p.Omega > 15.5 else "stick_to_slip 3")
 
     for module in (branch_module, cycle_module):
         monkeypatch.setattr(module, "ReturnMap", Separating)
-    monkeypatch.setattr(continuation, "grazing", grazing)
+    monkeypatch.setattr(continuation, "simulate", simulated)
     none = np.zeros(0)
     near = State(0.0, "stick", 0, 0.0, 0.0, 0.0, 0.0, np.array([1.4, 0.0, 0.0]), none, none, none)
     branch = continue_cycle(P, "Omega", (12.0, 17.0), guess=near)
-    assert branch.ended == ("the order of events changes: separations 1 to 2; a further separation is missed by 1e-9")
+    assert branch.ended == ("the order of events changes: separations 1 to 2; a separation appears")
     assert branch.values[-1, 0] == pytest.approx(15.5, abs=1e-4)
     assert not branch.folds.size
     with pytest.raises(ParameterError, match=r"guess: must lie near a cycle .*, but no cycle of 1 releases near"):

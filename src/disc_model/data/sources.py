@@ -27,7 +27,7 @@ KINDS = {
     "case": "dataset engine simulation.api simulation.case simulation.recorder simulation.ramps simulation.result",
     "cycle": "case stability.cycle stability.return_map stability.sliding",
     "settled": "cycle stability.attractor stability.lyapunov analysis.classify",
-    "continuation": "cycle stability.branch stability.continuation stability.grazing",
+    "continuation": "cycle stability.branch stability.continuation",
     "point": "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run truncation",
     "figure": "dataset simulation.case simulation.ramps figures.kinds figures.parts figures/disc_model.mplstyle",
     "catalogue": "figures.paper.catalogue figures/paper/catalogue.yaml",

@@ -34,15 +34,20 @@ from disc_model.stability.return_map import (
 # The equation
 
 
-REORDERED = "the order of events changes"
-"""Beginning of the reason for which a branch of separating cycles ends."""
-
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
 
 
 class CorrectorFailed(Exception):
     """The corrector found no cycle, or the motion did not return; the message says which."""
+
+
+class Reordered(CorrectorFailed):
+    """The order of events changes, in the flight from the unknowns z; the message says how often each event occurs."""
+
+    def __init__(self, message: str, z: Array) -> None:
+        super().__init__(f"the order of events changes: {message}")
+        self.z = z
 
 
 @dataclass(frozen=True)
@@ -107,7 +112,7 @@ class CycleProblem:
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
-            raise CorrectorFailed(f"{REORDERED}: {', '.join(changes)}")
+            raise Reordered(", ".join(changes), z)
         # convert to the reference's coordinates, which differ if E is free
         turn = self.scale / map_.scale
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
@@ -309,8 +314,8 @@ def continue_curve(
     take: Callable[[AnyPlace, float], AnyPlace],
     steps: StepControl,
     ends: Callable[[list[AnyPlace], AnyPlace, float], str],
-) -> tuple[list[AnyPlace], str]:
-    """Places along a curve, and the reason for which the curve ends.
+) -> tuple[list[AnyPlace], str | CorrectorFailed]:
+    """Places along a curve, and the reason for which the curve ends: a text, or the corrector's failure.
 
     Parameters
     ----------
@@ -326,7 +331,7 @@ def continue_curve(
             new, ds = _step(take, here, ds, steps)
             reason = ends(places, new, ds)
         except CorrectorFailed as lost:
-            return places, str(lost)
+            return places, lost
         places.append(new)
         if reason:
             return places, reason

@@ -13,17 +13,18 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from disc_model.errors import ParameterError, violations
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.progress import compiling
-from disc_model.simulation.result import State
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import Result, State
 from disc_model.stability.branch import (
-    REORDERED,
     Branch,
     CorrectorFailed,
     CyclePoint,
     CycleProblem,
     Place,
+    Reordered,
     StepControl,
     branch_of,
     check,
@@ -32,7 +33,6 @@ from disc_model.stability.branch import (
     starting_point,
 )
 from disc_model.stability.cycle import find_cycle, guess_faults
-from disc_model.stability.grazing import grazing
 from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
 
 # ----------------------------------------------------------------------------------------------------
@@ -53,7 +53,7 @@ def continue_cycle(
     bounds: tuple[float, float],
     *,
     direction: int = 1,
-    guess: State | Array | None = None,
+    guess: State | None = None,
     releases: int = 1,
     tol: float = 1e-12,
     steps: StepControl = CYCLE,
@@ -69,10 +69,7 @@ def continue_cycle(
     name : the free parameter, one of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : values of the parameter between which the cycle is followed
     direction : 1 to begin with increasing values, -1 with decreasing ones
-    guess : place of the first cycle: near the next release after a state, as in `floquet`, or near a point of the
-        section; the static equilibrium by default
-    releases : number of releases in a period of the cycle near a state
-    tol : as in `floquet`
+    guess, releases, tol : as in `floquet`
     steps : length and number of the steps
 
     Raises
@@ -80,9 +77,9 @@ def continue_cycle(
     ParameterError
         If an argument breaks a rule, or no cycle is found to start from.
     """
-    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases, points=True))
+    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases))
     cycle = find_cycle(p, tol, guess, releases)
-    order = Counts(*(getattr(cycle, name) for name in Counts._fields)) if isinstance(guess, State) else None
+    order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
@@ -101,10 +98,30 @@ def continue_cycle(
         return "" if low <= new.point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
 
     places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
-    if ended.startswith(REORDERED):
-        last = places[-1].point
-        ended += f"; {grazing(problem.case(last.z), problem.state(last.z), last.flight.period)}"
-    return branch_of(problem, [place.point for place in places], np.array(folds).reshape(-1, 1), ended)
+    points = [place.point for place in places]
+    if isinstance(ended, Reordered):
+        duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
+        motions = (
+            simulate(problem.case(z), duration, tol=tol, initial_state=problem.state(z))
+            for z in (points[-1].z, ended.z)
+        )
+        ended = f"{ended}; {changed_event(*motions)}"
+    return branch_of(problem, points, np.array(folds).reshape(-1, 1), str(ended))
+
+
+def changed_event(cycle: Result, other: Result) -> str:
+    """The event that appears or disappears between a cycle and a motion just beyond the end of its branch.
+
+    Up to this event, which grazes between the two, their events are the same.
+    """
+    names = {"stick_to_slip": "release", "slip_to_stick": "stop", "slip_reversal": "slip reversal"}
+    same = 0.01 * cycle.t_end / len(cycle.events)  # far more than the small difference of parameters changes times by
+    events = (zip(run.events["kind"].to_list(), run.events["time"].to_list(), strict=True) for run in (cycle, other))
+    for (kind, time), (other_kind, other_time) in zip(*events, strict=False):
+        if kind != other_kind or abs(time - other_time) > same:
+            changed, how = (other_kind, "appears") if other_time < time else (kind, "disappears")
+            return f"a {names.get(changed, changed)} {how}"
+    return "what grazes was not found"
 
 
 def _next(problem: CycleProblem, here: Place, ds: float) -> Place:
@@ -151,7 +168,6 @@ def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float,
     return (mu.real - 1.0 if kind == "fold" else math.log(abs(mu))), mu
 
 
-@compiling()
 def continue_border(
     kind: Kind,
     p: Parameters,
@@ -164,11 +180,14 @@ def continue_border(
 ) -> Branch:
     """Follow a border of stability in two parameters, in both directions from a place near a case.
 
+    The arguments are those that `disc_model.stability.curves.stability_curves` has checked.
+
     Parameters
     ----------
     kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", the
         curve on which a multiplier is one, starting from the point of a branch nearest to its fold
-    p, guess : a case near the curve, and the point of the section at which Newton's method starts
+    p, guess : a case near the curve, and the point of the section near which its cycle is sought; by default the
+        static equilibrium
     names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
     bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
     tol, steps : as in `continue_cycle`; the number of points is that in each direction
@@ -176,12 +195,8 @@ def continue_border(
     Raises
     ------
     ParameterError
-        If an argument breaks a rule, no cycle is found to start from, or no curve of this kind is near it.
+        If no cycle is found to start from, or no curve of this kind is near it.
     """
-    known = isinstance(kind, str) and kind in ("neutral", "fold")
-    more = violations((known, "kind", kind, "must be 'neutral' or 'fold'")) + guess_faults(guess, 1, points=True)
-    check(p, 2, names, bounds, tol, steps=steps, more=more)
-    names = tuple(names)  # type: ignore[assignment]
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
@@ -206,7 +221,7 @@ def continue_border(
     if ended != CLOSED:
         ahead, ended = continue_curve(replace(first, tangent=onward), take, steps, ends)
         places = [*places[:0:-1], *ahead]
-    return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), ended)
+    return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), str(ended))
 
 
 _DIFFERENCE = 1e-4

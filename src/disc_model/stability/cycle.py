@@ -14,7 +14,7 @@ import numpy as np
 from disc_model.errors import DiscModelError, StatusBase, raise_faults, violations
 from disc_model.parameters import CYCLE_TOLERANCES, Parameters, is_whole, limits_faults
 from disc_model.progress import compiling
-from disc_model.simulation.result import State, is_finite_array
+from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
     ENDS,
     RETURNED,
@@ -153,12 +153,11 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     return find_cycle(p, tol, guess, releases)
 
 
-def guess_faults(guess: object, releases: object, *, points: bool = False) -> list[str]:
-    """Faults of a guess and of its number of releases; the guess is a state or, if `points`, a point of the section."""
+def guess_faults(guess: object, releases: object) -> list[str]:
+    """Faults of a guess and of the number of releases in a period of the cycle near it."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
-    fits = guess is None or isinstance(guess, State) or (points and is_finite_array(guess))
     return violations(
-        (fits, "guess", guess, "must be a State" + " or a point of the section" * points),
+        (isinstance(guess, State | None), "guess", guess, "must be a State"),
         (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
     )
 
@@ -188,9 +187,7 @@ def find_cycle(
             return _none(p, tol, CycleStatus.NO_CYCLE, ended)
         place = f"of {releases} releases near the given state"
     else:
-        point = is_finite_array(guess, map_.size)
-        raise_faults(violations((point, "guess", guess, f"must be {map_.size} finite numbers, a point of the section")))
-        x, place = np.asarray(guess, float), "near the given point of the section"
+        x, place = guess, "near the given point of the section"
     found = newton(map_, x, releases=releases, may_separate=near_state)
     return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {place}") if found is None else cycle_of(map_, found)
 
