@@ -30,8 +30,6 @@ SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")
 """Name of the column with the shapes at a radius."""
 STATIC_COMPLIANCE = "static_compliance_m_per_N"
 """Value that a comment line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
-LARGEST = 10_000_000
-"""Largest size of a table in bytes."""
 
 
 def read_disc(path: str | os.PathLike[str]) -> Disc:
@@ -139,12 +137,10 @@ def disc_table(p: Parameters) -> str:
 
 def _text(path: str | os.PathLike[str]) -> str:
     try:
-        if Path(path).stat().st_size <= LARGEST:
-            return Path(path).read_text(encoding="utf-8-sig")
+        return Path(path).read_text(encoding="utf-8-sig")
     except (OSError, TypeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
         raise _fault(path, f"must be a text file that can be read ({reason})") from None
-    raise _fault(path, f"must be a table of at most {LARGEST // 1_000_000} MB")
 
 
 def _static_compliance(lines: list[str], path: object) -> float | None:

@@ -273,8 +273,7 @@ class Strict(BaseModel):
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """Make the model from a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
-            if unnamed := [*faults_of_names(obj)]:
-                raise ParameterError(*unnamed)
+            raise_faults([*faults_of_names(obj)])
             return cls(**obj)
         if isinstance(obj, cls):
             return obj

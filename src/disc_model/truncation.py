@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import AUTO, CHOOSING, Disc, Finite, Parameters, Strict
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -157,8 +157,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | Non
         p = Parameters.model_validate(rest)
     except ParameterError as error:
         raise ParameterError(*error.faults, *faults) from None
-    if faults:
-        raise ParameterError(*faults)
+    raise_faults(faults)
     return p, asked
 
 
