@@ -20,16 +20,11 @@ __all__ = ["dataset", "known"]
 
 
 def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
-    figure = figures.work_precision(dataset, "stick_slip")
+    figure = figures.overview(dataset)
     expected = {METHODS[name].label for name in ("series", "RK4", "Radau")}
     assert set(labels(figure)) == expected | {f"{METHODS['RK4'].label}, without Python"}
-    texts = {text.get_text() for text in figure.axes[0].texts}
-    assert "4.0" in texts
-    assert "wrong\nevents" in texts
-    save(figure, tmp_path / "scene.png")
-    save(figures.overview(dataset), tmp_path / "overview.png")
-    near, moved, far = (1e-8, 1.0, "a", "k"), (1e-8, 1.5, "b", "k"), (1e-3, 1.1, "c", "k")
-    assert figures._spread([near, (1e-8, 1.1, "b", "k"), far]) == [near, moved, far]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["wrong\nevents"]
+    save(figure, tmp_path / "overview.png")
 
 
 def test_every_method_looks_otherwise_and_every_scene_has_a_title():

@@ -1,6 +1,6 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.registry import METHODS, SCENES
+from disc_model.benchmarks.registry import METHODS
 
 BENCH = "results/bench"
 MEASURED = [
@@ -16,7 +16,6 @@ FAILURE_MAPS = [
 ]
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
-    **{f"work_precision_{scene}": f"{BENCH}/work_precision.nc" for scene in SCENES},
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
     "truncation": f"{BENCH}/truncation.nc",
     "contact_truncation": f"{BENCH}/contact_truncation.nc",

@@ -33,7 +33,6 @@ WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
 """Names of the verdicts, by number, and their shades."""
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
-ERRORS: dict[str, str] = _TEXTS["errors"]
 LINES = {name: look | {"color": getattr(parts, look["color"])} for name, look in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method, and of lines that belong to no method."""
 _HALO = halo()
@@ -43,37 +42,18 @@ _HALO = halo()
 # Speed against accuracy
 
 
-def work_precision(dataset: xr.Dataset, scene: str) -> Figure:
-    """One scene: cost against event-time error and state error, with the fitted order at the fine end of each line.
-
-    For a method without a fixed order, the number is q of error ~ tol^q.
-    """
-    panels = [(dataset.sel(scene=scene), error, "") for error in ERRORS]
-    return _cost_panels(panels, row=3.0, title=TITLES[scene])
-
-
 def overview(dataset: xr.Dataset) -> Figure:
-    """All scenes: cost against event-time error."""
-    panels = [(dataset.sel(scene=scene), "event", TITLES[scene]) for scene in dataset["scene"].values.tolist()]
-    figure = _cost_panels(panels, row=2.3)
-    for ax in figure.axes[:-2]:
-        ax.set_xlabel("")
-    return figure
-
-
-def _cost_panels(panels: Sequence[tuple[xr.Dataset, str, str]], row: float, **legend: str) -> Figure:
-    """Draw panels of a scene, its error and its title each; the legend names the methods with a point in any of them.
-
-    Without titles, lines have their orders.
-    """
-    figure, axes = _panels(len(panels), "Time per simulated second (s)", columns=2, row=row, sharey=True)
+    """Cost against event-time error, a panel for each scene; the legend names the methods with a point in any."""
+    scenes = dataset["scene"].values.tolist()
+    figure, axes = _panels(len(scenes), "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
     found: dict[str, list[Line2D]] = {}
-    for ax, (part, error, title), letter in zip(axes, panels, "abcd", strict=False):
-        found |= _cost_panel(ax, part, error, orders=not title)
-        parts.letter(ax, letter, title)
-        ax.set_xlabel(ERRORS[error])
+    for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
+        found |= _cost_panel(ax, dataset.sel(scene=scene))
+        parts.letter(ax, letter, TITLES[scene])
+    for ax in figure.axes[-2:]:  # the lower row
+        ax.set_xlabel("Event-time error (s)")
     handles = [handle for method in LINES for handle in found.get(method, ())]
-    figure.legend(handles=handles, loc="outside right center", **legend)
+    figure.legend(handles=handles, loc="outside right center")
     return figure
 
 
@@ -90,22 +70,20 @@ def _panels(
     return figure, axes[:count]
 
 
-def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict[str, list[Line2D]]:
-    """Draw lines of all methods: correct results filled, wrong events hollow, if necessary at the right edge.
+def _cost_panel(ax: Axes, scene: xr.Dataset) -> dict[str, list[Line2D]]:
+    """Draw lines of all methods: correct results filled, wrong events hollow at the right edge.
 
     Dotted lines leave out the time in Python between compiled phases, where it was measured. Returns legend entries.
     """
     handles: dict[str, list[Line2D]] = {}
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
-    labels: list[tuple[float, float, str, str]] = []
-    for method in map(str, part["solver"].values):
-        line = part.sel(solver=method)
+    for method in map(str, scene["solver"].values):
+        line = scene.sel(solver=method)
         look = LINES[method] | {"markersize": 4.5 if LINES[method]["marker"] == "*" else 3.5}
         name = {"color": look["color"], "label": line["label"].item()}
         entries = [Line2D([], [], **look | name | {"markersize": 4})]
-        verdict, cost = line["verdict"].values, line["cost"].values
-        x = line[f"{error}_error"].values
+        x, cost, verdict = (line[each].values for each in ("event_error", "cost", "verdict"))
         right, wrong = np.isin(verdict, (0, 1)), verdict == 2
         bold = method == "series"
         ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
@@ -114,35 +92,15 @@ def _cost_panel(ax: Axes, part: xr.Dataset, error: str, *, orders: bool) -> dict
             entries += ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", **name)
         if (right | wrong).any():
             handles[method] = entries
-        hollow = np.full(np.count_nonzero(wrong), wrong_at) if error == "event" else x[wrong]
-        ax.plot(hollow, cost[wrong], **look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8})
-        order = float(line[f"order_{error}"])
-        if orders and np.count_nonzero(right) and math.isfinite(order):
-            finest = np.flatnonzero(right)[np.argmin(x[right])]
-            fixed = math.isfinite(float(line["order_theory"]))
-            text = f"{order:.1f}" if fixed else rf"$tol^{{{order:.1f}}}$"
-            labels.append((float(x[finest]), float(cost[finest]), text, look["color"]))
+        hollow = look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8}
+        ax.plot(np.full(np.count_nonzero(wrong), wrong_at), cost[wrong], **hollow)
     ax.set(xlim=(1e-18, 300.0), xticks=10.0 ** np.arange(-15, 1, 3))
     ax.xaxis.set_minor_locator(NullLocator())
-    if error == "event":
-        ax.axvline(3.0, color=GREY, linewidth=0.5)
-        if (part["verdict"] == 2).any():
-            ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), ha="center", va="bottom",
-                    fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
-    for at_x, at_y, text, color in _spread(labels):
-        parts.say(ax, text, (at_x, at_y), (-5, 0), fontsize=6.5, color=color, path_effects=_HALO, zorder=4)
+    ax.axvline(3.0, color=GREY, linewidth=0.5)
+    if (scene["verdict"] == 2).any():
+        ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), ha="center", va="bottom",
+                fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
     return handles
-
-
-def _spread(labels: Sequence[tuple[float, float, str, str]]) -> list[tuple[float, float, str, str]]:
-    """Move overlapping labels apart vertically (log-log axes)."""
-    placed: list[tuple[float, float, str, str]] = []
-    for x, y, text, color in sorted(labels, key=lambda label: label[1]):
-        for other_x, other_y, *_ in placed:
-            if abs(math.log10(x / other_x)) < 2.0 and y < other_y * 1.5:
-                y = other_y * 1.5
-        placed.append((x, y, text, color))
-    return placed
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -457,7 +415,6 @@ def _cut(ax: Axes, values: np.ndarray) -> None:
 # ----------------------------------------------------------------------------------------------------
 # All of them
 
-SCENE = "work_precision_"
 DRAWN: dict[str, Callable[..., Figure]] = {
     function.__name__: function
     for function in (overview, answers, prices, truncation, contact_truncation, failure_maps, answer_maps)
@@ -465,8 +422,5 @@ DRAWN: dict[str, Callable[..., Figure]] = {
 
 
 def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
-    """Draw a figure by its name; the figure of a scene is named `SCENE` and the scene."""
-    datasets = [tree.to_dataset() for tree in inputs.values()]
-    if figure.startswith(SCENE):
-        return work_precision(datasets[0], figure.removeprefix(SCENE))
-    return DRAWN[figure](*datasets)
+    """Draw a figure by its name."""
+    return DRAWN[figure](*(tree.to_dataset() for tree in inputs.values()))
