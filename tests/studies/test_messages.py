@@ -23,7 +23,7 @@ from disc_model.plausibility import doubts
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.stability.return_map import ReturnMap
-from disc_model.studies.study import StudyError, parse_study, read_yaml
+from disc_model.studies.study import StudyError, misfits_of, parse_study, read_yaml
 from disc_model.truncation import read_asked
 from tests.trees import places, planted
 
@@ -65,7 +65,7 @@ def faults_beside(plot: dict[str, Any], role: str, other: dict[str, Any]) -> lis
         )
         for one in (own | {"dims": {name: [1] for name in shown.dims}}, other)
     )
-    return list(shown.misfits_of(role, own_study, other_study))
+    return list(misfits_of(shown, role, own_study, other_study))
 
 
 def table(text: str) -> dm.Disc:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Protocol
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -63,19 +63,6 @@ Roles = Mapping[str, Role]
 """Further studies that a figure can show, by their role."""
 
 
-class Grid(Protocol):
-    """Properties of a study that a figure needs, such as those of `disc_model.studies.study.GridStudy`."""
-
-    quantity: str
-    options: Any
-
-    @property
-    def base(self) -> Mapping[str, Any]: ...
-
-    @property
-    def values(self) -> Values: ...
-
-
 class Plot(Kind):
     """A figure of a grid study, drawn by a function ``draw(study, overlays, plot)`` that takes datasets and this.
 
@@ -106,6 +93,10 @@ class Plot(Kind):
     def faults(self, values: Values) -> Iterator[Fault]:
         """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
         yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
+        yield from self._wrong_overlays()
+
+    def _wrong_overlays(self) -> Iterator[Fault]:
+        """Roles that the figure does not have, and lacks."""
         for role, name in self.overlays.items():
             if role not in self.roles:
                 yield Fault.of(("overlays", role), name, f"unknown role{suggestion(role, self.roles)}")
@@ -118,9 +109,7 @@ class Plot(Kind):
         for axis, name in self.axes.items():
             if name not in values:
                 yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
-            elif name not in (*PERTURBATIONS, *RATIOS) and (
-                name not in Parameters.model_fields or not Parameters.unit(name)
-            ):
+            elif name not in (*PERTURBATIONS, *RATIOS) and not Parameters.unit(name):
                 yield Fault.of((axis,), name, "must be one parameter, and a number")
         if len({*self.axes.values()}) < len(self.axes):
             yield Fault.of(("y",), self.axes["y"], "must differ from x")
@@ -135,27 +124,6 @@ class Plot(Kind):
             yield Fault.of(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
         elif not self.several and len(values.get(NORM, ())) > 1:
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
-
-    def misfits_of(self, role: str, study: Grid, other: Grid) -> Iterator[str]:
-        """Rules that a further study breaks in a role of this figure."""
-        wanted = self.roles[role]
-        if other.quantity not in (wanted.quantity, wanted.instead):
-            good = " or ".join(filter(None, (wanted.quantity, wanted.instead)))
-            yield f"must be a study of the quantity {good}, and not {other.quantity}"
-            return
-        for name, value in wanted.options.items():
-            if (found := getattr(other.options, name)) != value:
-                yield f"must have options.{name} = {value!r}, and not {found!r}"
-        needs = self.dims if wanted.dims is None else wanted.dims
-        if (dims := other.values.keys() - {NORM}) != set(needs):
-            needed, found = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
-            yield f"must vary {needed} beside {NORM}, and not {found}"
-        elif lacking := _normalizations(study) - _normalizations(other):
-            yield f"must be computed for the same {NORM}: {', '.join(sorted(lacking))}"
-
-
-def _normalizations(study: Grid) -> set[str]:
-    return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
 
 
 class Mark(Strict):
@@ -373,6 +341,7 @@ class General(Plot):
         dims : values along each dimension, the quantity's own included; tuples for a zip; none if it has faults
         variables : dimensions of each variable
         """
+        yield from self._wrong_overlays()
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return

@@ -28,7 +28,7 @@ from pydantic import create_model
 from disc_model.data.variables import PERTURBATIONS, SAMPLE, START, values_text
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, suggestion
-from disc_model.figures.kinds import CasePlot, General, OwnFigure, Plot, RegionMap, Values
+from disc_model.figures.kinds import NORM, CasePlot, General, OwnFigure, Plot, RegionMap, Values
 from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
@@ -394,7 +394,29 @@ def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection
             if other not in known:
                 yield f"{where}: no such study{suggestion(other, sorted(known))}"
             elif other in grids:
-                yield from (f"{where}: {rule}" for rule in plot.misfits_of(role, study, grids[other]))
+                yield from (f"{where}: {rule}" for rule in misfits_of(plot, role, study, grids[other]))
+
+
+def misfits_of(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Iterator[str]:
+    """Rules that a further study breaks in a role of a study's figure."""
+    wanted = plot.roles[role]
+    if other.quantity not in (wanted.quantity, wanted.instead):
+        good = " or ".join(filter(None, (wanted.quantity, wanted.instead)))
+        yield f"must be a study of the quantity {good}, and not {other.quantity}"
+        return
+    for name, value in wanted.options.items():
+        if (found := getattr(other.options, name)) != value:
+            yield f"must have options.{name} = {value!r}, and not {found!r}"
+    needs = plot.dims if wanted.dims is None else wanted.dims
+    if (dims := other.values.keys() - {NORM}) != set(needs):
+        needed, found = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
+        yield f"must vary {needed} beside {NORM}, and not {found}"
+    elif absent := _normalizations(study) - _normalizations(other):
+        yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
+
+
+def _normalizations(study: GridStudy) -> set[str]:
+    return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
 
 
 # ----------------------------------------------------------------------------------------------------
