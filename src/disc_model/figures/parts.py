@@ -2,8 +2,8 @@
 
 import json
 import logging
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from itertools import chain, repeat
 from pathlib import Path
 from pkgutil import resolve_name
@@ -17,6 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.patheffects import AbstractPathEffect, withStroke
+from scipy import ndimage
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -64,17 +65,13 @@ BORDERS: dict[str, dict[str, Any]] = {
 """Looks and labels of the lines of all stability charts; the dashes are so short that corners of cells stay visible."""
 
 
-@contextmanager
-def styled() -> Iterator[None]:
-    """Apply the common style instead of the user's settings; also a decorator of drawing functions."""
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.style.use(Path(__file__).with_name("disc_model.mplstyle"))
-        yield
+def styled() -> AbstractContextManager[None]:
+    """The common style instead of the user's settings, as a context."""
+    return mpl.style.context(Path(__file__).with_name("disc_model.mplstyle"), after_reset=True)
 
 
 def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:
-    """Draw a figure of any kind from its data, in the common style.
+    """Draw a figure of any kind from its data, in the common style; the reason instead, if a case does not hold them.
 
     Parameters
     ----------
@@ -90,7 +87,12 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
             figure: Figure = function(study, dict(zip([*inputs][1:], others, strict=True)), plot)
             head(figure, study, plot)
         else:
-            figure = function(inputs, **plot.options)
+            try:
+                figure = function(inputs, **plot.options)
+            except Missing as reason:
+                figure, [ax] = panels(COLUMN, 2)
+                ax.set_axis_off()
+                ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 48), ha="center", va="center")
         if isinstance(plot, CasePlot):
             (case,) = inputs.values()
             entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
@@ -120,19 +122,6 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
     with styled():
         figure.savefig(path, metadata=metadata)
     figure.set_layout_engine("none")
-
-
-@contextmanager
-def blank_if_missing(*axes: Axes) -> Iterator[None]:
-    """Show the reason in empty panels if a case does not hold their data."""
-    try:
-        yield
-    except Missing as reason:
-        for ax in axes:
-            ax.cla()
-            ax.set_axis_off()
-            phrase = fill(f"not shown: the case {reason}", 24)
-            ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
@@ -322,8 +311,7 @@ def edges(values: np.ndarray) -> np.ndarray:
 
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     """Runs of True: index of the first element, and the index after the last."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
-    return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
+    return [(run.start, run.stop) for (run,) in ndimage.find_objects(ndimage.label(there)[0])]
 
 
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:

@@ -93,24 +93,23 @@ def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
     discs = above.subplots(1, 4)
     circle = around.subplots()
-    with parts.blank_if_missing(*discs, circle):
-        motion = motion_of(case)
-        losses = [first for first, _ in parts.stretches(motion.phase == "separation") if first > 0]
-        first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
-        scale = _scale(motion)
-        for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
-            i = first + j * (last - first) // len(discs)
-            mesh = _disc(ax, motion, i, scale)
-            after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
-            ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
-            _around(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
-        bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
-        bar.outline.set_visible(False)
-        circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
-        circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
-        circle.margins(y=0.08)
-        circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
-        circle.set_title("(e)", loc="left", x=-0.06)
+    motion = motion_of(case)
+    losses = [first for first, _ in parts.stretches(motion.phase == "separation") if first > 0]
+    first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
+    scale = _scale(motion)
+    for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
+        i = first + j * (last - first) // len(discs)
+        mesh = _disc(ax, motion, i, scale)
+        after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
+        ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
+        _around(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
+    bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
+    bar.outline.set_visible(False)
+    circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
+    circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
+    circle.margins(y=0.08)
+    circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
+    circle.set_title("(e)", loc="left", x=-0.06)
     return figure
 
 

@@ -20,15 +20,14 @@ def history(
     """Draw panels one above the other until a time in s; windows of ranges are drawn as bands."""
     (case,) = cases.values()
     figure, axes = panels(COLUMN, 0.8 + 1.3 * len(variables), len(variables), sharex=True)
-    with parts.blank_if_missing(*axes):
-        found = dataset.group(case, window).sel(time=slice(None, until))
-        if found.sizes["time"] < 2:  # the run ended before it
-            raise Missing(f"has {found.sizes['time']} samples in {window}, at least 2 are needed")
-        parts.letters(axes)
-        for ax, name in zip(axes, variables, strict=True):
-            parts.show(ax, case, found, name)
-            ax.label_outer()
-        axes[-1].locator_params(axis="x", nbins=6)
+    found = dataset.group(case, window).sel(time=slice(None, until))
+    if found.sizes["time"] < 2:  # the run ended before it
+        raise Missing(f"has {found.sizes['time']} samples in {window}, at least 2 are needed")
+    parts.letters(axes)
+    for ax, name in zip(axes, variables, strict=True):
+        parts.show(ax, case, found, name)
+        ax.label_outer()
+    axes[-1].locator_params(axis="x", nbins=6)
     figure.align_ylabels()
     return figure
 
@@ -36,13 +35,12 @@ def history(
 def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 10: range of the disc at r_0 and a fixed angle over the run, with bonded contact and with separation."""
     figure, [ax] = panels(COLUMN, 2.4)
-    with parts.blank_if_missing(ax):
-        ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
-        parts.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
-        parts.envelope(ax, separating, "w_point", label="with separation")
-        ax.set(xlabel="Time (s)", ylabel=parts.sampled("w_point", ignored, separating)[0])
-        parts.headroom(ax, 0.25)
-        ax.legend(loc="upper left")
+    ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
+    parts.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
+    parts.envelope(ax, separating, "w_point", label="with separation")
+    ax.set(xlabel="Time (s)", ylabel=parts.sampled("w_point", ignored, separating)[0])
+    parts.headroom(ax, 0.25)
+    ax.legend(loc="upper left")
     return figure
 
 
@@ -84,23 +82,21 @@ def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     case = cases["F02"]
     figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
-    with parts.blank_if_missing(whole):
-        parts.show(whole, case, parts.history(case), "P")
-        _show_zero(whole, case)
-        parts.letter(whole, "a")
-    with parts.blank_if_missing(zoom):
-        window = dataset.samples(case, "zoom")
-        # a separation that the window cuts off at its start would look like a jump
-        window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
-        start = float(window["time"][0])
-        window = after(window, start)
-        parts.letter(zoom, "b")
-        shade(zoom, spans := separations(window))
-        zoom.plot(window["time"], window["P"], color=FORCE)
-        _show_zero(zoom, case)
-        zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
-        if spans:
-            parts.legend_above(zoom)
+    parts.show(whole, case, parts.history(case), "P")
+    _show_zero(whole, case)
+    parts.letter(whole, "a")
+    window = dataset.samples(case, "zoom")
+    # a separation that the window cuts off at its start would look like a jump
+    window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
+    start = float(window["time"][0])
+    window = after(window, start)
+    parts.letter(zoom, "b")
+    shade(zoom, spans := separations(window))
+    zoom.plot(window["time"], window["P"], color=FORCE)
+    _show_zero(zoom, case)
+    zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
+    if spans:
+        parts.legend_above(zoom)
     return figure
 
 
@@ -118,21 +114,20 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F02"]
     figure, axes = panels(COLUMN, 3.2, 2, sharex=True, height_ratios=(2, 1))
     both, gap = axes
-    with parts.blank_if_missing(*axes):
-        window = dataset.samples(case, "zoom")
-        found = complete_separations(window)
-        if not found:
-            raise Missing("has no complete separation in zoom")
-        start, stop = found[0]
-        margin = 0.5 * (stop - start)
-        part = after(window.sel(time=slice(start - margin, stop + margin)), start)
-        for ax in axes:
-            shade(ax, [(0.0, (stop - start) * 1e3)])
-        displacements(both, part, float(case["u_0"]))
-        gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
-        gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
-        parts.letters(axes)
-        parts.legend_above(both)
+    window = dataset.samples(case, "zoom")
+    found = complete_separations(window)
+    if not found:
+        raise Missing("has no complete separation in zoom")
+    start, stop = found[0]
+    margin = 0.5 * (stop - start)
+    part = after(window.sel(time=slice(start - margin, stop + margin)), start)
+    for ax in axes:
+        shade(ax, [(0.0, (stop - start) * 1e3)])
+    displacements(both, part, float(case["u_0"]))
+    gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
+    gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
+    parts.letters(axes)
+    parts.legend_above(both)
     figure.align_ylabels()
     return figure
 
@@ -141,19 +136,18 @@ def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Figure 23, slider and disc from static equilibrium; losses of contact are marked."""
     case = cases["F23"]
     figure, [ax] = panels(COLUMN, 2.5)
-    with parts.blank_if_missing(ax):
-        window, rest = dataset.samples(case, "zoom"), float(case["u_0"])
-        found = complete_separations(window)
-        length = 0.025  # of the stretch shown, s
-        start = found[0][0] - 0.1 * length if found else float(window["time"][0])
-        part = after(window.sel(time=slice(start, start + length)), start)
-        spans = separations(part)
-        shade(ax, spans)
-        displacements(ax, part, rest)
-        losses = part.sel(time=[a for a, _ in spans if a > 0], method="nearest")
-        if losses["time"].size:
-            height = (losses["w"] - rest) * 1e3
-            ax.plot(losses["time"], height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
-        ax.set_xlabel(f"Time after {start:.4f} s (ms)")
-        parts.legend_above(ax)
+    window, rest = dataset.samples(case, "zoom"), float(case["u_0"])
+    found = complete_separations(window)
+    length = 0.025  # of the stretch shown, s
+    start = found[0][0] - 0.1 * length if found else float(window["time"][0])
+    part = after(window.sel(time=slice(start, start + length)), start)
+    spans = separations(part)
+    shade(ax, spans)
+    displacements(ax, part, rest)
+    losses = part.sel(time=[a for a, _ in spans if a > 0], method="nearest")
+    if losses["time"].size:
+        height = (losses["w"] - rest) * 1e3
+        ax.plot(losses["time"], height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
+    ax.set_xlabel(f"Time after {start:.4f} s (ms)")
+    parts.legend_above(ax)
     return figure

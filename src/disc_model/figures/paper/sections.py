@@ -36,32 +36,31 @@ def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> F
     """
     case, *others = cases.values()
     figure, [slider, disc] = panels(PAGE, 2.75, 1, 2)
-    with parts.blank_if_missing(slider, disc):
-        samples = dataset.samples(case, window, at_least=1)
-        first, end = float(case["first_separation"]), float(case["time_reached"])
-        found = stages(samples["time"].values, samples["phase"].values, first, end)
-        parts.letters((slider, disc))
-        for ax, name in ((slider, "psi"), (disc, "w_point")):
-            room = [samples, *(dataset.samples(other, window, at_least=1) for other in others if ax is slider)]
-            at = []
-            for axis, one in (("x", name), ("y", f"{name}_velocity")):
-                label, factor, _ = parts.sampled(one, samples)
-                at.append(samples[one].values * factor)
-                limits = _around(np.concatenate([each[one] for each in room]) * factor)
-                ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
-            for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
-                there = getattr(found, stage)
-                look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
-                ax.scatter(*(values[there] for values in at), **look)
-        names = BY_SEPARATION if found.divided_by_separation else BY_HALVES
-        names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
-        handles = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
-        bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
-        title = "Separation ignored:" if bonded else "No separation:"
-        if found.divided_by_separation:
-            title = f"First separation at {first:.2f} s:"
-        handles.insert(0, disc.scatter([], [], s=0, label=title))
-        figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
+    samples = dataset.samples(case, window, at_least=1)
+    first, end = float(case["first_separation"]), float(case["time_reached"])
+    found = stages(samples["time"].values, samples["phase"].values, first, end)
+    parts.letters((slider, disc))
+    for ax, name in ((slider, "psi"), (disc, "w_point")):
+        room = [samples, *(dataset.samples(other, window, at_least=1) for other in others if ax is slider)]
+        at = []
+        for axis, one in (("x", name), ("y", f"{name}_velocity")):
+            label, factor, _ = parts.sampled(one, samples)
+            at.append(samples[one].values * factor)
+            limits = _around(np.concatenate([each[one] for each in room]) * factor)
+            ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
+        for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
+            there = getattr(found, stage)
+            look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
+            ax.scatter(*(values[there] for values in at), **look)
+    names = BY_SEPARATION if found.divided_by_separation else BY_HALVES
+    names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
+    handles = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
+    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
+    title = "Separation ignored:" if bonded else "No separation:"
+    if found.divided_by_separation:
+        title = f"First separation at {first:.2f} s:"
+    handles.insert(0, disc.scatter([], [], s=0, label=title))
+    figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
     return figure
 
 
@@ -78,21 +77,20 @@ def portrait(
     """Draw one variable over another in a window, coloured by phase."""
     (case,) = cases.values()
     figure, [ax] = panels(COLUMN, 2.7)
-    with parts.blank_if_missing(ax):
-        samples = dataset.samples(case, window)
-        (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
-        for i, name in enumerate(PHASES):
-            inside = samples["phase"].values == i
-            look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
-            width = 1.5 if name == "separation" else 0.5  # distinct in grey print
-            if inside.any():
-                # broken where the phase changes, so that no chord is drawn across others
-                height = np.where(inside, samples[y].values * in_y, np.nan)
-                ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
-        ax.margins(0.04)
-        for line in parts.legend_above(ax).get_lines():
-            line.set_linewidth(line.get_linewidth() + 0.5)
-        ax.set(xlabel=across, ylabel=up)
+    samples = dataset.samples(case, window)
+    (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
+    for i, name in enumerate(PHASES):
+        inside = samples["phase"].values == i
+        look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+        width = 1.5 if name == "separation" else 0.5  # distinct in grey print
+        if inside.any():
+            # broken where the phase changes, so that no chord is drawn across others
+            height = np.where(inside, samples[y].values * in_y, np.nan)
+            ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
+    ax.margins(0.04)
+    for line in parts.legend_above(ax).get_lines():
+        line.set_linewidth(line.get_linewidth() + 0.5)
+    ax.set(xlabel=across, ylabel=up)
     return figure
 
 
@@ -100,17 +98,16 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure, axes = panels(PAGE, 2.6, 1, len(cases), sharey=True)
     for ax, case in zip(axes, cases.values(), strict=True):
-        with parts.blank_if_missing(ax):
-            events = dataset.events(case)
-            released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
-            counts = np.arange(1, (len(released) - 1) // 2 + 1)
-            if not counts.size:
-                raise Missing("keeps no two releases of stick")
-            rounding = np.spacing(released[-1])  # intervals that agree exactly have no place on a logarithmic scale
-            differences = [max(closure(np.diff(released), int(n)), rounding) for n in counts]
-            ax.plot(counts, differences, ".", color=BLACK, markersize=3)
-            ax.set(xscale="log", yscale="log", xlabel="Releases n")
-            ax.margins(0.04)
+        events = dataset.events(case)
+        released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
+        counts = np.arange(1, (len(released) - 1) // 2 + 1)
+        if not counts.size:
+            raise Missing("keeps no two releases of stick")
+        rounding = np.spacing(released[-1])  # intervals that agree exactly have no place on a logarithmic scale
+        differences = [max(closure(np.diff(released), int(n)), rounding) for n in counts]
+        ax.plot(counts, differences, ".", color=BLACK, markersize=3)
+        ax.set(xscale="log", yscale="log", xlabel="Releases n")
+        ax.margins(0.04)
     parts.letters(axes, cases)
     axes[0].set_ylabel("Largest difference (s)")
     return figure

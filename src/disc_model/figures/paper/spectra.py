@@ -74,9 +74,8 @@ def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: s
     """Draw the spectrum in time of a variable of any case."""
     (case,) = cases.values()
     figure, [ax] = panels(PAGE / 2, 2.7)
-    with parts.blank_if_missing(ax):
-        spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
-        ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
+    spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
+    ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
     return figure
 
 
@@ -87,13 +86,12 @@ def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -
     """Figure 24: range of the disc's displacement at r_0 and a fixed angle, with the stretches of figure 25."""
     case = cases["F13"]
     figure, [ax] = panels(PAGE, 2.2)
-    with parts.blank_if_missing(ax):
-        for name in WINDOWS:
-            start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
-            ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
-            ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-        parts.show(ax, case, parts.history(case, until), "w_point")
-        parts.headroom(ax, 0.15)
+    for name in WINDOWS:
+        start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
+        ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
+        ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
+    parts.show(ax, case, parts.history(case, until), "w_point")
+    parts.headroom(ax, 0.15)
     return figure
 
 
@@ -117,13 +115,9 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
     case = cases["F13"]
     figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
-    found: dict[str, TimeFrequency] = {}
-    for name, column in zip(WINDOWS, axes.T, strict=True):
-        with parts.blank_if_missing(*column):
-            found[name] = spectrum_in_time(case, name, "w_point")
-    reference = max((float(each.power.max()) for each in found.values()), default=1.0)
-    for name, each in found.items():
-        column = axes[:, WINDOWS.index(name)]
+    found = {name: spectrum_in_time(case, name, "w_point") for name in WINDOWS}
+    reference = max(float(each.power.max()) for each in found.values())
+    for (name, each), column in zip(found.items(), axes.T, strict=True):
         for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
             mesh = spectrogram(ax, case, each, reference, highest)
         parts.letter(column[0], name[-1])
@@ -131,9 +125,8 @@ def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
         column[1].xaxis.set_major_locator(MaxNLocator(3))
     for ax in axes[:, 0]:
         ax.set_ylabel("Frequency (Hz)")
-    if found:
-        _name_lines(axes[1, -1])
-        colour_bar(figure, mesh, list(axes.flat))
+    _name_lines(axes[1, -1])
+    colour_bar(figure, mesh, list(axes.flat))
     return figure
 
 
@@ -170,39 +163,33 @@ def response(
     letters = "cd"[: len(zooms)]
     axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(zooms), 1), letters])))
     shown = right.subplots()
-    marked = None
-    with parts.blank_if_missing(shown):
-        found = spectrum_in_time(case, window, variable)
-        marked = stretch(found)
-        spectrum(right, shown, case, found, HIGHEST)
-        parts.letter(shown, "b")
-        if highest:
-            p = Parameters.model_validate_json(case.attrs["parameters"])
-            natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
-            shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    with parts.blank_if_missing(axes["a"]):
-        parts.show(axes["a"], case, parts.history(case, until), variable)
-        _mark(axes["a"], marked)
-        parts.letter(axes["a"], "a")
+    found = spectrum_in_time(case, window, variable)
+    spectrum(right, shown, case, found, HIGHEST)
+    parts.letter(shown, "b")
+    if highest:
+        p = Parameters.model_validate_json(case.attrs["parameters"])
+        natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
+        shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+    parts.show(axes["a"], case, parts.history(case, until), variable)
+    _mark(axes["a"], *stretch(found))
+    parts.letter(axes["a"], "a")
     for letter, (name, start) in zip(letters, zooms, strict=True):
         ax = axes[letter]
         if letter != "c":
             ax.sharey(axes["c"])
             ax.tick_params(labelleft=False)
-        with parts.blank_if_missing(ax):
-            label = _closer(ax, dataset.samples(case, name), variable, start)
-            ax.set_ylabel(label if letter == "c" else "")
-            parts.letter(ax, letter)
+        label = _closer(ax, dataset.samples(case, name), variable, start)
+        ax.set_ylabel(label if letter == "c" else "")
+        parts.letter(ax, letter)
     return figure
 
 
-def _mark(ax: Axes, marked: tuple[float, float] | None) -> None:
+def _mark(ax: Axes, start: float, stop: float) -> None:
     """Shade the stretch of (b), with a line where it is too narrow to be seen."""
-    if marked is not None:
-        ax.axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
-        if marked[1] - marked[0] < 0.02 * ax.get_xlim()[1]:
-            ax.axvline(sum(marked) / 2, color=BLACK, linewidth=0.8, zorder=0)
-            parts.say_above(ax, sum(marked) / 2, "(b)")
+    ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0, zorder=0)
+    if stop - start < 0.02 * ax.get_xlim()[1]:
+        ax.axvline((start + stop) / 2, color=BLACK, linewidth=0.8, zorder=0)
+        parts.say_above(ax, (start + stop) / 2, "(b)")
 
 
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:
