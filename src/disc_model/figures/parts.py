@@ -254,14 +254,6 @@ def coordinate_text(one: xr.DataArray | xr.Dataset, by: str) -> str:
     return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"
 
 
-def spaced_by_factor(values: np.ndarray) -> bool:
-    """Whether values form a logarithmic range."""
-    if len(values) < 3 or values[0] <= 0:
-        return False
-    steps = np.diff(np.log(values))
-    return bool(np.allclose(steps, steps[0], rtol=1e-6))
-
-
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """Axis label of a sampled variable, the factor from SI to its unit, and its colour.
 

@@ -10,13 +10,13 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm, Normalize
+from matplotlib.colors import ListedColormap, LogNorm, Normalize, from_levels_and_colors
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, edges_of, growth_panels, patches, scale_of
 from disc_model.figures.kinds import CurvePlot, General, HeatMap
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, panels
 
@@ -28,10 +28,8 @@ def _other(found: xr.DataArray, plot: General) -> str | None:
 
 def _in_steps(colours: Sequence[Any]) -> dict[str, Any]:
     """Colour map and scale for matplotlib: a colour for each of the numbers 0, 1, ..."""
-    return {
-        "cmap": ListedColormap(list(colours)),
-        "norm": BoundaryNorm(np.arange(len(colours) + 1) - 0.5, len(colours)),
-    }
+    cmap, norm = from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
+    return {"cmap": cmap, "norm": norm}
 
 
 def _bar(figure: Figure, axes: Sequence[Axes], colours: ScalarMappable, label: str, names: Sequence[str] = ()) -> None:
@@ -78,6 +76,8 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
         _bar(figure, axes, mesh, parts.label_of(found)[0], words)
         if not words and (gaps := parts.gaps(study, found)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
+    for axis, name in plot.axes.items():  # axes are shared
+        axes[0].set(**{f"{axis}scale": "log" if scale_of(name, study[name].values) == "log" else "linear"})
     width = round(figure.get_figwidth() / len(axes) / 0.08)
     # a value stays on the line of its name
     names = [
@@ -97,24 +97,16 @@ def _growth(figure: Figure, axes: Sequence[Axes], study: xr.Dataset, plot: HeatM
     """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
     shown = [one.transpose(plot.y, plot.x) for _, one in parts.slices(study[names], by)]
-    words = growth_panels(figure, axes, shown)
-    for axis, name in plot.axes.items():  # axes are shared
-        axes[0].set(**{f"{axis}scale": "log" if scale_of(name, study[name].values) == "log" else "linear"})
-    return patches(CYCLE_LOOKS, words)
+    return patches(CYCLE_LOOKS, growth_panels(figure, axes, shown))
 
 
 def _cells(ax: Axes, panel: xr.DataArray, plot: HeatMap, **colours: Any) -> ScalarMappable:
     """Draw the values of a panel in colour, where there are any."""
-    values = np.ma.masked_invalid(panel.transpose(plot.y, plot.x).values.astype(float))
+    plane = panel.transpose(plot.y, plot.x)
+    values = np.ma.masked_invalid(plane.values.astype(float))
     if isinstance(colours.get("norm"), LogNorm):
         values = np.ma.masked_where(values <= 0, values)
-    sides = []
-    for axis, name in plot.axes.items():
-        along = panel[name].values * parts.label_of(panel[name])[1]
-        sides.append(along)
-        if parts.spaced_by_factor(along):  # cells at its ends may reach beyond 0
-            ax.set(**{f"{axis}scale": "log", f"{axis}lim": (along[0], along[-1])})
-    return ax.pcolormesh(*sides, values, shading="nearest", rasterized=True, **colours)
+    return ax.pcolormesh(*edges_of(plane), values, rasterized=True, **colours)
 
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
@@ -173,7 +165,7 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
         ax.set_yscale("symlog", linthresh=LINEAR)
         ax.yaxis.set_major_formatter("{x:g}")
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
-    if parts.spaced_by_factor(along):
+    if scale_of(plot.x, along) == "log":
         ax.set_xscale("log")
     ax.margins(0.03)
     ax.set(xlabel=label, ylabel=fill(parts.label_of(found)[0], 32))
