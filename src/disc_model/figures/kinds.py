@@ -224,7 +224,6 @@ class GrowthMap(Plot):
 class Bifurcation(Plot):
     """Samples once a turn against a parameter, and after how many switches the motion repeats.
 
-    scale : of the variable, 1e3 for mrad or mm
     paper_cases : cases of the paper by name, each with its value of x
     """
 
@@ -235,7 +234,6 @@ class Bifurcation(Plot):
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
-    scale: Number = 1.0e3
     paper_cases: Annotated[dict[str, Number], Unit(of="x")] = Field({})
 
 

@@ -222,12 +222,6 @@ def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
         figure.suptitle(text, fontsize=8)
 
 
-def note(figure: Figure, plot: Kind, text: str) -> None:
-    """Write how a figure was computed below it, unless a caption says it."""
-    if not plot.caption:
-        figure.supxlabel(fill(text, round(figure.get_figwidth() / 0.055)), fontsize=7)
-
-
 def slices(found: Values, by: str | None) -> list[tuple[str, Values]]:
     """Label and values of each slice along a dimension; one slice without a dimension.
 

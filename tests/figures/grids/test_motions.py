@@ -32,17 +32,15 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     assert lines(ax)["no event while sampled"].get_xdata() == [3]
 
 
-def test_samples_at_switches_are_not_named_after_phases_and_the_start_is_said() -> None:
+def test_samples_at_switches_are_not_named_after_phases() -> None:
     samples, _ = made_up_samples()
     study = samples.assign_attrs(
         base=json.dumps({"normalization": "orthonormal", "Omega": 15, "k": 5e4, "c_p": 1.0}),
-        options=json.dumps({"section": "event", "prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}),
+        options=json.dumps({"section": "event"}),
     )
     figure = draw("bifurcation", study, x="N", title="Made up")
     assert labels(figure.axes[0]) == ["at release of stick"]
     assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
-    assert "from the state of N = 385 N, Ω = 15.1 rad/s after 70 s" in figure.get_supxlabel()
-    assert "static start" in draw("bifurcation", samples, x="N").get_supxlabel()
 
 
 def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
@@ -59,11 +57,10 @@ def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
 
 def test_a_diagram_of_any_variable_has_its_unit() -> None:
     samples, _ = made_up_samples()
-    samples["P"] = xr.full_like(samples["psi"], 1.0).assign_attrs(units="N")
-    above, below = draw("bifurcation", samples, x="N", variable="P", scale=1.0).axes
+    samples["P"] = xr.full_like(samples["psi"], 1.0)
+    above, below = draw("bifurcation", samples, x="N", variable="P").axes
     assert (below.get_xlabel(), above.get_ylabel()) == ("Preload N (N)", "Contact force P (N)")
-    angle = draw("bifurcation", samples.assign(psi=samples["psi"].assign_attrs(units="rad")), x="N").axes[0]
-    assert angle.get_ylabel() == "Angle ψ (mrad)"
+    assert draw("bifurcation", samples, x="N").axes[0].get_ylabel() == "Angle ψ (mrad)"
 
 
 def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:

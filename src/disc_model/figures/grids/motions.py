@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
-from disc_model.data.variables import flag_names, stated_in, values_text
+from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import parts
 from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patches
 from disc_model.figures.grids.growth_map import crossings, curves_of
@@ -37,14 +37,16 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     events.  Periods are below, and the further study ``lyapunov``, if it is given.
     """
     study = study.transpose(plot.x, "sample", ...)
-    options = stated_in(study, "options")
     events = {"stick": "at release of stick", "separation": "at loss of contact"}
-    names = events if options["section"] == "event" else {}
+    names = events if stated_in(study, "options")["section"] == "event" else {}
     heights = [2.4, 0.9, *[1.4] * ("lyapunov" in overlays)]  # inch
     figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
     ax = axes[0]
     xlabel, factor = parts.axis_of(plot.x)
-    along, values = study[plot.x].values * factor, study[plot.variable].values * plot.scale
+    ylabel, scale = parts.axis_of(plot.variable)
+    if plot.variable == "psi":  # some hundredths of a radian
+        ylabel, scale = ylabel.replace("rad", "mrad"), 1e3
+    along, values = study[plot.x].values * factor, study[plot.variable].values * scale
     position = np.broadcast_to(along[:, None], values.shape)
     lost = parts.failed(study).values
     phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
@@ -62,10 +64,8 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     for label, marker, here in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
         if (idle := along[here & ~moving & ~lost]).size:
             ax.plot(idle, np.full(idle.size, 0.02), marker, label=label, **at_edge)
-    unit = study[plot.variable].attrs.get("units", "")
-    prefix = {1e3: "m", 1.0: "", 1e6: "µ"}.get(plot.scale, f"{1 / plot.scale:g} ")
     axes[-1].set_xlabel(xlabel)
-    ax.set_ylabel(f"{parts.axis_of(plot.variable)[0].rpartition(' (')[0]} ({prefix}{unit.replace(' s-1', '/s')})")
+    ax.set_ylabel(ylabel)
     _period(axes[1], along[moving], study["period_events"].values[moving])
     if "lyapunov" in overlays:
         _exponents(axes[2], overlays["lyapunov"], plot.x)
@@ -76,7 +76,6 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
-    parts.note(figure, plot, f"Each point from {_start(options)}; other motions may exist beside.")
     return figure
 
 
@@ -89,13 +88,6 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
     parts.mark_failed(ax, along[~repeats], name="not shown to repeat")
     if not repeats.all():
         parts.legend_above(ax)
-
-
-def _start(options: Mapping[str, Any]) -> str:
-    """Description of the start that all points share."""
-    if prerun := options.get("prerun"):
-        return f"the state of {values_text(prerun.get('parameters', {}))} after {prerun['time']:g} s"
-    return "the static start"
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:

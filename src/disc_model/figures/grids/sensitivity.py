@@ -33,8 +33,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
     """
     cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
     figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
-    options = stated_in(study, "options")
-    separates = f"separates within {options['horizon']:g} s"
+    separates = f"separates within {stated_in(study, 'options')['horizon']:g} s"
     for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
         axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
         for ax, name in zip(axes, names, strict=True):
@@ -47,7 +46,6 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivit
         part.suptitle(f"{title}, {phrase}", x=0.01, ha="left", fontsize=8)
         axes[0].set_ylabel("P(unstable)")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    parts.note(figure, plot, spreads(options["distributions"]))
     return figure
 
 
@@ -79,31 +77,13 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
     half = np.minimum(1.96 * error, [share, 1 - share])
     ax.errorbar(middle, share, half, label="a third of the values, with its interval", **look)
     ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
-    _, _, unit, factor = presentation_of(name)
+    _, symbol, unit, factor = presentation_of(name)
+    label = typeset(symbol) or name.replace("_", " ")
     ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
     for text, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):  # clear of the neighbours
         text.set(horizontalalignment=side)
     ax.minorticks_off()
-    ax.set(xlabel=f"{symbol(name)}\n({unit})" if unit else symbol(name), ylim=(-0.03, 1.03))
-
-
-def spreads(distributions: Mapping[str, Mapping[str, Any]]) -> str:
-    """Description of the distributions, equal ones together."""
-    alike: dict[str, list[str]] = {}
-    for name, how in distributions.items():
-        alike.setdefault(_spread(name, how), []).append(symbol(name))
-    return "; ".join(f"{', '.join(names)} {phrase}" for phrase, names in alike.items())
-
-
-def _spread(name: str, how: Mapping[str, Any]) -> str:
-    """Description of one distribution."""
-    if how["distribution"] == "uniform" and how["relative"] and np.isclose(how["low"] + how["high"], 2):
-        return f"± {50 * (how['high'] - how['low']):g} %"
-    unit, factor = ("times its value", 1.0) if how["relative"] else presentation_of(name)[2:]
-    numbers = {part: f"{how[part] * factor:g}" for part in ("low", "high", "mean", "deviation") if part in how}
-    texts = [f"{numbers['low']} to {numbers['high']} {unit}"] if "low" in numbers else []
-    texts += [f"normal, {numbers['mean']} ± {numbers['deviation']} {unit}"] if "mean" in numbers else []
-    return ", ".join(text.rstrip() for text in texts)
+    ax.set(xlabel=f"{label}\n({unit})" if unit else label, ylim=(-0.03, 1.03))
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
@@ -116,8 +96,3 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
             continue
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
         yield ", ".join(parts.coordinate_text(cell[name], name) for name in names), cell
-
-
-def symbol(name: str) -> str:
-    """Symbol of a parameter."""
-    return typeset(presentation_of(name).symbol) or name.replace("_", " ")
