@@ -377,20 +377,11 @@ def engine_case(p: Parameters) -> EngineCase:
     places = np.full((4, n_modes), -1)
     places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    present = np.flatnonzero(places >= 0)
-    point, start = _point(model), layout.build_state(model)
+    present, start = np.flatnonzero(places >= 0), layout.build_state(model)
+    point = np.zeros((3, len(start.disc)))
+    point[0, places[0]] = point[1, places[2]] = modes.psi
+    point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
     return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
-
-
-def _point(model: layout.Model) -> np.ndarray:
-    """The matrix `point` of `EngineCase`."""
-    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
-    point = np.zeros((3, layout.disc_size(width, n0, len(model.compliance) == 1)))
-    u, v, slope = point[:, : 2 * (width + n0)]
-    u[:width], u[2 * width : 2 * width + n0] = model.mode_amplitude, model.mode_amplitude0
-    v[width : 2 * width], v[2 * width + n0 :] = model.mode_amplitude, model.mode_amplitude0
-    slope[:width] = model.dw_dtheta
-    return point
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
