@@ -132,8 +132,7 @@ def cycle_word(found: FloquetResult) -> str:
         return "stable" if found.stable else "unstable"
     if found.status is CycleStatus.NO_STICK_SLIP:
         return "steady_sliding" if found.sliding.stable else "unstable_sliding"
-    words = {CycleStatus.NO_CYCLE: "no_cycle", CycleStatus.SEPARATES: "separates", CycleStatus.AT_REST: "at_rest"}
-    return words.get(found.status, "failed")
+    return found.status.value if found.status.value in SAMPLE_CYCLES else "failed"
 
 
 def _followed(p: Parameters, options: SensitivityOptions) -> tuple[Row, str]:
