@@ -6,7 +6,7 @@ norm of the static deflection, with the parameters, over their scales.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_number, is_whole, limits_faults
+from disc_model.parameters import Parameters, is_number, is_whole
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     ENDS,
-    PARAMETERS,
     Array,
     ComplexArray,
     Counts,
@@ -205,35 +204,9 @@ class Branch:
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
-def check(
-    p: object,
-    count: int,
-    names: object,
-    bounds: object,
-    tol: float,
-    *,
-    direction: object = 1,
-    steps: object,
-    more: Sequence[str] = (),
-) -> None:
-    """Raise `ParameterError` for the faults of a continuation's arguments and for `more`.
-
-    count, names, bounds : one free parameter and its bounds; or two names and a mapping of names to bounds
-    """
-    given = names if count > 1 and isinstance(names, tuple | list) else [names]
-    known = all(isinstance(name, str) and name in PARAMETERS for name in given)
-    free = known and len({*given}) == len(given) == count
-    pairs: list[Any] = [bounds] if count == 1 else []
-    if free and count > 1:
-        pairs = [bounds.get(name) if isinstance(bounds, Mapping) else None for name in given]
-    within = all(is_finite_array(pair, 2) and pair[0] < pair[1] for pair in pairs)
-    wrong = violations(
-        (free, "name" if count == 1 else "names", names, f"must be {count} of {', '.join(PARAMETERS)}"),
-        (within, "bounds", bounds, "must be two ascending finite numbers" + ", by name" * (count > 1)),
-        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
-        (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),  # type: ignore[arg-type]
-    )
-    raise_faults([*foreign_case(p), *wrong, *limits_faults("tol", tol, CYCLE_TOLERANCES), *more])
+def is_interval(bounds: Any) -> bool:
+    """Whether an argument is two ascending finite numbers."""
+    return is_finite_array(bounds, 2) and bool(bounds[0] < bounds[1])
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:

@@ -13,8 +13,8 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from disc_model.errors import ParameterError
-from disc_model.parameters import Parameters
+from disc_model.errors import ParameterError, raise_faults, violations
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_number, limits_faults
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result, State
@@ -27,13 +27,13 @@ from disc_model.stability.branch import (
     Reordered,
     StepControl,
     branch_of,
-    check,
     continue_curve,
+    is_interval,
     newton_step,
     starting_point,
 )
 from disc_model.stability.cycle import find_cycle, guess_faults
-from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
+from disc_model.stability.return_map import PARAMETERS, Array, ComplexArray, Counts, multipliers
 
 # ----------------------------------------------------------------------------------------------------
 # One parameter
@@ -77,7 +77,14 @@ def continue_cycle(
     ParameterError
         If an argument breaks a rule, or no cycle is found to start from.
     """
-    check(p, 1, name, bounds, tol, direction=direction, steps=steps, more=guess_faults(guess, releases))
+    wrong = violations(
+        (isinstance(name, str) and name in PARAMETERS, "name", name, f"must be 1 of {', '.join(PARAMETERS)}"),
+        (is_interval(bounds), "bounds", bounds, "must be two ascending finite numbers"),
+        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
+        (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),
+    )
+    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
+    raise_faults(foreign_case(p) + wrong)
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)

@@ -7,15 +7,15 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import ParameterError, violations
-from disc_model.parameters import Parameters, is_whole
+from disc_model.errors import ParameterError, raise_faults, violations
+from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_whole, limits_faults
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
-from disc_model.stability.branch import Branch, StepControl, check
+from disc_model.stability.branch import Branch, StepControl, is_interval
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
-from disc_model.stability.return_map import Array, ReturnMap
+from disc_model.stability.return_map import PARAMETERS, Array, ReturnMap
 
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""
@@ -85,14 +85,21 @@ def stability_curves(
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
     """
+    # a curve ends where a shorter step would be needed, as where an event grazes
+    steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
+    two = isinstance(names, tuple | list) and len(names) == 2 and names[0] != names[1]
+    free = two and all(isinstance(name, str) and name in PARAMETERS for name in names)
+    within = not free or (isinstance(bounds, Mapping) and all(is_interval(bounds.get(name)) for name in names))
+    wrong = violations(
+        (free, "names", names, f"must be 2 of {', '.join(PARAMETERS)}"),
+        (within, "bounds", bounds, "must be two ascending finite numbers, by name"),
+    )
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    other = violations(
+    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
-    # a curve ends where a shorter step would be needed, as where an event grazes
-    steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
-    check(p, 2, names, bounds, tol, steps=steps, more=other)
+    raise_faults(foreign_case(p) + wrong)
     found: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
