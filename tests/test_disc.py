@@ -13,7 +13,7 @@ import xarray as xr
 import yaml
 
 import disc_model as dm
-from disc_model import mode_choice
+from disc_model import mode_choice, truncation
 from disc_model.cli.case import parameters_of
 from disc_model.disc import disc_table
 from disc_model.plate import mode_arrays, mode_shapes
@@ -321,11 +321,13 @@ def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest
     assert shown.count("0.00375") == 5
 
 
-def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(tmp_path: Path) -> None:
+def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(truncation, "RICH", (8, 0))
     plate = P.replace(n_diameters=8, normalization="orthonormal")
     table = written(tmp_path / "disc.csv", plate)
-    of_plate = dm.choose_modes(plate, 1e-2, rich=(8, 0))
-    of_table = dm.choose_modes(table, 1e-2)
+    of_plate, of_table = (dm.choose_modes(p, 1e-2) for p in (plate, table))
     assert of_table.parameters.disc == table.disc.first(of_plate.parameters.n_diameters + 1)
     assert (of_table.modes, of_table.error) == (of_plate.modes, pytest.approx(of_plate.error))
     assert dm.choose_modes(table.replace(disc=table.disc.first(1)), 1e-2).error == 0

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from disc_model import Parameters, choose_modes
+from disc_model import Parameters, choose_modes, truncation
 from disc_model.cli.case import parameters_of
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
@@ -56,9 +56,10 @@ def test_the_choice_is_recorded_and_does_not_depend_on_the_given_size():
     assert choose_modes(P.replace(n_diameters=7, n_circles=1)) == choice
 
 
-def test_a_disc_of_reference_too_poor_for_the_tolerance_is_named():
-    with pytest.raises(DiscModelError, match="enlarge rich"):
-        choose_modes(P, 1e-4, rich=(1, 0))
+def test_a_disc_of_reference_too_poor_for_the_tolerance_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(truncation, "RICH", (1, 0))
+    with pytest.raises(DiscModelError, match=r"no model up to \(1, 0\)"):
+        choose_modes(P, 1e-4)
 
 
 def test_a_mapping_is_as_good_as_parameters() -> None:

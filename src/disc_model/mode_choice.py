@@ -13,18 +13,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from disc_model.errors import DiscModelError, ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters, is_number, is_whole
-from disc_model.truncation import (
-    BAND,
-    FREQUENCIES,
-    RICH,
-    ModeChoice,
-    ModeRequest,
-    by_frequencies,
-    count_modes,
-    counts,
-    resized,
-)
+from disc_model.parameters import Parameters
+from disc_model.truncation import FREQUENCIES, ModeChoice, ModeRequest, by_frequencies, count_modes, counts, resized
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
@@ -39,12 +29,7 @@ HORIZON = 600.0
 
 
 def choose_modes(
-    case: Parameters | Mapping[str, Any],
-    tolerance: float | None = None,
-    *,
-    quantity: str = FREQUENCIES,
-    band: float = BAND,
-    rich: tuple[int, int] = RICH,
+    case: Parameters | Mapping[str, Any], tolerance: float | None = None, *, quantity: str = FREQUENCIES
 ) -> ModeChoice:
     """Find the model with the fewest real modes whose error of a quantity is within ``tolerance``.
 
@@ -57,17 +42,15 @@ def choose_modes(
         ``contact_compliance="residual"`` each model has the flexibility of the modes that it leaves out
     tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for the growth rate and the first
         separation, 0.1 for the rate of separations
-    quantity : "frequencies", the coupled frequencies of disc and slider at rest in the band; "growth", the growth rate
-        of the stick-slip cycle; "first_separation", its time within 600 s; "separation_rate", separations per second
-        from 20 to 30 s after the first one.  All but the first need simulations
-    band : frequencies up to ``band`` times the lowest one of the disc are compared
-    rich : for frequencies, highest diameters and circles of the reference model and of the largest candidate
+    quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
+        compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
+        "first_separation", its time within 600 s; "separation_rate", separations per second from 20 to 30 s after the
+        first one.  All but the first need simulations
 
     Raises
     ------
     ParameterError
-        If a value of the case breaks a rule, the quantity is unknown, the tolerance is below 1e-4, the band is not
-        above 0, or ``rich`` is not a pair of whole numbers.
+        If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
     DiscModelError
         If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
         growth rate needs a cycle, and a first separation a motion that separates.
@@ -77,29 +60,27 @@ def choose_modes(
         asked = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     except ParameterError as error:
         faults += error.faults
-    pair = isinstance(rich, tuple | list) and len(rich) == 2 and all(is_whole(n) and n >= 0 for n in rich)
-    faults += violations(
-        (is_number(band) and 0 < band < math.inf, "band", band, "must be finite and > 0"),
-        (pair, "rich", rich, "must be two whole numbers >= 0, of diameters and circles"),
-        (isinstance(case, Parameters | Mapping), "case", case, "must be Parameters, or a mapping of names to values"),
-    )
-    raise_faults(faults)
+    known = isinstance(case, Parameters | Mapping)
+    raise_faults(faults + violations((known, "case", case, "must be Parameters, or a mapping of names to values")))
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
-    if quantity == FREQUENCIES:
-        return by_frequencies(case, asked.tolerance, band, (int(rich[0]), int(rich[1])))
-    return by_motion(case, asked)
+    return chosen_modes(case, asked)
 
 
 def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
     """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as JSON."""
-    choice = by_motion(p, ModeRequest(**json.loads(asked)))
+    choice = chosen_modes(p, ModeRequest(**json.loads(asked)))
     return choice.parameters, choice.to_json()
 
 
-def by_motion(p: Parameters, asked: ModeRequest) -> ModeChoice:
-    """The first candidate with which larger models agree; raises `DiscModelError` if there is none."""
+def chosen_modes(p: Parameters, asked: ModeRequest) -> ModeChoice:
+    """The choice that is asked for: by motion the first candidate with which larger models agree.
+
+    Raises `DiscModelError` if there is none.
+    """
+    if asked.quantity == FREQUENCIES:
+        return by_frequencies(p, asked.tolerance)
     values: dict[tuple[int, ...], float] = {}
     for group in _compared(p):
         size, *others = group
@@ -109,7 +90,7 @@ def by_motion(p: Parameters, asked: ModeRequest) -> ModeChoice:
         change = max(_change(values[size], values[other]) for other in others or group)
         if change <= asked.tolerance:
             count, chosen = count_modes(p, size), resized(p, size)
-            return ModeChoice(chosen, asked.tolerance, change, count, group[-1], None, asked.quantity, values)
+            return ModeChoice(chosen, asked.tolerance, change, count, group[-1], asked.quantity, values)
     changes = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
         f"n_diameters: undecided: {asked.quantity} still changes {changes} among {_listed(p, group)}, more than the "

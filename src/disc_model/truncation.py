@@ -47,7 +47,6 @@ class ModeChoice:
     tolerance, error : requested and reached, relative; of the coupled frequencies in the band, or of the quantity
     modes : number of real modes
     rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
-    band : see `frequency_error`; None unless the modes were chosen by frequencies
     values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
     """
 
@@ -56,7 +55,6 @@ class ModeChoice:
     error: float
     modes: int
     rich: tuple[int, ...]
-    band: float | None = None
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
@@ -72,7 +70,7 @@ class ModeChoice:
             "compared_with": list(self.rich),
         }
         if self.quantity == FREQUENCIES:
-            record["band"] = self.band
+            record["band"] = BAND
         else:
             found = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
             record |= {"quantity": self.quantity, "values": found}
@@ -97,29 +95,27 @@ class ModeRequest(Strict):
         return {"n_diameters": AUTO, "truncation_tolerance": self.tolerance, **quantity}
 
 
-def by_frequencies(p: Parameters, tolerance: float, band: float = BAND, rich: tuple[int, int] = RICH) -> ModeChoice:
-    """Find the model with the fewest real modes whose coupled frequencies in the band are within ``tolerance``.
+def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
+    """Find the model with the fewest real modes whose `frequency_error` is within ``tolerance``.
 
-    The arguments are those of `disc_model.choose_modes`, which checks them.  For a table the candidates are its first
-    modes; the last one is the whole table.
+    For a table the candidates are its first modes; the last one is the whole table.
     """
     sizes: Sequence[tuple[int, ...]]
     if p.disc is None:
-        p = resized(p, rich)
-        every = product(range(rich[0] + 1), range(rich[1] + 1))
+        p = resized(p, RICH)
+        every = product(range(RICH[0] + 1), range(RICH[1] + 1))
         sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
     else:
         sizes = [(count,) for count in counts(p.disc)]
     modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
-    top = band * float(modes.omega.min())
+    top = BAND * float(modes.omega.min())
     for size in sizes:
         kept = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
         chosen = resized(p, size)
         error = _worst(coupled_frequencies(p, contact_compliance(chosen), kept), right, top)
         if error <= tolerance:
-            largest = rich if p.disc is None else sizes[-1]
-            return ModeChoice(chosen, tolerance, error, count_modes(p, size), largest, band)
-    raise DiscModelError(f"tolerance={tolerance:g}: no model up to {rich} (diameters, circles) meets it; enlarge rich")
+            return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
+    raise DiscModelError(f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it")
 
 
 def counts(disc: Disc) -> range:

@@ -15,7 +15,7 @@ from rich.table import Column, Table
 
 from disc_model.disc import read_disc
 from disc_model.errors import Fault, ParameterError
-from disc_model.mode_choice import choose_modes
+from disc_model.mode_choice import chosen_modes
 from disc_model.parameters import Parameters, Strict
 from disc_model.plausibility import warn_of_doubts
 from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
@@ -108,7 +108,7 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
         warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         if asked is None:
             return p, None
-        choice = choose_modes(p, asked.tolerance, quantity=asked.quantity)
+        choice = chosen_modes(p, asked)
         return choice.parameters, choice
     except ParameterError as error:
         faults += error.faults

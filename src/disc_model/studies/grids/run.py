@@ -15,13 +15,13 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, source_hash, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import by_motion
+from disc_model.mode_choice import chosen_modes
 from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Start
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import Made, Point, Row, failed, tried
-from disc_model.truncation import FREQUENCIES, by_frequencies, read_asked
+from disc_model.truncation import read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Batches
@@ -122,9 +122,7 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
         p, asked = read_asked(values)
-        if asked is None:
-            return p
-        return (by_frequencies(p, asked.tolerance) if asked.quantity == FREQUENCIES else by_motion(p, asked)).parameters
+        return p if asked is None else chosen_modes(p, asked).parameters
     except DiscModelError as error:
         return error
 
