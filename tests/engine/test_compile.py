@@ -29,9 +29,8 @@ class Outer(NamedTuple):
     below: int
     holds: bool
     not_a_number: float
-    none: tuple[float, ...]
-    two: tuple[float, float]
-    sizes: tuple[int, int]
+    no: tuple[bool, ...]
+    yes: tuple[bool, ...]
     inner: Inner
 
 
@@ -40,7 +39,7 @@ def _entries(outer, out):  # type: ignore[no-untyped-def]
     out[0], out[1] = outer.table[1, 2], outer.table.shape[1]
     out[2], out[3] = outer.counts[-1], len(outer.counts)
     out[4], out[5], out[6] = outer.count, outer.below, 1.0 if outer.holds else 0.0
-    out[7], out[8], out[9], out[10] = outer.not_a_number, len(outer.none), outer.two[1], outer.sizes[0]
+    out[7], out[8], out[9], out[10] = outer.not_a_number, len(outer.no), outer.yes[0], 1.0 if outer.yes else 0.0
     out[11], out[12] = outer.inner.numbers[0] * outer.inner.factor, outer.inner.numbers.sum()
     outer.counts[0] = 9
 
@@ -48,9 +47,9 @@ def _entries(outer, out):  # type: ignore[no-untyped-def]
 def test_kernels_read_every_entry_of_a_packed_tuple_and_write_into_its_arrays() -> None:
     counts, out = np.array([4, 5, 6]), np.zeros(13)
     inner = Inner(np.array([3.0, 4.0]), 0.5)
-    outer = Outer(np.arange(6.0).reshape(2, 3), counts, 2**40, -7, True, math.nan, (), (1.5, 2.5), (8, 9), inner)
+    outer = Outer(np.arange(6.0).reshape(2, 3), counts, 2**40, -7, True, math.nan, (), (True,), inner)
     _entries(outer, out)
-    np.testing.assert_array_equal(out, [5.0, 3.0, 6.0, 3.0, 2.0**40, -7.0, 1.0, math.nan, 0.0, 2.5, 8.0, 1.5, 7.0])
+    np.testing.assert_array_equal(out, [5.0, 3.0, 6.0, 3.0, 2.0**40, -7.0, 1.0, math.nan, 0.0, 1.0, 1.0, 1.5, 7.0])
     assert counts[0] == 9
     _entries(outer._replace(inner=inner._replace(factor=2.0), holds=False), out)
     assert (out[6], out[11]) == (0.0, 6.0)
@@ -58,25 +57,25 @@ def test_kernels_read_every_entry_of_a_packed_tuple_and_write_into_its_arrays() 
 
 @helper
 def _total(outer):  # type: ignore[no-untyped-def]
-    return outer.inner.factor + outer.sizes[1]
+    return outer.inner.factor + (9.0 if outer.yes else 8.0)
 
 
 @helper
 def _longer(outer):  # type: ignore[no-untyped-def]
-    return _total(outer) + len(outer.none)
+    return _total(outer) + len(outer.no)
 
 
 @kernel
-def _with_lengths(outer):  # type: ignore[no-untyped-def]
+def _with_flags(outer):  # type: ignore[no-untyped-def]
     return _longer(outer)
 
 
 @pytest.mark.compiled
-def test_a_helper_is_compiled_once_for_all_lengths_of_tuples_that_it_does_not_read() -> None:
+def test_a_helper_is_compiled_once_for_all_flags_that_it_does_not_read() -> None:
     inner = Inner(np.zeros(1), 0.5)
-    outer = Outer(np.zeros((2, 3)), np.zeros(3, int), 4, -7, True, 1.0, (), (1.5, 2.5), (8, 9), inner)
-    assert [_with_lengths(outer._replace(none=(1.0,) * n)) for n in range(3)] == [9.5, 10.5, 11.5]
-    assert (len(_total.overloads), len(_longer.overloads)) == (1, 3)  # type: ignore[attr-defined]
+    outer = Outer(np.zeros((2, 3)), np.zeros(3, int), 4, -7, True, 1.0, (), (True,), inner)
+    assert [_with_flags(outer._replace(no=flag)) for flag in ((), (True,))] == [9.5, 10.5]
+    assert (len(_total.overloads), len(_longer.overloads)) == (1, 2)  # type: ignore[attr-defined]
 
 
 @helper

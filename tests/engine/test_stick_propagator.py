@@ -69,7 +69,7 @@ def excited(model: layout.Model, mode: int, angle: float) -> layout.EngineState:
     n, length = len(model.modes.gain), len(state.disc)
     leave = model.modes.leave.reshape(2 * n, length)
     state.disc[:] = model.modes.rest + np.cos(angle) * leave[mode] + np.sin(angle) * leave[n + mode]
-    if model.compliance:
+    if model.compliant:
         slider = 2 * (len(state.z) + len(state.y))  # u and u' stand behind the disc
         state.x[layout.U : layout.U_VELOCITY + 1] = state.disc[slider : slider + 2]
     return state

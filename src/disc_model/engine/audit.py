@@ -37,9 +37,9 @@ def transverse_energy(model, state, phase):
     u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     energy = 0.0
     if phase != layout.SEPARATION:
-        if layout.is_compliant(model):
+        if model.compliant:
             w, _, _ = disc_point(model, state)
-            energy += (w - u) ** 2 / layout.compliance_of(model.compliance)
+            energy += (w - u) ** 2 / model.compliance
         else:
             u, v, _ = disc_point(model, state)
     for j in range(len(model.shift)):
@@ -70,13 +70,13 @@ def _powers_in(model, state, phase, direction, P):
     driven = P * f * dw_dtheta
     supplied = Omega * model.r_0**2 * F
     rubbed = model.mu_k * model.r_0 * P * direction * f if phase == layout.SLIP else 0.0
-    if layout.is_normal(model):
+    if model.normal:
         # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
         driven *= 1.0 - direction * model.mu_k * dw_dtheta / model.r_0
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
-    if layout.is_ramped(model):
-        driven += layout.ramp_of(model.ramp, 3) * (u - model.u_0)
+    if model.ramped:
+        driven += model.N_rate * (u - model.u_0)
     return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
 
 

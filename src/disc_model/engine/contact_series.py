@@ -25,9 +25,6 @@ from .layout import (
     V_SERIES,
     E,
     F,
-    compliance_of,
-    is_normal,
-    is_ramped,
 )
 from .series import (
     _CARRIED,
@@ -94,7 +91,7 @@ def _closing(model, s, k, e, carried):
 def _weight(model, s, k):
     """N + k (u - u_0) + c u' of order k."""
     load_k = model.k * s.slider[U_SERIES + k] + model.c * s.slider[V_SERIES + k]
-    if is_ramped(model) and k == 1:
+    if model.ramped and k == 1:
         return load_k + s.slider[LOAD_SERIES + 1]
     return load_k + (load_at(model, s) - model.k * model.u_0) if k == 0 else load_k
 
@@ -117,7 +114,7 @@ def compliant_slip_series(model, s, order, direction):
 
     Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
     """
-    stiffness, friction = 1.0 / compliance_of(model.compliance), direction * model.mu_k
+    stiffness, friction = 1.0 / model.compliance, direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
@@ -127,7 +124,7 @@ def compliant_slip_series(model, s, order, direction):
         V = (w - s.slider[U_SERIES + k]) * stiffness
         # computed before the modes: every order would wait for their sum
         w = (closing + f * slope - impulse * model.inverse_effective_mass) * s.slider[UP + k]
-        if is_normal(model):
+        if model.normal:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             if k == 0:
                 beta = s.slider[SLOPE_SERIES]
@@ -154,11 +151,11 @@ def compliant_slip_series(model, s, order, direction):
 @inlined
 def compliant_stick_series(model, s, order):
     """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
-    width, stiffness, lightness, impulse = lane_count(model), 1.0 / compliance_of(model.compliance), 1.0 / model.m, 0.0
+    width, stiffness, lightness, impulse = lane_count(model), 1.0 / model.compliance, 1.0 / model.m, 0.0
     for k in range(order + 1):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
-    if is_ramped(model):
+    if model.ramped:
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
     for k in range(order):
         V, up = (_deflection(model, s, k) - s.slider[U_SERIES + k]) * stiffness, s.slider[UP + k]
@@ -183,26 +180,26 @@ def release_series(model, s, order):
     """
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     spring, growth, bend = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1], 0.0
-    if is_ramped(model):
+    if model.ramped:
         growth += model.c_p * s.slider[DRIVE_SERIES + 1]
         bend = model.k_p * s.slider[PSI_SERIES + 2]
     for k in range(order):
         press, pull = s.slider[P_SERIES + k], 0.0
         if k < 2:
             pull = model.r_0 * (spring if k == 0 else growth)
-        if is_ramped(model) and k == 2:
+        if model.ramped and k == 2:
             pull = model.r_0 * bend
-        if is_normal(model):
+        if model.normal:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             press += model.r_0 * spring * s.slider[SLOPE_SERIES + k]
             if k > 0:
                 press += model.r_0 * growth * s.slider[SLOPE_SERIES + k - 1]
-            if is_ramped(model) and k > 1:
+            if model.ramped and k > 1:
                 press += model.r_0 * bend * s.slider[SLOPE_SERIES + k - 2]
             pull -= _leverage(s, k) + s.slider[SLOPE_SERIES] * s.slider[P_SERIES + k]
         s.slider[SWITCH + k] = model.mu_s * press - pull
         s.slider[SWITCH2 + k] = model.mu_s * press + pull
-    if is_normal(model) and not model.bonded and spring == 0.0 and growth == 0.0:
+    if model.normal and not model.bonded and spring == 0.0 and growth == 0.0:
         for k in range(order):
             s.slider[SWITCH + k], s.slider[SWITCH2 + k] = s.slider[SLOPE_SERIES + k], -s.slider[SLOPE_SERIES + k]
         s.slider[SWITCH] += model.mu_s

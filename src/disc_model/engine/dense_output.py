@@ -2,7 +2,7 @@
 
 from . import layout
 from .compile import inlined
-from .layout import DRIVE_SERIES, LOAD_SERIES, ROWS, E, is_compliant, is_normal, is_ramped, ramp_of
+from .layout import DRIVE_SERIES, LOAD_SERIES, ROWS, E
 from .polynomial import dot, set_powers
 from .series import lane_count
 from .simd import WIDTH, fma, load, splat, store
@@ -41,13 +41,13 @@ def state_at(model, s, order, x, phase, state):
     _pairs_at(model, s, order, x, state)
     for j in range(len(model.mode_amplitude0)):
         state.y[j], state.g[j] = dot(s.y, j * ROWS, s.powers, order), dot(s.g, j * ROWS, s.powers, order)
-    if is_compliant(model) or phase == layout.SEPARATION:
+    if model.compliant or phase == layout.SEPARATION:
         state.x[layout.U] = dot(s.u, 0, s.powers, order)
         state.x[layout.U_VELOCITY] = dot(s.v, 0, s.powers, order)
     state.x[layout.PHASE] = phase
     state.x[layout.PSI] = psi
     state.x[layout.SPEED] = 0.0 if phase == layout.STICK else f
-    if is_ramped(model):
+    if model.ramped:
         state.x[layout.DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
         state.x[layout.LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
 
@@ -69,7 +69,7 @@ def force_at(model, s, order, phase, state):
     if phase == layout.SEPARATION:
         return 0.0
     P = dot(s.P, 0, s.powers, order)
-    return force_in_stick(model, state, P) if is_normal(model) and phase == layout.STICK else P
+    return force_in_stick(model, state, P) if model.normal and phase == layout.STICK else P
 
 
 @inlined
@@ -82,6 +82,6 @@ def load_state(model, s, state):
         s.y[j * ROWS], s.g[j * ROWS] = state.y[j], state.g[j]
     s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.SPEED]
     s.u[0], s.v[0] = state.x[layout.U], state.x[layout.U_VELOCITY]
-    if is_ramped(model):
-        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], ramp_of(model.ramp, 2) * model.unit
-        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], ramp_of(model.ramp, 3) * model.unit
+    if model.ramped:
+        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], model.Omega_rate * model.unit
+        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], model.N_rate * model.unit

@@ -8,7 +8,6 @@ No law is differentiated by hand.
 from typing import NamedTuple
 
 from .compile import inlined
-from .layout import is_compliant, is_normal
 
 TINY = 1e-100
 """The complex step: its square is far below rounding, but not zero."""
@@ -57,13 +56,13 @@ def free_force(model, i):
 @inlined
 def stick_numerator(model, i):
     """The vertical contact force V in stick (f = 0), multiplied by 1 + m S2 in rigid contact."""
-    return (i.w - i.u) / i.compliance if is_compliant(model) else free_force(model, i)
+    return (i.w - i.u) / i.compliance if model.compliant else free_force(model, i)
 
 
 @inlined
 def vertical_in_stick(model, i):
     """Vertical contact force V in stick (f = 0)."""
-    if is_compliant(model):
+    if model.compliant:
         return stick_numerator(model, i)
     return stick_numerator(model, i) / (1.0 + i.m * model.inverse_effective_mass)
 
@@ -72,12 +71,12 @@ def vertical_in_stick(model, i):
 def slip_denominator(model, m, direction, dw_dtheta):
     """The denominator of the contact force in slip."""
     friction = direction * model.mu_k
-    if is_normal(model):
+    if model.normal:
         beta = dw_dtheta / model.r_0
-        if is_compliant(model):
+        if model.compliant:
             return 1.0 - friction * beta
         return (1.0 + m * model.inverse_effective_mass) * (1.0 - friction * beta) + (friction + beta) * beta
-    if is_compliant(model):
+    if model.compliant:
         return 1.0
     return 1.0 + m * model.inverse_effective_mass + friction * dw_dtheta / model.r_0
 
@@ -85,7 +84,7 @@ def slip_denominator(model, m, direction, dw_dtheta):
 @inlined
 def slip_numerator(model, i):
     """The contact force in slip, P, or R under the normal force, multiplied by its denominator."""
-    if is_compliant(model):
+    if model.compliant:
         return stick_numerator(model, i)
     return free_force(model, i) + i.dw_dtheta * inplane_force_per_radius(i)
 
@@ -94,7 +93,7 @@ def slip_numerator(model, i):
 def slip_rates(model, i, direction, force):
     """Vertical force V on the disc, and f', under the contact force of slip."""
     friction = direction * model.mu_k
-    if is_normal(model):
+    if model.normal:
         beta = i.dw_dtheta / model.r_0
         V, held = force * (1.0 - friction * beta), (friction + beta) * force
     else:
@@ -109,7 +108,7 @@ def stick_loads(model, i, V):
     Under the normal force both are in units of 1 / (1 + (B / r_0)^2), a common factor.
     """
     pull, press = model.r_0 * inplane_force_per_radius(i), V
-    if is_normal(model):
+    if model.normal:
         press = press + inplane_force_per_radius(i) * i.dw_dtheta
         pull = pull - i.dw_dtheta / model.r_0 * V
     return pull, press
@@ -118,7 +117,7 @@ def stick_loads(model, i, V):
 @inlined
 def impact(model, i):
     """Plastic impact (Eqs. 29-37): the impulse, and f after it, which the slope reduces if the force is normal."""
-    lever = i.dw_dtheta / (i.m * model.r_0**2) if is_normal(model) else 0.0 * i.dw_dtheta  # of the type of an entry
+    lever = i.dw_dtheta / (i.m * model.r_0**2) if model.normal else 0.0 * i.dw_dtheta  # of the type of an entry
     p = (i.w_velocity - i.u_velocity) / (model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever)
     return p, i.f - p * lever
 

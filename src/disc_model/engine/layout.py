@@ -44,15 +44,15 @@ class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
     ``lanes`` holds the lane arrays one after the other, and derived ones. Hot kernels address all through that one
-    pointer; the others are views of it.  ``more_blocks`` is (0, 0) if there is one block of lanes, and (number of
-    further blocks,) otherwise. The length of a tuple is known to the compiler, so that the usual case has no loop over
-    blocks. Likewise ``compliance`` is () in rigid contact, else (m/N,), ``normal`` is () if the contact force is
-    vertical, else (True,). ``ramp`` is () while Omega and N are constant, else the values of `on_ramp`. The paper's
-    model thus passes no more between kernels than it needs.
+    pointer; the others are views of it.
+
+    ``wide``, ``compliant``, ``normal`` and ``ramped`` are flags: (True,) for yes, () for no.  The compiler knows the
+    length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at run time.
     """
 
     lanes: np.ndarray
-    more_blocks: tuple[int, ...]
+    wide: tuple[bool, ...]  # whether there is more than one block of lanes
+    blocks: int  # of lanes
     shift: np.ndarray  # +l in a-lanes, -l in b-lanes
     stiffness: np.ndarray  # omega^2
     damping: np.ndarray  # 2 xi omega
@@ -80,67 +80,35 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with in separation
     speed_scale: float  # rad/s: what f is compared with
     bonded: bool
-    compliance: tuple[float, ...]  # compliance of the contact, m/N
-    normal: tuple[bool, ...]
-    ramp: tuple[float, ...]  # begin (s), angle of the drive point there (rad), rates of Omega (rad/s^2) and N (N/s)
+    compliant: tuple[bool, ...]
+    compliance: float  # of the contact, m/N; 0 if it is rigid
+    normal: tuple[bool, ...]  # whether the contact force is normal to the bent disc; else it is vertical
+    ramped: tuple[bool, ...]  # whether Omega and N may change with time
+    ramp_begin: float  # s
+    ramp_angle: float  # rad, of the drive point at the ramp's begin
+    Omega_rate: float  # rad/s^2
+    N_rate: float  # N/s
     modes: StickModes  # closed form of stick
-
-
-@inlined
-def is_compliant(model):
-    """Whether contact is compliant: a constant for the compiler."""
-    return len(model.compliance) == 1
-
-
-@inlined
-def compliance_of(compliance):
-    """Compliance of the contact from ``Model.compliance``, m/N; 0 if it is rigid.
-
-    The compiler drops a branch unseen if its condition is the length of an argument.
-    """
-    if len(compliance) == 1:
-        return compliance[0]
-    return 0.0
-
-
-@inlined
-def is_normal(model):
-    """Whether the contact force is normal to the bent disc: a constant for the compiler."""
-    return len(model.normal) == 1
-
-
-@inlined
-def is_ramped(model):
-    """Whether Omega or N may change with time: a constant for the compiler."""
-    return len(model.ramp) == 4
-
-
-@inlined
-def ramp_of(ramp, i):
-    """An entry of ``Model.ramp``; 0 if Omega and N are constant."""
-    if len(ramp) == 4:
-        return ramp[i]
-    return 0.0
 
 
 @inlined
 def drive_now(model, state):
     """Omega, rad/s."""
-    return state.x[DRIVE] if is_ramped(model) else model.Omega
+    return state.x[DRIVE] if model.ramped else model.Omega
 
 
 @inlined
 def load_now(model, state):
     """N, N."""
-    return state.x[LOAD] if is_ramped(model) else model.N
+    return state.x[LOAD] if model.ramped else model.N
 
 
 @inlined
 def drive_angle(model, time):
     """Angle of the drive point at ``time`` (s), rad."""
-    if is_ramped(model):
-        since = time - ramp_of(model.ramp, 0)
-        return ramp_of(model.ramp, 1) + (model.Omega + 0.5 * ramp_of(model.ramp, 2) * since) * since
+    if model.ramped:
+        since = time - model.ramp_begin
+        return model.ramp_angle + (model.Omega + 0.5 * model.Omega_rate * since) * since
     return model.Omega * time
 
 
@@ -204,6 +172,11 @@ def disc_size(width, n_single, compliant):
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 
+def _flag(yes) -> tuple[bool, ...]:
+    """See `Model`."""
+    return (True,) if yes else ()
+
+
 def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.0, normal=False) -> Model:
     """Constants of a case.
 
@@ -225,7 +198,7 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     rows[BEND, lane] = -(diameters[pairs] ** 2) * psi[pairs]
     rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE_ROW] * rows[DAMPING]
     rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE_ROW] * rows[STIFFNESS]
-    more, S2 = width // WIDTH - 1, float(np.sum(psi**2))
+    blocks, S2 = width // WIDTH, float(np.sum(psi**2))
     stiffest = max(k, slider["k_p"])
     unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, stiffest / m)
     free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
@@ -243,7 +216,8 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(
         lanes=lanes,
-        more_blocks=(more,) if more else (0, 0),
+        wide=_flag(blocks > 1),
+        blocks=blocks,
         **views,
         **slider,
         stiffness0=omega[single] ** 2,
@@ -258,9 +232,14 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         speed_scale=slider["Omega"],
         bonded=bonded,
-        compliance=(compliance,) if compliance else (),
-        normal=(True,) if normal else (),
-        ramp=(),
+        compliant=_flag(compliance),
+        compliance=compliance,
+        normal=_flag(normal),
+        ramped=_flag(False),
+        ramp_begin=0.0,
+        ramp_angle=0.0,
+        Omega_rate=0.0,
+        N_rate=0.0,
         modes=modes,
     )
 
@@ -279,7 +258,11 @@ def on_ramp(model: Model, begin, angle, *, Omega, Omega_rate, N, N_rate) -> Mode
         velocity_scale=share * model.velocity_scale,
         slider_scale=share * model.slider_scale,
         speed_scale=Omega,
-        ramp=(begin, angle, Omega_rate, N_rate),
+        ramped=_flag(True),
+        ramp_begin=begin,
+        ramp_angle=angle,
+        Omega_rate=Omega_rate,
+        N_rate=N_rate,
         modes=no_modes(),  # the closed form of stick knows no ramps
     )
 
@@ -309,7 +292,7 @@ def build_series(model: Model, order: int) -> Series:
 def build_state(model: Model) -> EngineState:
     """The static start: equilibrium under the preload, in stick, spring relaxed."""
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
-    disc = aligned(disc_size(width, n0, len(model.compliance) == 1))
+    disc = aligned(disc_size(width, n0, model.compliant))
     z, e, y, g = disc[:width], disc[width : 2 * width], disc[2 * width :][:n0], disc[2 * width + n0 :][:n0]
     np.divide(-model.N * model.mode_amplitude, model.stiffness, out=z, where=model.stiffness > 0)
     np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=y, where=model.stiffness0 > 0)

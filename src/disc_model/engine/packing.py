@@ -4,8 +4,8 @@ Numba would pass a tuple of arrays between kernels entry by entry: a model is 14
 ``packed`` tuple is a block of memory with its numbers and, for each array, the address and the lengths.  Entries are
 read on use and never written. LLVM is told so, and need not read them again.
 
-The lengths of tuples of numbers are part of the type.  A helper that reads none of them is compiled once for all
-lengths: it receives a `PackedType.narrowed` one.
+An entry that is a tuple is a flag, (True,) or (): its length is a part of the type, and it takes no memory.  A helper
+that reads none of the flags is compiled once for all of them: it receives a `PackedType.narrowed` type.
 """
 
 import ctypes
@@ -44,8 +44,6 @@ else:
     )
 
     _WORD, _BIT = ir.IntType(64), ir.IntType(1)
-    # Words of a tuple of numbers, whatever its length: what follows it then has the same place in all types.
-    _ROOM = 4
 
     class PackedType(types.Type):
         """Numba type of a packed named tuple.
@@ -61,22 +59,22 @@ else:
 
         @functools.cache  # noqa: B019 - a few types, which last as long as the process
         def narrowed(self, used):
-            """The type without the tuples whose names are not in ``used``."""
+            """The type without the flags whose names are not in ``used``."""
             fields = self.fields.items()
-            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_tuple(kind)}
+            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_flag(kind)}
             return PackedType(self.of, left)
 
         def can_convert_to(self, typingctx, other):
             """A narrowed type is the same memory."""
             return Conversion.safe if isinstance(other, PackedType) and other.of == self.of else None
 
-    def _is_tuple(kind):
+    def _is_flag(kind):
         return isinstance(kind, types.UniTuple)
 
     def _format(kind):
         """The words of an entry, a character for each; an array is its address and its lengths."""
-        if _is_tuple(kind):
-            return _format(kind.dtype) * kind.count + "q" * (_ROOM - kind.count)
+        if _is_flag(kind):
+            return ""
         if isinstance(kind, types.Array):
             return "q" * (1 + kind.ndim)
         return "d" if kind == types.float64 else "q"
@@ -113,7 +111,8 @@ else:
             return self._memory.ctypes.data
 
     def _kind(value):
-        return types.UniTuple(types.float64, 0) if isinstance(value, tuple) and not value else numba.typeof(value)
+        flag = isinstance(value, tuple) and not isinstance(value, _Packed)
+        return types.UniTuple(types.boolean, len(value)) if flag else numba.typeof(value)
 
     def _decisive(value):
         """What decides the type of an entry."""
@@ -121,7 +120,7 @@ else:
             return value.dtype, value.ndim, value.flags.num
         if isinstance(value, _Packed):
             return value.numba_type
-        return tuple(map(type, value)) if isinstance(value, tuple) else type(value)
+        return value if isinstance(value, tuple) else type(value)
 
     def _words_of(value):
         """The words of an entry."""
@@ -135,7 +134,7 @@ else:
             return address, *value.shape
         if isinstance(value, _Packed):
             return (value.address,)
-        return (*value, *(0,) * (_ROOM - len(value))) if isinstance(value, tuple) else (value,)
+        return () if isinstance(value, tuple) else (value,)
 
     def packed(cls: T) -> T:
         """Let kernels receive a class of named tuples as one pointer."""
@@ -178,9 +177,6 @@ else:
             loaded.set_metadata("invariant.load", builder.module.add_metadata([]))
             return loaded
 
-        def number(i, of):
-            return builder.trunc(word(i), _BIT) if of == types.boolean else word(i, context.get_value_type(of))
-
         if isinstance(entry, types.Array):
             array = context.make_array(entry)(context, builder)
             shape = [word(1 + i) for i in range(entry.ndim)]
@@ -193,7 +189,6 @@ else:
                 array, data=word(0, array.data.type), shape=shape, strides=strides, itemsize=size, meminfo=None
             )
             return array._getvalue()
-        if isinstance(entry, types.UniTuple):
-            parts = [number(i, entry.dtype) for i in range(entry.count)]
-            return context.make_tuple(builder, entry, parts)
-        return number(0, entry)
+        if _is_flag(entry):
+            return context.make_tuple(builder, entry, [_BIT(1)] * entry.count)
+        return builder.trunc(word(0), _BIT) if entry == types.boolean else word(0, context.get_value_type(entry))

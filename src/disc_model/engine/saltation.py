@@ -9,7 +9,7 @@ time, J the Jacobian of the jump and v the rates before and after,
 from . import laws, tangent
 from .compile import helper, inlined, kernel
 from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
-from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK, is_compliant
+from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK
 from .simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .tangent import N_SCALARS, n_inputs, n_rows_of, point_change, slider_row
 from .transitions import disc_point, event_function, instant
@@ -40,7 +40,7 @@ def rates(model, state, out):
         out[(2 * width + n0 + j) * WIDTH] = rate - model.mode_amplitude0[j] * V
     out[slider_row(model, tangent.PSI_ROW) * WIDTH] = model.Omega - f
     out[slider_row(model, tangent.F_ROW) * WIDTH] = rate_f
-    u, v = (i.u, i.u_velocity) if is_compliant(model) or phase == SEPARATION else (i.w, i.w_velocity)
+    u, v = (i.u, i.u_velocity) if model.compliant or phase == SEPARATION else (i.w, i.w_velocity)
     out[slider_row(model, tangent.U_ROW) * WIDTH] = v
     out[slider_row(model, tangent.V_ROW) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
 
@@ -179,7 +179,7 @@ def slider_rows(model, state, t):
     _, _, B = disc_point(model, state)
     for c in range(0, t.columns, WIDTH):
         block = c * n_rows_of(model)
-        if not is_compliant(model):
+        if not model.compliant:
             du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
             store(t.now, block + slider_row(model, tangent.U_ROW) * WIDTH, du)
             store(t.now, block + slider_row(model, tangent.V_ROW) * WIDTH, dv)

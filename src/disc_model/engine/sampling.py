@@ -42,10 +42,9 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
     angle = theta - (layout.drive_angle(model, time) - probe.x[layout.PSI])
     row[1] = time
     row[2] = force_at(model, s, order, phase, probe)
-    apart = layout.is_compliant(model) or phase == layout.SEPARATION
-    row[3] = probe.x[layout.U] if apart else w
-    row[4] = probe.x[layout.U_VELOCITY] if apart else velocity
-    row[5] = w
+    row[3], row[4], row[5] = w, velocity, w
+    if model.compliant or phase == layout.SEPARATION:
+        row[3], row[4] = probe.x[layout.U], probe.x[layout.U_VELOCITY]
     row[6], row[7] = point_motion(model, probe, angle)
     row[8] = probe.x[layout.PSI]
     row[9] = layout.drive_now(model, probe) - probe.x[layout.SPEED]

@@ -43,7 +43,6 @@ from .layout import (
     V_SERIES,
     E,
     F,
-    is_ramped,
 )
 from .simd import (
     ONE_REGISTER,
@@ -72,19 +71,19 @@ _E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
 @inlined
 def lane_count(model):
     """Number of lanes; a constant for the compiler if there is one block."""
-    return WIDTH if len(model.more_blocks) == 2 else WIDTH * (1 + model.more_blocks[0])
+    return WIDTH * model.blocks if model.wide else WIDTH
 
 
 @inlined
 def drive(model, s):
     """Omega at the start of the step."""
-    return s.slider[DRIVE_SERIES] if is_ramped(model) else model.Omega
+    return s.slider[DRIVE_SERIES] if model.ramped else model.Omega
 
 
 @inlined
 def load_at(model, s):
     """N at the start of the step."""
-    return s.slider[LOAD_SERIES] if is_ramped(model) else model.N
+    return s.slider[LOAD_SERIES] if model.ramped else model.N
 
 
 @inlined
@@ -345,7 +344,7 @@ def _next_order(model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
 def _spring(model, s, k):
     """F of order k, from psi_k and f_k."""
     F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
-    if is_ramped(model):
+    if model.ramped:
         return F_k + model.c_p * s.slider[DRIVE_SERIES + k]
     return F_k + model.c_p * model.Omega if k == 0 else F_k
 
@@ -355,7 +354,7 @@ def _move_slider(model, s, k, f_rate, acceleration):
     """psi, f, u, u' of order k + 1 from the rates of order k."""
     up = s.slider[UP + k]
     driven = drive(model, s) if k == 0 else 0.0
-    if is_ramped(model) and k == 1:
+    if model.ramped and k == 1:
         driven = s.slider[DRIVE_SERIES + 1]
     s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
     s.slider[F + k + 1] = f_rate * up
@@ -426,7 +425,7 @@ def slip_series(model, s, order, direction):
         pull = spring * psi - damper * f
         P = weight * acceleration + (by_u * u + by_v * v + by_pull * pull)
         psi = -f * s.slider[UP + k]
-        if is_ramped(model) and k == 1:
+        if model.ramped and k == 1:
             psi += s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
             more_pull = damper * s.slider[DRIVE_SERIES + 1]
             pull += more_pull
@@ -488,14 +487,14 @@ def stick_series(model, s, order):
         s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
         # without P_k, whose share is in by_force
         vertical = model.k * u + model.c * v_hat
-        if is_ramped(model) and k == 0:
+        if model.ramped and k == 0:
             vertical += s.slider[LOAD_SERIES + 1]
     _last_force(model, s, order, impulse)
     s.slider[F + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
     growth = model.r_0 * model.k_p * s.slider[PSI_SERIES + 1]
-    if is_ramped(model):
+    if model.ramped:
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
         growth += model.r_0 * model.c_p * s.slider[DRIVE_SERIES + 1]
         bend = model.r_0 * model.k_p * s.slider[PSI_SERIES + 2]
@@ -517,7 +516,7 @@ def separation_series(model, s, order):
         if k > 0:
             # not by _spring: in the branches there, sums would be rounded otherwise
             pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0
-            if is_ramped(model):
+            if model.ramped:
                 pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
             _, _, pending, e, carried, e_last, z_last = _next_order(
                 model, s, k, s.slider[F + k], f0, 0.0, pending, e, carried, e_last, z_last

@@ -8,7 +8,6 @@ from . import layout, transitions
 from .compile import inlined
 from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
-from .layout import is_compliant, is_normal, is_ramped, ramp_of
 from .polynomial import NO_ROOT, first_root, set_powers
 from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
 from .simd import WIDTH, absolute, largest, load, maximum, splat
@@ -75,21 +74,21 @@ def step_size(model, s, order, tolerance, phase):
     as if the step were ``TYPICAL_STEP``, which saves a root.
     """
     # time is measured by the fastest motion in compliant contact, which does not exist out of contact
-    calm = model.free_unit if is_compliant(model) and phase == layout.SEPARATION else 1.0
+    calm = model.free_unit if model.compliant and phase == layout.SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
     last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
     usual_speed, share = model.speed_scale, 1.0
-    if is_ramped(model):
+    if model.ramped:
         usual_speed, share = drive(model, s), load_at(model, s) / model.N
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
-    if is_compliant(model) or phase == layout.SEPARATION:
+    if model.compliant or phase == layout.SEPARATION:
         error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != layout.SEPARATION:
         last_force = _last_force(s.P, order)
         force = _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1]))
-        if is_normal(model) and phase == layout.STICK:
+        if model.normal and phase == layout.STICK:
             # the release functions, unlike P, contain the slope's acceleration
             last_force = max(last_force, _last_force(s.switch, order), _last_force(s.switch2, order))
         error += _relative(last_force, force)
@@ -101,12 +100,12 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand_slip(compliance, normal, model, s, order, direction):
+def _expand_slip(compliant, normal, model, s, order, direction):
     """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
 
-    compliance, normal: those of the model; the compiler drops a branch if its condition is an argument's length.
+    compliant, normal: flags of the model; the compiler drops a branch unseen if its condition is an argument's length.
     """
-    if len(compliance) == 1:
+    if len(compliant) == 1:
         return compliant_slip_series(model, s, order, direction)
     if len(normal) == 1:
         return normal_slip_series(model, s, order, direction)
@@ -114,9 +113,9 @@ def _expand_slip(compliance, normal, model, s, order, direction):
 
 
 @inlined
-def _expand_stick(compliance, normal, model, s, order):
+def _expand_stick(compliant, normal, model, s, order):
     """Series of stick, likewise."""
-    if len(compliance) == 1:
+    if len(compliant) == 1:
         compliant_stick_series(model, s, order)
     else:
         stick_series(model, s, order)
@@ -130,10 +129,10 @@ def expand(model, s, state, order):
     load_state(model, s, state)
     phase = state.x[layout.PHASE]
     if phase == layout.SLIP:
-        denominator = _expand_slip(model.compliance, model.normal, model, s, order, state.x[layout.DIRECTION])
+        denominator = _expand_slip(model.compliant, model.normal, model, s, order, state.x[layout.DIRECTION])
         return denominator / transitions.usual_denominator(model)
     if phase == layout.STICK:
-        _expand_stick(model.compliance, model.normal, model, s, order)
+        _expand_stick(model.compliant, model.normal, model, s, order)
     else:
         separation_series(model, s, order)
     return 1.0
@@ -153,7 +152,7 @@ def _sooner(s, c, known, n, x_end, cause, later):
 def first_event(model, s, state, order, x_end):
     """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known, known_force = state.x[layout.PHASE], int(state.x[layout.KNOWN]), 0
-    if is_compliant(model):
+    if model.compliant:
         known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
@@ -168,15 +167,15 @@ def first_event(model, s, state, order, x_end):
     if not model.bonded and never_pulled:
         # P = 0 and the friction limit coincide, and it is contact that ends
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
-        if not is_normal(model):
+        if not model.normal:
             return x_end, cause
         # the slope of the disc may pull: here P is no factor of the release functions
         known_release = 0
     x_end, cause = _sooner(s, s.switch, known_release, order - 1, x_end, transitions.RELEASE_FORWARD, cause)
     # under the vertical force the pull only grows; a bent disc's slope can turn it, or the damper of a slowing drive
-    if is_normal(model) or is_ramped(model) or s.switch2[0] < s.switch[0]:
+    if model.normal or model.ramped or s.switch2[0] < s.switch[0]:
         x_end, cause = _sooner(s, s.switch2, known_release, order - 1, x_end, transitions.RELEASE_BACKWARD, cause)
-    if not model.bonded and (model.mu_s == 0.0 or (is_compliant(model) and is_normal(model))):
+    if not model.bonded and (model.mu_s == 0.0 or (model.compliant and model.normal)):
         # friction may hold although contact ends: without any, or on a slope so steep that it holds the slider down
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
     return x_end, cause
@@ -195,8 +194,8 @@ def advance_time(x, dt):
 @inlined
 def set_course(model, state):
     """Set Omega and N to those of the state's time, on a ramp."""
-    if is_ramped(model):
+    if model.ramped:
         x = state.x
-        since = (x[layout.TIME] - ramp_of(model.ramp, 0)) + x[layout.TIME_LOW]
-        x[layout.DRIVE] = model.Omega + ramp_of(model.ramp, 2) * since
-        x[layout.LOAD] = model.N + ramp_of(model.ramp, 3) * since
+        since = (x[layout.TIME] - model.ramp_begin) + x[layout.TIME_LOW]
+        x[layout.DRIVE] = model.Omega + model.Omega_rate * since
+        x[layout.LOAD] = model.N + model.N_rate * since

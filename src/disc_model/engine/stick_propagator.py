@@ -8,7 +8,7 @@ without steps, in closed form.  The series then find the release.
 import math
 
 from .compile import helper, inlined
-from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U, is_compliant
+from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U
 from .simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
 
@@ -70,7 +70,7 @@ def closed_form_length(model, s, state):
     if len(model.modes.gain) == 0:
         return 0.0
     states = 2 * (len(model.shift) + len(model.mode_amplitude0))
-    if is_compliant(model):
+    if model.compliant:
         state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
         states += 2
     swing = _enter_modes(model.modes, state.disc, states, s.amplitudes)
@@ -91,7 +91,7 @@ def closed_form_length(model, s, state):
 def propagate_stick(model, s, x, state):
     """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
     _leave_modes(model.modes, s.amplitudes, x, state.disc)
-    if is_compliant(model):
+    if model.compliant:
         states = 2 * (len(model.shift) + len(model.mode_amplitude0))
         state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
     state.x[PHASE], state.x[SPEED] = STICK, 0.0

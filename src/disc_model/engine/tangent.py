@@ -16,7 +16,7 @@ import numpy as np
 
 from .compile import helper, inlined
 from .laws import N_ENTRIES, slip_denominator
-from .layout import HALF, ROWS, SEPARATION, SLIP, STICK, Model, compliance_of, is_compliant, is_normal
+from .layout import HALF, ROWS, SEPARATION, SLIP, STICK, Model
 from .packing import packed
 from .simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 
@@ -238,10 +238,10 @@ def _compliant_change(model, s, t, block, k, R, friction):
     at = (block * len(t.base_dw_dtheta) + k) * R * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
     compression = sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH))
-    change = mul(splat(1.0 / compliance_of(model.compliance)), compression)
+    change = mul(splat(1.0 / model.compliance), compression)
     if block * WIDTH >= t.plain:
         V = s.P[k]
-        if is_normal(model):
+        if model.normal:
             for i in range(k + 1):
                 V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
         d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_COMPLIANCE * WIDTH)
@@ -257,9 +257,9 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
     pull: see ``_slider_forces``.
     """
     beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
-    if is_normal(model):
+    if model.normal:
         h = _leverage_change(model, s, t, block, k)
-    if is_compliant(model):
+    if model.compliant:
         V = _compliant_change(model, s, t, block, k, R, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
     else:
@@ -267,7 +267,7 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
         force = mul(splat(1.0 / denominator), fma(splat(mobility * friction - beta), h, top))
         V = sub(mul(splat(1.0 - friction * beta), force), mul(splat(friction), h))
     held = mul(splat(friction), force)
-    if is_normal(model):
+    if model.normal:
         held = fma(splat(friction + beta), force, h)
     return force, V, mul(splat(1.0 / model.m), sub(pull, mul(splat(1.0 / model.r_0), held)))
 
@@ -300,14 +300,13 @@ def tangent_series(model, s, t, order, phase, direction):
     B0 = t.base_dw_dtheta[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass + friction * B0)
-    other_law = is_compliant(model) or is_normal(model)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
         at, chain, origin = block * R * WIDTH, block * orders * WIDTH, block * orders * R * WIDTH
         for i in range(0, R * WIDTH, WIDTH):
             store(t.series, origin + i, load(t.now, at + i))
         du, dv, dB = point_change(model, t.now, at, s.f[0], B0)
-        if is_compliant(model) or phase == SEPARATION:
+        if model.compliant or phase == SEPARATION:
             du, dv = load(t.now, at + u_row * WIDTH), load(t.now, at + v_row * WIDTH)
         store(t.dw_dtheta, chain, dB)
         for k in range(order):
@@ -319,14 +318,14 @@ def tangent_series(model, s, t, order, phase, direction):
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
             P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
-            if phase == SLIP and not is_compliant(model):
+            if phase == SLIP and not model.compliant:
                 free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
             if phase == SEPARATION:
                 rate_f = mul(pull, lightness)
-            elif other_law and phase == SLIP:
+            elif (model.compliant or model.normal) and phase == SLIP:
                 mu, denominator = direction * model.mu_k, slip_denominator(model, model.m, direction, B0)
                 P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
-            elif is_compliant(model):
+            elif model.compliant:
                 P = V = _compliant_change(model, s, t, block, k, R, 0.0)
             else:
                 if phase == SLIP:
@@ -334,7 +333,7 @@ def tangent_series(model, s, t, order, phase, direction):
                 P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
                 if phase == SLIP:
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
-            if is_compliant(model) or phase == SEPARATION:
+            if model.compliant or phase == SEPARATION:
                 acceleration = mul(lightness, sub(V, vertical))
             else:
                 acceleration = sub(free, mul(splat(model.inverse_effective_mass), V))

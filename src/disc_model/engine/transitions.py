@@ -4,7 +4,7 @@ from . import laws, layout
 from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION
 from .laws import Instant
-from .layout import compliance_of, drive_now, is_compliant, is_normal, load_now
+from .layout import drive_now, load_now
 from .simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 
 # Causes of the end of a step.
@@ -40,7 +40,7 @@ def disc_point(model, state):
 def slider_motion(model, state):
     """u, u' of the slider, which in rigid contact are the disc's; slope B of the disc under it."""
     u, v, dw_dtheta = disc_point(model, state)
-    if is_compliant(model) or state.x[layout.PHASE] == layout.SEPARATION:
+    if model.compliant or state.x[layout.PHASE] == layout.SEPARATION:
         u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     return u, v, dw_dtheta
 
@@ -70,7 +70,7 @@ def instant(model, state):
     x, (w, velocity, dw_dtheta), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
     return Instant(
         load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
-        compliance_of(model.compliance), x[layout.PSI], x[layout.SPEED], w, velocity, dw_dtheta, free,
+        model.compliance, x[layout.PSI], x[layout.SPEED], w, velocity, dw_dtheta, free,
         x[layout.U], x[layout.U_VELOCITY],
     ), size  # fmt: skip
 
@@ -97,7 +97,7 @@ def _deflection_size(model, state):
 @inlined
 def _rounding(model, state, i, size):
     """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""
-    if is_compliant(model):
+    if model.compliant:
         return ROUNDING * _deflection_size(model, state) / i.compliance
     return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
 
@@ -112,7 +112,7 @@ def stick_force(model, state):
 @inlined
 def force_in_stick(model, state, V):
     """The contact force in stick: V, or R under the normal force."""
-    if not is_normal(model):
+    if not model.normal:
         return V
     i, _ = instant(model, state)
     _, press = laws.stick_loads(model, i, V)
@@ -122,7 +122,7 @@ def force_in_stick(model, state, V):
 @inlined
 def usual_denominator(model):
     """The denominator of the contact force in slip without friction."""
-    return 1.0 if is_compliant(model) else 1.0 + model.m * model.inverse_effective_mass
+    return 1.0 if model.compliant else 1.0 + model.m * model.inverse_effective_mass
 
 
 @inlined
@@ -131,7 +131,7 @@ def slip_force(model, state, direction):
     i, size = instant(model, state)
     denominator = laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
     noise = _rounding(model, state, i, size)
-    if not is_compliant(model):
+    if not model.compliant:
         noise += ROUNDING * abs(i.dw_dtheta * laws.inplane_force_per_radius(i))
     return laws.slip_numerator(model, i) / denominator, denominator, noise / abs(denominator)
 
@@ -157,7 +157,7 @@ def event_function(model, i, cause, slipping):
     if cause == GAP_CLOSED:
         return i.u - i.w
     if cause == CONTACT_LOST:
-        if is_compliant(model):
+        if model.compliant:
             return i.w - i.u
         return laws.slip_numerator(model, i) if slipping else laws.stick_numerator(model, i)
     pull, press = laws.stick_loads(model, i, laws.vertical_in_stick(model, i))
@@ -179,7 +179,7 @@ def _enter_separation(model, state, P, noise):
     The gap of a compliant contact starts as t, or is already open.
     """
     known = 0 if noise < -P else 1
-    if not is_compliant(model):
+    if not model.compliant:
         state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
         known += 2
     _begin(state, layout.SEPARATION, 0.0, known, 0.0)
@@ -199,7 +199,7 @@ def enter_slip(model, state, direction):
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
         # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
         resistance = bound = model.mu_k
-        if is_normal(model):
+        if model.normal:
             _, _, dw_dtheta = disc_point(model, state)
             resistance += direction * dw_dtheta / model.r_0
             bound += abs(dw_dtheta) / model.r_0
@@ -267,7 +267,7 @@ def _begin_contact(model, state):
 @helper
 def reattach(model, state):
     """Reattachment: the gap has closed; impact, then contact."""
-    if is_compliant(model):
+    if model.compliant:
         return _begin_contact(model, state)
     impact(model, state)
     f = state.x[layout.SPEED]

@@ -10,7 +10,7 @@ from .dense_output import state_at
 from .exit_codes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
 from .laws import PSI as ANGLE
 from .laws import TINY, stepped
-from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME, is_compliant
+from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME
 from .packing import packed
 from .saltation import event_change, event_gradient, event_times, impact_change, rates, shift, slider_rows
 from .simd import WIDTH, mul, splat, store
@@ -110,7 +110,7 @@ def _integrate(model, s, state, t, course):
             rates(model, state, t.before)
             event_times(model, state, t, cause)
             shift(model, t, t.before, 1.0)
-            if cause == transitions.GAP_CLOSED and not is_compliant(model):
+            if cause == transitions.GAP_CLOSED and not model.compliant:
                 impact_change(model, state, t)
         if last:
             log[RELEASES] += 1.0

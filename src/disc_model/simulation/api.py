@@ -233,7 +233,7 @@ class _Run:
         tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
         most_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
         # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
-        pause_after = max(1, STEPS_PER_PAUSE // ((1 + model.more_blocks[0]) * (6 if every_step else 1)))
+        pause_after = max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1)))
         audit_every = 1 if every_step else 256  # a compliant contact takes about four times as many steps per second
         self.limits = event_loop.Limits(
             order, tolerance, asked.t_end, asked.stop_at is not None, most_steps, pause_after, audit_every
@@ -340,14 +340,14 @@ class _Run:
 
 def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], report: bool) -> Callable[..., int]:
     """The engine, compiled for this kind of model: the kind determines the types of all ``arguments`` of a run."""
-    kind = (len(model.more_blocks), len(model.compliance), len(model.normal), len(model.ramp))
+    kind = model.wide, model.compliant, model.normal, model.ramped
     if kind not in _ENGINES:
         with compiling(report):
             _ENGINES[kind] = compiled_for(event_loop.run, arguments())
     return _ENGINES[kind]
 
 
-_ENGINES: dict[tuple[int, ...], Callable[..., int]] = {}
+_ENGINES: dict[tuple[tuple[bool, ...], ...], Callable[..., int]] = {}
 """Compiled engines by blocks of lanes, laws of contact and ramp."""
 
 

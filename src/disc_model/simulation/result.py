@@ -406,7 +406,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     x = state.x.tolist()
     phase, f = int(x[layout.PHASE]), x[layout.SPEED]
     u, v = x[layout.U], x[layout.U_VELOCITY]
-    if phase != layout.SEPARATION and len(case.model.compliance) != 1:
+    if phase != layout.SEPARATION and not case.model.compliant:
         u, v, slope = case.point.dot(state.disc).tolist()
         v += f * slope
     return State(
@@ -439,7 +439,7 @@ def write_state(case: EngineCase, given: State, state: layout.EngineState, key: 
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
-    if given.phase != "separation" and len(case.model.compliance) != 1:  # otherwise u is an independent coordinate
+    if given.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
         _check_height(case, given.u, state)
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
@@ -459,7 +459,7 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     """
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
-    f, compliant, known = x[layout.SPEED], len(case.model.compliance) == 1, x[layout.KNOWN]
+    f, compliant, known = x[layout.SPEED], case.model.compliant, x[layout.KNOWN]
     opening = x[layout.U_VELOCITY] - velocity - f * slope
     touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
@@ -492,7 +492,7 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
 def _faults(given: State, case: EngineCase) -> list[str]:
     n_modes = len(case.amplitudes)
     # in compliant contact, contact and its force can begin at the same instant
-    highest, known = (7, "a whole number from 0 to 7") if len(case.model.compliance) == 1 else (3, "0, 1, 2 or 3")
+    highest, known = (7, "a whole number from 0 to 7") if case.model.compliant else (3, "0, 1, 2 or 3")
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     wrong = [name for name in _MODAL if not is_finite_array(getattr(given, name), n_modes)]
     faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]

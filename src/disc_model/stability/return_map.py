@@ -87,7 +87,7 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
             damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
-        given = 0.0 if residual or not model.compliance else model.compliance[0]
+        given = 0.0 if residual else model.compliance
         scalars[columns.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
@@ -107,7 +107,7 @@ def energy_scale(model: layout.Model) -> Array:
     """Square root of twice the energy of a unit of each row of a column: (rows,)."""
     one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
     slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
-    contact = 1 / model.compliance[0] if len(model.compliance) == 1 else 0.0
+    contact = 1 / model.compliance if model.compliant else 0.0
     height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
     stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
     return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
@@ -191,7 +191,7 @@ class ReturnMap:
         l = np.abs(model.shift).astype(np.int64)
         self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[modes]
         height = slider[[columns.U_ROW, columns.V_ROW]]
-        rows = np.append(modes, height) if len(model.compliance) == 1 else modes
+        rows = np.append(modes, height) if model.compliant else modes
         self.scale = energy_scale(model)[rows]
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
