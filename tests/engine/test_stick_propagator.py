@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.engine import contact_series, dense_output, exit_codes, layout, series, stick_modes, stick_propagator
+from disc_model.engine import dense_output, exit_codes, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.api import _Request, _Run
 from disc_model.simulation.result import engine_case
@@ -51,7 +51,7 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     _propagate(model, layout.build_series(model, ORDER), closed, x)
     s = layout.build_series(model, ORDER)
     dense_output.load_state(model, s, taylor)
-    expand = contact_series.compliant_stick_series if variant == "compliant" else series.stick_series
+    expand = series.compliant_stick_series if variant == "compliant" else series.stick_series
     expand(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))

@@ -4,12 +4,10 @@ import math
 
 import numpy as np
 
-from . import layout, transitions
+from . import layout, series, transitions
 from .compile import inlined
-from .contact_series import compliant_slip_series, compliant_stick_series, normal_slip_series, release_series
 from .dense_output import load_state
 from .polynomial import NO_ROOT, first_root, set_powers
-from .series import drive, lane_count, load_at, separation_series, slip_series, stick_series
 from .simd import WIDTH, absolute, largest, load, maximum, splat
 
 # Longest step, in radians of the fastest motion: in longer ones the series' terms cancel more digits than they add.
@@ -20,7 +18,7 @@ TYPICAL_STEP = 3.0
 @inlined
 def _size(model, s, k):
     """Largest modulus among the modal velocities of order k."""
-    width, n, biggest = lane_count(model), len(model.mode_amplitude0), splat(0.0)
+    width, n, biggest = series.lane_count(model), len(model.mode_amplitude0), splat(0.0)
     for j in range(k * width, (k + 1) * width, WIDTH):
         biggest = maximum(biggest, absolute(load(s.modes, layout.E * width + j)))
     size = largest(biggest)
@@ -79,7 +77,7 @@ def step_size(model, s, order, tolerance, phase):
     last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
     usual_speed, share = model.speed_scale, 1.0
     if model.ramped:
-        usual_speed, share = drive(model, s), load_at(model, s) / model.N
+        usual_speed, share = series.drive(model, s), series.load_at(model, s) / model.N
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
@@ -87,7 +85,7 @@ def step_size(model, s, order, tolerance, phase):
         error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != layout.SEPARATION:
         last_force = _last_force(s.P, order)
-        force = _scale(load_at(model, s), abs(s.P[0]), abs(s.P[1]))
+        force = _scale(series.load_at(model, s), abs(s.P[0]), abs(s.P[1]))
         if model.normal and phase == layout.STICK:
             # the release functions, unlike P, contain the slope's acceleration
             last_force = max(last_force, _last_force(s.switch, order), _last_force(s.switch2, order))
@@ -106,21 +104,21 @@ def _expand_slip(compliant, normal, model, s, order, direction):
     compliant, normal: flags of the model; the compiler drops a branch unseen if its condition is an argument's length.
     """
     if len(compliant) == 1:
-        return compliant_slip_series(model, s, order, direction)
+        return series.compliant_slip_series(model, s, order, direction)
     if len(normal) == 1:
-        return normal_slip_series(model, s, order, direction)
-    return slip_series(model, s, order, direction)
+        return series.normal_slip_series(model, s, order, direction)
+    return series.slip_series(model, s, order, direction)
 
 
 @inlined
 def _expand_stick(compliant, normal, model, s, order):
     """Series of stick, likewise."""
     if len(compliant) == 1:
-        compliant_stick_series(model, s, order)
+        series.compliant_stick_series(model, s, order)
     else:
-        stick_series(model, s, order)
+        series.stick_series(model, s, order)
         if len(normal) == 1:
-            release_series(model, s, order)
+            series.release_series(model, s, order)
 
 
 @inlined
@@ -134,7 +132,7 @@ def expand(model, s, state, order):
     if phase == layout.STICK:
         _expand_stick(model.compliant, model.normal, model, s, order)
     else:
-        separation_series(model, s, order)
+        series.separation_series(model, s, order)
     return 1.0
 
 
