@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from disc_model.engine.cache import LEVELS, SHIPPED, TARGETS, VERSIONS, versions
+from disc_model.engine.cache import LEVELS, SHIPPED, VERSIONS, versions
 from disc_model.kernels import USUAL
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -17,9 +17,9 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def compile_kernels(level: str, target: Path, kinds: Iterable[str] = USUAL) -> None:
     """Compile kinds of kernels into the folder of a level."""
-    name, features = TARGETS[level]
+    features, _ = LEVELS[level]
     with tempfile.TemporaryDirectory() as folder:
-        chosen = {"NUMBA_CACHE_DIR": folder, "NUMBA_CPU_NAME": name, "NUMBA_CPU_FEATURES": features}
+        chosen = {"NUMBA_CACHE_DIR": folder, "NUMBA_CPU_NAME": level, "NUMBA_CPU_FEATURES": features}
         subprocess.run([sys.executable, "-m", "disc_model", "compile", *kinds], env=os.environ | chosen, check=True)
         target.mkdir(parents=True)
         for path in Path(folder).rglob("*.kernel"):

@@ -5,8 +5,6 @@ its files: a cut file ends in a traceback, a changed byte in wrong numbers.  Her
 file, in a folder named by a hash of the engine's code.  A file that does not fit is replaced by compiling again.
 
 A package may ship kernels compiled for a level of x86-64 processors (`SHIPPED`).
-
-The module uses internals of numba that may change: if one is missing, numba's own cache files are used.
 """
 
 import functools
@@ -30,15 +28,11 @@ SHIPPED = Path(__file__).parent / "kernels"
 """Kernels shipped with the package, a folder for each level; its file `VERSIONS` states what compiled them."""
 VERSIONS = "versions.txt"
 LEVELS = {
-    "x86-64-v4": ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"),
-    "x86-64-v3": ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe"),
+    "x86-64-v4": ("-prefer-256-bit", ("avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")),
+    "x86-64-v3": ("", ("avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe")),
 }
-"""Processor features that a level needs, the highest level first."""
-TARGETS = {"x86-64-v4": ("x86-64-v4", "-prefer-256-bit"), "x86-64-v3": ("x86-64-v3", "")}
-"""Settings of numba for kernels of a level: ``NUMBA_CPU_NAME`` and ``NUMBA_CPU_FEATURES``."""
-
-# Errors raised by a part of numba that is missing or has changed.
-MISSING = (ImportError, AttributeError, TypeError)
+"""Levels, the highest first: ``NUMBA_CPU_FEATURES`` to compile for it, beside its name as ``NUMBA_CPU_NAME``, and the
+features that a processor needs."""
 SUFFIX = ".kernel"
 HELPERS = ".helpers"
 """Suffix of files with the helpers that were first compiled for a kernel, for kernels that are compiled later."""
@@ -74,81 +68,30 @@ def shipped_level() -> str | None:
     """The highest level of this processor with shipped kernels, if they fit the installed versions."""
     if not SHIPPED.is_dir():
         return None
-    here = llvm.get_host_cpu_features()
-    levels = [level for level, features in LEVELS.items() if all(here.get(name, False) for name in features)]
-    if chosen_target() != (None, None):
-        levels = [level for level in levels if TARGETS[level] == chosen_target()]
-    if not levels:
+    here, chosen = llvm.get_host_cpu_features(), (_SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES)
+    for level, (settings, features) in LEVELS.items():
+        if all(here.get(name, False) for name in features) and chosen in ((None, None), (level, settings)):
+            break
+    else:
         warn_once(f"{SHIPPED}: no kernels came with the package for this processor; they are compiled")
         return None
-    try:
-        compiled_with = (SHIPPED / levels[0] / VERSIONS).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        compiled_with = "unknown versions"
+    made_by = SHIPPED / level / VERSIONS
+    compiled_with = made_by.read_text(encoding="utf-8", errors="replace") if made_by.is_file() else "unknown versions"
     if compiled_with != versions():
-        warn_once(
-            f"{SHIPPED / levels[0]}: these kernels are of {compiled_with}, here is {versions()}; they are compiled"
-        )
+        warn_once(f"{SHIPPED / level}: these kernels are of {compiled_with}, here is {versions()}; they are compiled")
         return None
-    return levels[0]
+    return level
 
 
-def chosen_target() -> tuple[str | None, str | None]:
-    """The processor and features chosen for numba, if any."""
-    return _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES
-
-
-def _processor(codegen: Any) -> object:
-    """The processor on which machine code depends: a chosen level, or all known properties."""
-    levels = [level for level, target in TARGETS.items() if target == chosen_target()]
+def processor(codegen: Any) -> object:
+    """The processor on which machine code depends: a level that is chosen for numba, or all known properties."""
+    chosen = _SETTINGS.CPU_NAME, _SETTINGS.CPU_FEATURES
+    levels = [level for level, (settings, _) in LEVELS.items() if chosen == (level, settings)]
     return levels[0] if levels else codegen.magic_tuple()
 
 
-class KernelCache:
-    """The files of one kernel; numba's dispatcher requests signatures and offers compiled ones."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-
-    @property
-    def cache_path(self) -> str:
-        """The folder of the files."""
-        return str(folder())
-
-    def load_overload(self, signature: Any, target: Any) -> Any:
-        """The code compiled for a signature, or None if it is missing or damaged."""
-        from numba.core.compiler import CompileResult
-
-        place = folder() / self._file(signature, _processor(target.codegen()))
-        found = read(place)
-        level = shipped_level() if found is None else None
-        if level:
-            place = SHIPPED / level / self._file(signature, level)
-            found = read(place)
-            if found is None and place.exists():
-                warn_once(f"{place}: is damaged; it is compiled, once")
-        return None if found is None else CompileResult._rebuild(target, *found)
-
-    def save_overload(self, signature: Any, compiled: Any) -> None:
-        """Save compiled code if possible: a full or read-only disk costs time, not the result."""
-        processor = _processor(compiled.codegen)
-        path = folder() / self._file(signature, processor)
-        helpers = compiled.library.new_helpers() if hasattr(compiled.library, "new_helpers") else {}
-        try:
-            write(path, compiled._reduce())
-            if helpers:
-                write(path.with_suffix(f".{_hash(processor)}{HELPERS}"), helpers)
-        except OSError as error:
-            warn_once(
-                f"{path.parent}: compiled kernels cannot be kept there ({error.strerror}); "
-                "every process compiles them again"
-            )
-
-    def _file(self, signature: Any, processor: object) -> str:
-        return f"{self._name}.{_hash(signature, processor)}{SUFFIX}"
-
-
-def _hash(*of: object) -> str:
+def hash_of(*of: object) -> str:
+    """Hash of what compiled code depends on, beside the versions: 16 hexadecimal digits."""
     return hashlib.sha256(repr((*of, versions())).encode()).hexdigest()[:16]
 
 
@@ -156,7 +99,7 @@ def _hash(*of: object) -> str:
 def stored_helpers(codegen: Any) -> dict[str, bytes]:
     """The helpers that were compiled for earlier kernels."""
     found: dict[str, bytes] = {}
-    for path in sorted(folder().glob(f"*.{_hash(_processor(codegen))}{HELPERS}")):
+    for path in sorted(folder().glob(f"*.{hash_of(processor(codegen))}{HELPERS}")):
         found |= read(path) or {}
     return found
 
@@ -187,24 +130,6 @@ def read(path: Path) -> Any:
         return None
     name, contents = pickle.loads(zlib.decompress(body))
     return contents if name == path.name else None
-
-
-def keep(kernel: Any) -> None:
-    """Store the compiled code of a kernel in files."""
-    function = kernel.py_func
-    try:
-        from numba.core import compiler, serialize
-
-        parts: tuple[Any, ...] = kernel._cache.load_overload, kernel._cache.save_overload, serialize.dumps
-        parts += compiler.CompileResult._reduce, compiler.CompileResult._rebuild
-        kernel._cache = KernelCache(f"{function.__module__.rsplit('.')[-1]}.{function.__qualname__}")
-    except MISSING as error:
-        warn_once(f"numba {numba.__version__} keeps compiled kernels in another way than expected ({error})")
-        before, _SETTINGS.CACHE_DIR = _SETTINGS.CACHE_DIR, str(folder())
-        try:
-            kernel.enable_caching()
-        finally:
-            _SETTINGS.CACHE_DIR = before
 
 
 @functools.cache

@@ -15,14 +15,14 @@ from typing import Any
 
 import numba
 
-from .cache import MISSING, keep, warn_once
+from .cache import folder, warn_once
 
 # Kernels allocate nothing, so reference counting (_nrt) is off: it cost more than the arithmetic. No C code calls them.
 RULES: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
 _MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
 try:
-    from .merging import HelperCache, HelperCompiler, KernelCompiler
-except MISSING as error:
+    from .merging import HelperCache, HelperCompiler, KernelCache, KernelCompiler
+except (ImportError, AttributeError, TypeError) as error:  # a part of numba is missing or has changed
     warn_once(f"numba {numba.__version__} compiles in another way than expected ({error}): it takes four times as long")
 else:
     RULES["pipeline_class"] = KernelCompiler
@@ -33,8 +33,21 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a function that Python calls, once for all processes."""
     made: Any = numba.njit(**RULES)(function)
     if made is not function:  # which it is where compilation is switched off
-        keep(made)
+        _keep(made)
     return made
+
+
+def _keep(kernel: Any) -> None:
+    """Store the compiled code of a kernel in files: by numba's own means where `merging` does not work."""
+    if "pipeline_class" in RULES:
+        kernel._cache = KernelCache(kernel.py_func)
+        return
+    settings: Any = numba.config
+    before, settings.CACHE_DIR = settings.CACHE_DIR, str(folder())
+    try:
+        kernel.enable_caching()
+    finally:
+        settings.CACHE_DIR = before
 
 
 def helper(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
@@ -68,7 +81,7 @@ def _make_part(part: Any, kernel: Any) -> None:
     part._compile_for_args = lambda *_, **__: kernel
     part.add_overload = add_overload
     part.get_call_template = lambda args, kws: template(tuple(map(narrowed, args)), kws)
-    if "pipeline_class" in _MERGED:
+    if "pipeline_class" in RULES:
         part._cache = HelperCache(part.py_func)
 
 

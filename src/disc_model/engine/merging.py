@@ -1,4 +1,4 @@
-"""Helpers that are compiled only as parts of kernels.
+"""Kernels and their files, and helpers that are compiled only as parts of kernels.
 
 Numba optimises every function and generates its machine code before it links it into its callers.  Most of ours are
 called only by others.  Here a helper stays unoptimised until its kernel is complete, which is then optimised and turned
@@ -6,6 +6,8 @@ into machine code as a whole.
 
 The unoptimised code of helpers is stored beside the kernel that first needed them (``cache.HELPERS``), and linked into
 kernels that other processes compile later.
+
+The module uses internals of numba that may change: `compile` does without it if one is missing.
 """
 
 import gc
@@ -13,13 +15,17 @@ import pickle
 from typing import ClassVar
 
 import llvmlite.binding as llvm
+from numba.core.caching import NullCache
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder, compile_result
+from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
 from numba.core.serialize import dumps
 from numba.core.typed_passes import InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
 
-from .cache import stored_helpers
+from . import cache
+
+# Raises AttributeError if numba's dispatcher would not call the caches below, or could not store what it compiles.
+_NEEDED = NullCache().load_overload, NullCache().save_overload, CompileResult._reduce, CompileResult._rebuild
 
 # Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed tuples.
 NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
@@ -76,7 +82,7 @@ class HelperLibrary(JITCodeLibrary):
     def restored(cls, codegen, key):
         """The library with a key, from files if need be.  Raises KeyError."""
         if key not in cls.known:
-            name, code, links, result = pickle.loads(stored_helpers(codegen)[key])
+            name, code, links, result = pickle.loads(cache.stored_helpers(codegen)[key])
             self = cls.of_code(codegen, name, code)
             for called, link in links:
                 stored = isinstance(link, str)
@@ -85,6 +91,46 @@ class HelperLibrary(JITCodeLibrary):
             self.key, self.result = key, result
             cls.known[key] = self
         return cls.known[key]
+
+
+class KernelCache:
+    """The files of one kernel; numba's dispatcher requests signatures and offers compiled ones."""
+
+    def __init__(self, function):
+        self._name = f"{function.__module__.rsplit('.')[-1]}.{function.__qualname__}"
+
+    @property
+    def cache_path(self):
+        """The folder of the files."""
+        return str(cache.folder())
+
+    def load_overload(self, signature, target):
+        """The code compiled for a signature, or None if it is missing or damaged."""
+        found = cache.read(cache.folder() / self._file(signature, cache.processor(target.codegen())))
+        level = cache.shipped_level() if found is None else None
+        if level:
+            place = cache.SHIPPED / level / self._file(signature, level)
+            found = cache.read(place)
+            if found is None and place.exists():
+                cache.warn_once(f"{place}: is damaged; it is compiled, once")
+        return None if found is None else CompileResult._rebuild(target, *found)
+
+    def save_overload(self, signature, compiled):
+        """Save compiled code if possible: a full or read-only disk costs time, not the result."""
+        processor, helpers = cache.processor(compiled.codegen), compiled.library.new_helpers()
+        path = cache.folder() / self._file(signature, processor)
+        try:
+            cache.write(path, compiled._reduce())
+            if helpers:
+                cache.write(path.with_suffix(f".{cache.hash_of(processor)}{cache.HELPERS}"), helpers)
+        except OSError as error:
+            cache.warn_once(
+                f"{path.parent}: compiled kernels cannot be kept there ({error.strerror}); "
+                "every process compiles them again"
+            )
+
+    def _file(self, signature, processor):
+        return f"{self._name}.{cache.hash_of(signature, processor)}{cache.SUFFIX}"
 
 
 class HelperCache:
@@ -128,7 +174,7 @@ class KernelLibrary(JITCodeLibrary):
 
     def new_helpers(self):
         """The helpers that are in no file yet, by their keys, as bytes."""
-        stored = stored_helpers(self._codegen)
+        stored = cache.stored_helpers(self._codegen)
         keys = {_key_of(each): each for each in self._linking_libraries}
         new = {key: each.stored() for key, each in keys.items() if key and key not in stored}
         stored |= new
