@@ -421,6 +421,6 @@ DRAWN: dict[str, Callable[..., Figure]] = {
 }
 
 
-def draw(inputs: Mapping[str, xr.DataTree], *, figure: str) -> Figure:
+def draw(*inputs: xr.DataTree, figure: str) -> Figure:
     """Draw a figure by its name."""
-    return DRAWN[figure](*(tree.to_dataset() for tree in inputs.values()))
+    return DRAWN[figure](*(tree.to_dataset() for tree in inputs))

@@ -425,14 +425,11 @@ HIGHEST = 1000.0
 
 
 class CasePlot(Kind):
-    """A figure of one named case, from one of its windows; drawn by a function that takes cases by name and `options`.
+    """A figure of one named case, from one of its windows; drawn by a function that takes the case and `options`.
 
     case : name of the case
     window : name of the window under the case's ``record.windows``
-    of_section : whether it shows the Poincaré section instead
     """
-
-    of_section: ClassVar[bool] = False
 
     case: str
     window: str
@@ -454,7 +451,7 @@ class CasePlot(Kind):
                 yield Fault.of(("window",), self.window, rule)
             elif isinstance(found, Window):
                 yield from self._misfits(found)
-            elif not self.of_section:
+            elif self.kind != "poincare":
                 yield Fault.of(("window",), self.window, "must be a window, not the Poincaré section")
 
     def _misfits(self, window: Window) -> Iterator[Fault]:
@@ -483,7 +480,6 @@ class Section(CasePlot):
     """The Poincaré sections of slider and disc: once a turn of the drive."""
 
     drawn_by = "paper.sections.sections"
-    of_section = True
 
     kind: Literal["poincare"] = "poincare"
     window: Literal["poincare"] = "poincare"

@@ -88,7 +88,7 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
             head(figure, study, plot)
         else:
             try:
-                figure = function(inputs, **plot.options)
+                figure = function(*inputs.values(), **plot.options)
             except Missing as reason:
                 figure, [ax] = panels(COLUMN, 2)
                 ax.set_axis_off()

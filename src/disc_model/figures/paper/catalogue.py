@@ -21,7 +21,7 @@ class Entry(NamedTuple):
     title : short title for lists
     caption : description; `caption` fills in numbers and adds the parameters
     needs : required windows, by case; the Poincaré section is named ``poincare``
-    plot : the drawing function, which takes cases by name, with its options
+    plot : the drawing function, which takes the cases of `needs`, with its options
     """
 
     section: str

@@ -5,7 +5,6 @@ harmonics of the angle. Twice their number and one of angles therefore determine
 shapes determine the rest.
 """
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -83,12 +82,11 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
 
 
-def instants(cases: Mapping[str, xr.DataTree]) -> Figure:
+def instants(case: xr.DataTree) -> Figure:
     """Draw the disc from above at four instants, and along its circle of radius r_0.
 
     They are equidistant from the first loss of contact to the next, or over the whole stretch without two losses.
     """
-    (case,) = cases.values()
     figure = new_figure(PAGE, 4.2)
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
     discs = above.subplots(1, 4)

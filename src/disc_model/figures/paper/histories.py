@@ -1,6 +1,6 @@
 """Variables against time, over a run or closer, and separations; figures 2, 3, 10, 11, 13 and 23 of the paper."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -14,11 +14,8 @@ from disc_model.figures import parts
 from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, panels
 
 
-def history(
-    cases: Mapping[str, xr.DataTree], *, window: str, variables: Sequence[str], until: float = np.inf
-) -> Figure:
+def history(case: xr.DataTree, *, window: str, variables: Sequence[str], until: float = np.inf) -> Figure:
     """Draw panels one above the other until a time in s; windows of ranges are drawn as bands."""
-    (case,) = cases.values()
     figure, axes = panels(COLUMN, 0.8 + 1.3 * len(variables), len(variables), sharex=True)
     found = dataset.group(case, window).sel(time=slice(None, until))
     if found.sizes["time"] < 2:  # the run ended before it
@@ -32,13 +29,13 @@ def history(
     return figure
 
 
-def with_and_without(cases: Mapping[str, xr.DataTree]) -> Figure:
+def with_and_without(separating: xr.DataTree, bonded: xr.DataTree) -> Figure:
     """Figure 10: range of the disc at r_0 and a fixed angle over the run, with bonded contact and with separation."""
     figure, [ax] = panels(COLUMN, 2.4)
-    ignored, separating = (parts.history(cases[name]) for name in ("F04", "F02"))
+    ignored, followed = parts.history(bonded), parts.history(separating)
     parts.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
-    parts.envelope(ax, separating, "w_point", label="with separation")
-    ax.set(xlabel="Time (s)", ylabel=parts.sampled("w_point", ignored, separating)[0])
+    parts.envelope(ax, followed, "w_point", label="with separation")
+    ax.set(xlabel="Time (s)", ylabel=parts.sampled("w_point", ignored, followed)[0])
     parts.headroom(ax, 0.25)
     ax.legend(loc="upper left")
     return figure
@@ -78,9 +75,8 @@ def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
     ax.set_ylabel("Displacement (mm)")
 
 
-def contact_force(cases: Mapping[str, xr.DataTree]) -> Figure:
+def contact_force(case: xr.DataTree) -> Figure:
     """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
-    case = cases["F02"]
     figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
     parts.show(whole, case, parts.history(case), "P")
     _show_zero(whole, case)
@@ -106,12 +102,11 @@ def _show_zero(ax: Axes, case: xr.DataTree) -> None:
         ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
 
 
-def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
+def one_separation(case: xr.DataTree) -> Figure:
     """Figure 3, slider and disc around one separation: (a) displacements from static equilibrium, (b) the gap.
 
     The paper shows (a); the gap is a hundredth of the motion and needs an axis of its own.
     """
-    case = cases["F02"]
     figure, axes = panels(COLUMN, 3.2, 2, sharex=True, height_ratios=(2, 1))
     both, gap = axes
     window = dataset.samples(case, "zoom")
@@ -132,9 +127,8 @@ def one_separation(cases: Mapping[str, xr.DataTree]) -> Figure:
     return figure
 
 
-def light_slider(cases: Mapping[str, xr.DataTree]) -> Figure:
+def light_slider(case: xr.DataTree) -> Figure:
     """Figure 23, slider and disc from static equilibrium; losses of contact are marked."""
-    case = cases["F23"]
     figure, [ax] = panels(COLUMN, 2.5)
     window, rest = dataset.samples(case, "zoom"), float(case["u_0"])
     found = complete_separations(window)

@@ -3,7 +3,7 @@
 The page docs/model.md shows the same drawing.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -25,9 +25,8 @@ OUTER = 1.2
 """Radius of the disc as drawn."""
 
 
-def schematic(cases: Mapping[str, xr.DataTree]) -> Figure:
+def schematic(case: xr.DataTree) -> Figure:
     """Draw the model of a case."""
-    (case,) = cases.values()
     return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
 
 

@@ -3,7 +3,7 @@
 Figures 4 to 9, 12, 14, 16 to 22, A1 and A2 of the paper.
 """
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -29,12 +29,11 @@ BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "s
 BY_HALVES = {"early": "first half", "later": "second half", "separated": "separated"}
 
 
-def sections(cases: Mapping[str, xr.DataTree], *, window: str = "poincare") -> Figure:
+def sections(case: xr.DataTree, *others: xr.DataTree, window: str = "poincare") -> Figure:
     """Draw (a) psi' over psi of the slider, (b) velocity over displacement of the disc at r_0 and a fixed angle.
 
-    The first case is shown; the axes of (a) fit the others too, so that figures of a pair can be compared.
+    The axes of (a) fit other cases too, so that figures of a pair can be compared.
     """
-    case, *others = cases.values()
     figure, [slider, disc] = panels(PAGE, 2.75, 1, 2)
     samples = dataset.samples(case, window, at_least=1)
     first, end = float(case["first_separation"]), float(case["time_reached"])
@@ -71,11 +70,8 @@ def _around(values: np.ndarray) -> tuple[float, float]:
     return low - margin, high + margin
 
 
-def portrait(
-    cases: Mapping[str, xr.DataTree], *, window: str = "orbit", x: str = "psi", y: str = "psi_velocity"
-) -> Figure:
+def portrait(case: xr.DataTree, *, window: str = "orbit", x: str = "psi", y: str = "psi_velocity") -> Figure:
     """Draw one variable over another in a window, coloured by phase."""
-    (case,) = cases.values()
     figure, [ax] = panels(COLUMN, 2.7)
     samples = dataset.samples(case, window)
     (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
@@ -94,10 +90,10 @@ def portrait(
     return figure
 
 
-def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
+def closures(*cases: xr.DataTree, titles: Sequence[str]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure, axes = panels(PAGE, 2.6, 1, len(cases), sharey=True)
-    for ax, case in zip(axes, cases.values(), strict=True):
+    for ax, case in zip(axes, cases, strict=True):
         events = dataset.events(case)
         released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
         counts = np.arange(1, (len(released) - 1) // 2 + 1)
@@ -108,6 +104,6 @@ def closures(cases: Mapping[str, xr.DataTree]) -> Figure:
         ax.plot(counts, differences, ".", color=BLACK, markersize=3)
         ax.set(xscale="log", yscale="log", xlabel="Releases n")
         ax.margins(0.04)
-    parts.letters(axes, cases)
+    parts.letters(axes, titles)
     axes[0].set_ylabel("Largest difference (s)")
     return figure

@@ -1,6 +1,6 @@
 """Spectra in time, and the vibrations that they are taken from; figures 24 to 29 of the paper."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import cmcrameri.cm as cmc
 import numpy as np
@@ -70,9 +70,8 @@ def spectrum(figure: FigureBase, ax: Axes, case: xr.DataTree, found: TimeFrequen
     colour_bar(figure, mesh, ax)
 
 
-def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: str, highest: float) -> Figure:
+def spectrogram_of(case: xr.DataTree, *, window: str, variable: str, highest: float) -> Figure:
     """Draw the spectrum in time of a variable of any case."""
-    (case,) = cases.values()
     figure, [ax] = panels(PAGE / 2, 2.7)
     spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
     ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
@@ -82,9 +81,8 @@ def spectrogram_of(cases: Mapping[str, xr.DataTree], *, window: str, variable: s
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
 
-def with_stretches(cases: Mapping[str, xr.DataTree], *, until: float = np.inf) -> Figure:
+def with_stretches(case: xr.DataTree, *, until: float = np.inf) -> Figure:
     """Figure 24: range of the disc's displacement at r_0 and a fixed angle, with the stretches of figure 25."""
-    case = cases["F13"]
     figure, [ax] = panels(PAGE, 2.2)
     for name in WINDOWS:
         start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
@@ -107,12 +105,11 @@ TABLE_2 = {
 """Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
-def four_stretches(cases: Mapping[str, xr.DataTree]) -> Figure:
+def four_stretches(case: xr.DataTree) -> Figure:
     """Figure 25: power of the disc's displacement at r_0 and a fixed angle over time and frequency, four stretches.
 
     The lower row is the same up to `CLOSE` Hz, with the lines of Table 2 named.
     """
-    case = cases["F13"]
     figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
     found = {name: spectrum_in_time(case, name, "w_point") for name in WINDOWS}
@@ -141,7 +138,7 @@ def _name_lines(ax: Axes) -> None:
 
 
 def response(
-    cases: Mapping[str, xr.DataTree],
+    case: xr.DataTree,
     *,
     variable: str,
     window: str,
@@ -157,7 +154,6 @@ def response(
     highest : mark the disc's highest natural frequency
     until : s, end of the part of the run that (a) shows
     """
-    (case,) = cases.values()
     figure = new_figure(PAGE, 2.7)
     left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
     letters = "cd"[: len(zooms)]
