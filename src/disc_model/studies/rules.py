@@ -22,18 +22,18 @@ def checked_rule(rule: str) -> str:
     """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
     if len(rule) > LONGEST:
         raise ValueError(f"must be at most {LONGEST} characters")
-    _tree(rule)
+    _compiled(rule)
     return rule
 
 
 def names_in(rule: str) -> frozenset[str]:
     """Names in a rule."""
-    return frozenset(node.id for node in ast.walk(_tree(rule)) if isinstance(node, ast.Name))
+    return frozenset(_compiled(rule).co_names)
 
 
 @cache
-def _tree(rule: str) -> ast.Expression:
-    """A rule as a tree of comparisons, with floats only: a whole number could repeat a word without end."""
+def _compiled(rule: str) -> CodeType:
+    """A rule of comparisons, with floats only: a whole number could repeat a word without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
         nodes = list(ast.walk(tree.body))
@@ -42,14 +42,9 @@ def _tree(rule: str) -> ast.Expression:
         for node in nodes:
             if isinstance(node, ast.Constant) and not isinstance(node.value, str):
                 node.value = number(node.value)
+        return compile(tree, "where", "eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError("must compare values in SI, without units, such as mu_k <= mu_s") from None
-    return tree
-
-
-@cache
-def _compiled(rule: str) -> CodeType:
-    return compile(_tree(rule), "where", "eval")
 
 
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
