@@ -273,7 +273,8 @@ class Strict(BaseModel):
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """Make the model from a mapping, with the same errors as the constructor."""
         if isinstance(obj, Mapping):
-            raise_faults([*faults_of_names(obj)])
+            if unnamed := [*faults_of_names(obj)]:
+                raise ParameterError(*unnamed)
             return cls(**obj)
         if isinstance(obj, cls):
             return obj
