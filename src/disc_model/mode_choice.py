@@ -75,7 +75,7 @@ def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
 
 
 def chosen_modes(p: Parameters, asked: ModeRequest) -> ModeChoice:
-    """The choice that is asked for: by motion the first candidate with which larger models agree.
+    """The requested choice: by a quantity of the motion, the first candidate with which larger models agree.
 
     Raises `DiscModelError` if there is none.
     """
