@@ -10,6 +10,7 @@ import numba
 import pytest
 
 import disc_model.engine
+from disc_model import Parameters, floquet
 from disc_model.engine import cache, event_loop
 from tests.processes import python, run
 
@@ -58,9 +59,36 @@ def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> su
     return run(sys.executable, script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
 
 
-def only(folder: Path) -> Path:
-    (path,) = folder.rglob("*.kernel")
-    return path
+@pytest.fixture(scope="module")
+def asked(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[list[str]], list[bytes]]:
+    """What four processes printed that asked for the same kernels, a line for each piece, and the code of `eighth`.
+
+    Before the second, `outer` was deleted, and `eighth`, whose helpers stay. Before the third, `twice` was cut short, and
+    `eighth` deleted and its helpers damaged. All pieces are in each process, since importing numba is most of its time.
+    """
+    folder = tmp_path_factory.mktemp("asked")
+    printed, codes = list[list[str]](), list[bytes]()
+
+    def the(name: str) -> Path:
+        (path,) = folder.rglob(name)
+        return path
+
+    def ask() -> None:
+        # `eighth` first: names in machine code count what was compiled before
+        printed.append(ask_for_a_kernel(folder, code=HELPED + KERNEL + OUTER).stdout.splitlines())
+        codes.append(cache.read(the("*.eighth.*.kernel"))[0][2][0])
+
+    ask()
+    the("*.outer.*.kernel").unlink()
+    the("*.eighth.*.kernel").unlink()
+    ask()
+    twice, helpers = the("*.twice.*.kernel"), the("*.helpers")
+    twice.write_bytes(twice.read_bytes()[: twice.stat().st_size // 2])
+    the("*.eighth.*.kernel").unlink()
+    helpers.write_bytes(helpers.read_bytes() + b"?")
+    ask()
+    ask()
+    return printed, codes
 
 
 def test_what_was_written_comes_back_and_any_damage_is_noticed(tmp_path: Path) -> None:
@@ -84,39 +112,21 @@ def test_a_file_of_another_kernel_is_not_taken(tmp_path: Path) -> None:
     assert cache.read(tmp_path / "b.kernel") is None
 
 
-def test_a_damaged_kernel_is_compiled_again(tmp_path: Path) -> None:
-    assert ask_for_a_kernel(tmp_path).stdout == "42 0\n"
-    assert ask_for_a_kernel(tmp_path).stdout == "42 1\n"
-    path = only(tmp_path / "cache")
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2])
-    assert ask_for_a_kernel(tmp_path).stdout == "42 0\n"
-    assert ask_for_a_kernel(tmp_path).stdout == "42 1\n"
+def test_a_damaged_kernel_is_compiled_again(asked: tuple[list[list[str]], list[bytes]]) -> None:
+    assert [lines[1] for lines in asked[0]] == ["42 0", "42 1", "42 0", "42 1"]
 
 
-def test_a_kernel_is_compiled_against_one_from_the_cache(tmp_path: Path) -> None:
+def test_a_kernel_is_compiled_against_one_from_the_cache(asked: tuple[list[list[str]], list[bytes]]) -> None:
     """As when one of two was compiled before an interruption: the file held a stub, and calling it crashed."""
-    phrase = [ask_for_a_kernel(tmp_path, code=OUTER).stdout]
-    for path in (tmp_path / "cache").rglob("*outer*.kernel"):
-        path.unlink()
-    # the last has the kernel that was compiled against the other one from the cache as well
-    phrase += [ask_for_a_kernel(tmp_path, code=OUTER).stdout for _ in range(2)]
-    assert phrase == ["6.875 7.875\n"] * 3
+    # the last two have the kernel that was compiled against the other one from the cache as well
+    assert [lines[2] for lines in asked[0]] == ["6.875 7.875"] * 4
 
 
-def test_a_kernel_is_linked_with_the_helpers_of_earlier_ones(tmp_path: Path) -> None:
+def test_a_kernel_is_linked_with_the_helpers_of_earlier_ones(asked: tuple[list[list[str]], list[bytes]]) -> None:
     """The machine code is the same as if they were compiled again, which they are if their file is damaged."""
-    made = [ask_for_a_kernel(tmp_path, code=HELPED).stdout]
-    kernel = only(tmp_path / "cache")
-    (helpers,) = kernel.parent.glob("*.helpers")
-    codes = [cache.read(kernel)[0][2][0]]
-    for damage in (b"", b"?"):
-        kernel.unlink()
-        helpers.write_bytes(helpers.read_bytes() + damage)
-        made.append(ask_for_a_kernel(tmp_path, code=HELPED).stdout)
-        codes.append(cache.read(kernel)[0][2][0])
-    assert made == ["8.0 1\n", "8.0 0\n", "8.0 1\n"]
-    assert codes[1:] == codes[:1] * 2
+    printed, codes = asked
+    assert [lines[0] for lines in printed] == ["8.0 1", "8.0 0", "8.0 1", "8.0 0"]
+    assert codes[1:] == codes[:1] * 3
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:
@@ -173,8 +183,8 @@ event.register("numba:compile", Told())
 dm.simulate(p, 0.1)
 dm.floquet(p)
 """
-    for _ in range(2):
-        done = python(code)
+    floquet(Parameters(N=385, Omega=15))  # compiles them where the cache has none
+    done = python(code)
     assert not done.stdout
     assert not done.stderr  # kernels from the cache are no news
     assert Path(event_loop.run.stats.cache_path).name.startswith("engine-")

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import instruction_sets
+from tests import THREADS, instruction_sets
 from tests.processes import python
 from tests.workflow.conftest import Project
 
@@ -22,8 +22,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 def test_one_and_two_cores(project: Project, finished: Project) -> None:
     project.forget()
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-    replace(project, variables=threads).complete("-j1")
+    replace(project, variables=dict.fromkeys(THREADS, "2")).complete("-j1")
     assert project.products() == finished.products()
 
 
