@@ -63,8 +63,8 @@ def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> su
 def asked(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[list[str]], list[bytes]]:
     """What four processes printed that asked for the same kernels, a line for each piece, and the code of `eighth`.
 
-    Before the second, `outer` was deleted, and `eighth`, whose helpers stay. Before the third, `twice` was cut short, and
-    `eighth` deleted and its helpers damaged. All pieces are in each process, since importing numba is most of its time.
+    Before the second, `outer` was deleted, and `eighth`, whose helpers stay. Before the third, `twice` was cut short,
+    and `eighth` deleted and its helpers damaged. All pieces are in each process: importing numba is most of its time.
     """
     folder = tmp_path_factory.mktemp("asked")
     printed, codes = list[list[str]](), list[bytes]()

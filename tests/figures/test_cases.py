@@ -40,9 +40,15 @@ def simulated(separates: bool) -> xr.DataTree:
     return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, record=record).to_tree(list(RECORDED))
 
 
-def whole_case(*, separates: bool = True) -> xr.DataTree:
+@functools.cache
+def holding_less(damage: str) -> xr.DataTree:
+    """The same, damaged."""
+    return damaged(simulated(True), DAMAGES[damage])
+
+
+def whole_case() -> xr.DataTree:
     """To be changed."""
-    return simulated(separates).copy(deep=True)
+    return simulated(True).copy(deep=True)
 
 
 OPTIONS = {
@@ -58,7 +64,7 @@ def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
 
 
 def draw(name: str, *, separates: bool = True) -> Figure:
-    return drawn(name, {case: whole_case(separates=separates) for case in CATALOGUE[name].cases})
+    return drawn(name, dict.fromkeys(CATALOGUE[name].cases, simulated(separates)))
 
 
 def said_in(figure: Figure) -> list[str]:
@@ -93,7 +99,7 @@ def test_figures_name_their_quantities_and_units_legibly_at_print_size(name: str
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
     """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
-    figure = drawn(name, {case: damaged(whole_case(), DAMAGES[damage]) for case in CATALOGUE[name].cases})
+    figure = drawn(name, dict.fromkeys(CATALOGUE[name].cases, holding_less(damage)))
     figure.draw_without_rendering()
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
@@ -138,14 +144,14 @@ def test_two_angles_are_both_named() -> None:
 
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **phrase})
-    return parts.draw(plot, {"A": whole_case() if case is None else case})
+    return parts.draw(plot, {"A": simulated(True) if case is None else case})
 
 
 def test_a_history_has_a_panel_for_each_variable() -> None:
     figure = asked("history", window="spectrum_c", variables=["w_point", "psi"], title="Seen")
     assert figure.get_suptitle() == "Seen\nN = 385 N, Ω = 15.1 rad/s"
     top, bottom = figure.axes
-    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * whole_case()["spectrum_c/w_point"].values)  # mm
+    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * simulated(True)["spectrum_c/w_point"].values)  # mm
     assert bottom.get_ylabel() == "Angle ψ (rad)"
     assert "first separation 54.42 s" in said_in(figure)
     ranges = asked("history", window="history", variables=["P", "psi"])
@@ -166,7 +172,7 @@ def test_portraits_and_sections_show_all_samples() -> None:
     assert labels(ax) == ["stick", "slip", "separation"]
     slider, disc = asked("poincare").axes
     shown = sum(len(collection.get_offsets()) for collection in slider.collections)
-    assert shown == whole_case()["poincare"].sizes["time"]
+    assert shown == simulated(True)["poincare"].sizes["time"]
     assert disc.get_xlabel().startswith("Disc at")
 
 
@@ -184,7 +190,7 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":
-        early = damaged(whole_case(), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
+        early = damaged(simulated(True), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
         assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase)))
 
 
@@ -314,7 +320,7 @@ def test_what_does_not_determine_the_disc_is_said(case: xr.DataTree) -> None:
 
 def test_a_film_moves(tmp_path: Path) -> None:
     path = tmp_path / "film.webp"
-    film(whole_case(), path, frames=3)
+    film(simulated(True), path, frames=3)
     with Image.open(path) as picture:
         assert picture.n_frames >= 3
     assert path.stat().st_size < 100_000
