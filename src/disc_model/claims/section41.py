@@ -188,26 +188,14 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
     return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found)
 
 
-def can_be_very_different(*cases: CaseView, factor: float) -> Answer:
-    """Whether both the fraction of stick and the range of the disc differ in one pair, which decides 'can be'."""
-    rows = _with_stick([case for case in cases if case.from_rest], factor)
-    return Answer(any(row["narrower"] and row["otherwise"] for row in rows), pairs=rows)
-
-
-def _with_stick(cases: Sequence[CaseView], factor: float) -> list[dict[str, Any]]:
-    """`_ranges`, and whether the range and the late share of stick differ by a factor."""
-    rows = _ranges(cases)
+def very_different(*cases: CaseView, factor: float, ways: float, part: float = 0.0) -> Answer:
+    """Whether pairs differ in one or both ``ways``, the share of stick and the range of the disc: that part, or one."""
+    rows = _ranges([case for case in cases if case.from_rest])
     for row in rows:
         shares = row["case"].stick, row["bonded"].stick
-        row |= {"narrower": row["ratio"] * factor <= 1, "otherwise": max(shares) >= factor * min(shares)}
-    return rows
-
-
-def often_very_different(*cases: CaseView, factor: float, part: float) -> Answer:
-    """Whether the fraction of stick or the range of the disc differs in that part of the pairs; it decides 'often'."""
-    rows = _with_stick(cases, factor)
-    count = sum(row["narrower"] or row["otherwise"] for row in rows)
-    return Answer(count >= part * len(rows), pairs=rows, count=count, of=len(rows))
+        row["ways"] = (row["ratio"] * factor <= 1) + (max(shares) >= factor * min(shares))
+    count = sum(row["ways"] >= ways for row in rows)
+    return Answer(count >= max(1, part * len(rows)), pairs=rows, count=count, of=len(rows))
 
 
 def should_be_considered(*cases: CaseView) -> Answer:

@@ -50,7 +50,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     return Answer(None if again else holds, "again", step=scan[1] - scan[0], horizon=horizon, **values)
 
 
-def very_different(below: CaseView, above: CaseView, *, factor: float) -> Answer:
+def wider_force_range(below: CaseView, above: CaseView, *, factor: float) -> Answer:
     rows = [{"case": case, "motion": case.late_motion()} for case in (below, above)]
     return Answer(factor * below.late.width < above.late.width, motions=rows)
 

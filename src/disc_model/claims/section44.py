@@ -297,7 +297,7 @@ def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Ans
         count=len(found),
         rate=rate,
         further=len(further),
-        seen=[f"{line.frequency:.2f} Hz ({line.amplitude / strongest:.2g})" for line in further] or ["none"],
+        seen=[f"{line.frequency:.2f} Hz ({line.amplitude / strongest:.2g})" for line in further],
         weak=len(every) - len(further),
         mainly=second < 0.5,
         second=second,

@@ -131,10 +131,7 @@ def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], 
 def fold(found: Evidence, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(found.grid("survival_curves"), load)))
     highs, width = _beginnings(found.grid("survival_speed"), load)
-    speeds = {
-        "folds": [f"{speed:.3f}" for speed in folds] or ["none"],
-        "begins": [f"{v:.1f}" for v in highs] or ["none"],
-    }
+    speeds = {"folds": folds, "begins": highs}
     if not highs.size:
         return Answer(None, "no_speed", growth=[], **speeds)
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]

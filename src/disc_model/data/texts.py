@@ -36,7 +36,7 @@ UNITS = {"%": 100, "mm": 1e3, "ms": 1e3, "GPa": 1e-9}
 class Sentences(string.Formatter):
     """`str.format` that also takes units, see `UNITS`, and lists.
 
-    Lists of numbers are formatted as one, ``{values:.2f}``, and lists of rows by the part of their name.
+    Lists of numbers are formatted as one, ``{values:.2f}``, or as "none", and lists of rows by the part of their name.
     """
 
     def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
@@ -56,7 +56,7 @@ class Sentences(string.Formatter):
 
     def format_field(self, value: Any, spec: str) -> str:
         if isinstance(value, list | np.ndarray):
-            return ", ".join(self.format_field(each, spec) for each in value)
+            return ", ".join(self.format_field(each, spec) for each in value) or "none"
         own, _, unit = spec.rpartition(" ")
         return f"{format(UNITS[unit] * value, own)} {unit}" if unit in UNITS else format(value, spec)
 
