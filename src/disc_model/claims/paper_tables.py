@@ -1,7 +1,5 @@
 """Tables 1 and 2 of the paper: its values and ours, with the origin of every line of Table 2."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 import yaml
@@ -16,11 +14,12 @@ from disc_model.parameters import Parameters
 TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]
 """Base values of the paper, SI units."""
-TABLE_2: dict[str, tuple[float, str]] = {
-    symbol: (value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()
-}
-"""Frequency in Hz and attribution in the paper, by symbol."""
-LISTED = tuple(value for value, _ in TABLE_2.values())
+TABLE_2 = pd.DataFrame(
+    [(symbol, value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()],
+    columns=["symbol", "paper_Hz", "paper_says"],
+)
+COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
+LISTED = tuple(TABLE_2["paper_Hz"])
 SEARCHED = 2.0
 """Search width about a frequency of Table 2, Hz; a quarter of it about the drive's."""
 COMBINED = 0.3
@@ -48,12 +47,12 @@ def table_2(case: CaseView) -> pd.DataFrame:
     """
     rate, found = stick_slip_rate(case), table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, case.drive) for line in found]
-    return _beside_the_papers(
+    return TABLE_2.assign(
         ours_Hz=[line.frequency for line in found],
         level_dB=[20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
         ours_is=[str(name) if abs(name.deviation) <= COMBINED else UNNAMED for name in names],
         predicted_Hz=[name.frequency for name in names],
-    )
+    )[COLUMNS]
 
 
 def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
@@ -61,13 +60,7 @@ def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
     try:
         return table_2(case), ""
     except Missing as reason:
-        nothing = _beside_the_papers(ours_Hz=np.nan, level_dB=np.nan, ours_is="", predicted_Hz=np.nan)
-        return nothing, f"Not computed: {reason}."
-
-
-def _beside_the_papers(**ours: Sequence[float] | Sequence[str] | float | str) -> pd.DataFrame:
-    table = pd.DataFrame({"symbol": list(TABLE_2), "paper_Hz": LISTED})
-    return table.assign(**ours, paper_says=[text for _, text in TABLE_2.values()])
+        return TABLE_2.reindex(columns=COLUMNS), f"Not computed: {reason}."
 
 
 def table_2_lines(case: CaseView) -> list[spectra.Line]:

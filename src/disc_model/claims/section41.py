@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import closure, irregularity, stick_disappears
+from disc_model.analysis.classify import closure, irregularity
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import energy, measures
 from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
@@ -82,10 +82,6 @@ def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
 
 def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
     return Answer(min(case.stick for case in cases) > share)
-
-
-def stick_is_gone(case: CaseView, *, share: float) -> Answer:
-    return Answer(stick_disappears(case.stick_in_all, case.stick, share))
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
@@ -189,7 +185,7 @@ def trajectory_changes(*cases: CaseView, share: float) -> Answer:
 
 
 def very_different(*cases: CaseView, factor: float, ways: float, part: float = 0.0) -> Answer:
-    """Whether pairs differ in one or both ``ways``, the share of stick and the range of the disc: that part, or one."""
+    """Whether that part of the pairs, or one, differs by a factor in so many ``ways``: range of the disc, stick."""
     rows = _ranges([case for case in cases if case.from_rest])
     for row in rows:
         shares = row["case"].stick, row["bonded"].stick

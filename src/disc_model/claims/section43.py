@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import irregularity, separation_location
+from disc_model.analysis.classify import irregularity, separation_location, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.claims import measures
 from disc_model.claims.disc import BASE, moving_load_speed
@@ -415,7 +415,8 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     begun = [case for case in cases if case.from_rest]
-    return Answer(min(case.stick for case in begun) <= share, shares=measures.rows(begun))
+    vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in begun)
+    return Answer(vanishes, shares=measures.rows(begun))
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:

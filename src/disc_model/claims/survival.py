@@ -57,11 +57,6 @@ class Evidence:
             raise Missing(f"study {name} has nothing of this model")
         return self.grids[name]
 
-    def pairs(self) -> list[tuple[CaseView, CaseView]]:
-        """Cases that separate, each with the case that ignores separation."""
-        ignored = [case for case in self.cases if case.bonded]
-        return measures.pairs([*self.separating(), *ignored])
-
     def separating(self) -> list[CaseView]:
         """Cases that lose contact; raises `Missing` if one did not reach its end."""
         for case in self.cases:
@@ -196,7 +191,8 @@ def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
 def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
     smaller: list[bool | None] = []
     rows = []
-    for free, bonded in found.pairs():
+    ignored = [case for case in found.cases if case.bonded]
+    for free, bonded in measures.pairs([*found.separating(), *ignored]):
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
         settled = fourth <= (1 + wider) * third

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from cmcrameri import cm
 from matplotlib.colors import to_hex
-from PIL import Image
+from PIL import Image, ImageOps
 
 from disc_model.figures.parts import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
 
@@ -90,8 +90,7 @@ def gallery(pictures: Sequence[Picture]) -> str:
 def embedded(file: Path) -> str:
     """A picture, reduced in size, as a data URL."""
     with Image.open(file) as picture:
-        size = (round(picture.width * PICTURE_WIDTH / PAGE_WIDTH), round(picture.height * PICTURE_WIDTH / PAGE_WIDTH))
-        small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+        small = ImageOps.scale(picture.convert("RGB"), PICTURE_WIDTH / PAGE_WIDTH, Image.Resampling.LANCZOS)
     buffer = io.BytesIO()
     small.save(buffer, "WEBP", quality=QUALITY, method=6)
     return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
