@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from disc_model.studies.study import GridStudy, Study
 
     Grids = dict[str, GridStudy]
-    Rows = Iterator[tuple[str, ...]]
 
 PACKAGE = Path(__file__).resolve().parents[1]
 INTERRUPTED = 130
@@ -65,12 +64,10 @@ def list_(
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
     chosen, grids = _read(files)
     if what == "outdated":
-        states = _summary(files, directory)
-        outdated = [f"{file}: {status}" for file, status in states.items() if status is not None]
-        typer.echo("\n".join([*outdated, f"{len(outdated)} of {len(states)} files are missing or out of date"]))
+        typer.echo(_outdated(files, directory))
         return
-    rows, heads = LISTS[what]
-    Console().print(table(f"{what} of {chosen.name}", heads, rows(chosen, grids), overflow="fold"))
+    heads, rows = _listed(what, chosen, grids)
+    Console().print(table(f"{what} of {chosen.name}", heads, rows, overflow="fold"))
 
 
 def init(
@@ -163,43 +160,33 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
     return chosen, {name: grids[name] for name in asked}
 
 
-def _studies(chosen: Study, grids: Grids) -> Rows:
-    for name, grid in grids.items():
-        yield name, grid.quantity, " x ".join(grid.values), str(grid.n_points), grid.title
-
-
-def _figures(chosen: Study, grids: Grids) -> Rows:
+def _listed(what: str, chosen: Study, grids: Grids) -> tuple[tuple[str, ...], Sequence[tuple[str, ...]]]:
+    """Heads and rows of a table of the grid studies, figures or cases."""
+    from disc_model.data.variables import values_text
     from disc_model.figures.paper.catalogue import CATALOGUE
 
-    for name in chosen.figures:
-        yield name, "paper", CATALOGUE[name].title
-    for name, plot in chosen.plots.items():
-        yield name, plot.kind, plot.title or plot.case
+    if what == "studies":
+        heads = ("study", "quantity", "dimensions", "points", "title")
+        each = grids.values()
+        return heads, [(one.name, one.quantity, " x ".join(one.values), str(one.n_points), one.title) for one in each]
+    if what == "cases":
+        parameters = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
+        cases = [(name, case.title, parameters[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
+        return ("case", "title", "parameters", "t_end (s)"), cases
+    figures = [(name, "paper", CATALOGUE[name].title) for name in chosen.figures]
+    figures += [(name, plot.kind, plot.title or plot.case) for name, plot in chosen.plots.items()]
     for grid in grids.values():
-        for name, shown in grid.plots.items():
-            yield name, shown.kind, shown.title or grid.title
+        figures += [(name, plot.kind, plot.title or grid.title) for name, plot in grid.plots.items()]
+    return ("figure", "kind", "title"), figures
 
 
-def _cases(chosen: Study, grids: Grids) -> Rows:
-    from disc_model.data.variables import values_text
-
-    for name, case in chosen.cases.items():
-        yield name, case.title, values_text(dict(chosen.specs[name].parameters)), f"{case.t_end:g}"
-
-
-LISTS = {
-    "studies": (_studies, ("study", "quantity", "dimensions", "points", "title")),
-    "figures": (_figures, ("figure", "kind", "title")),
-    "cases": (_cases, ("case", "title", "parameters", "t_end (s)")),
-}
-
-
-def _summary(files: Sequence[Path], directory: Path) -> dict[str, str | None]:
-    """The files of a study and, of those that a run would compute, the status; according to Snakemake."""
+def _outdated(files: Sequence[Path], directory: Path) -> str:
+    """The files of a study that a run would compute, a line each, and their number; according to Snakemake."""
     command = _command(files, ["--summary", "--directory", str(directory)])
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
     rows = [dict(zip(head, line, strict=False)) for line in lines]
-    return {row["output_file"]: None if row["plan"] == "no update" else row["status"] for row in rows}
+    found = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
+    return "\n".join([*found, f"{len(found)} of {len(rows)} files are missing or out of date"])
