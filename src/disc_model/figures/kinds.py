@@ -8,10 +8,9 @@ from pydantic import Field
 
 from disc_model.data.variables import PERTURBATIONS, SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.parameters import RATIOS, Parameters, Positive, Real, Strict, Title, Unit, Units
+from disc_model.parameters import RATIOS, Finite, Parameters, Positive, Strict, Title, Unit, Units
 from disc_model.simulation.case import Poincare, Window
 
-Number = Annotated[Real, Field(allow_inf_nan=False)]
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""
 NORM = "normalization"
@@ -129,8 +128,8 @@ class Plot(Kind):
 class Mark(Strict):
     """A case of the paper: where it lies, and what the paper says of it."""
 
-    x: Number
-    y: Number
+    x: Finite
+    y: Finite
     paper_outcome: Literal["quiet", "growing", "separation"]
 
 
@@ -195,7 +194,7 @@ class CriticalSpeed(Plot):
     }
 
     kind: Literal["critical_speed"] = "critical_speed"
-    paper_points: dict[str, tuple[Number, Number]] = Field({})
+    paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
 
 class Thresholds(CriticalSpeed):
@@ -234,7 +233,7 @@ class Bifurcation(Plot):
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
-    paper_cases: Annotated[dict[str, Number], Unit(of="x")] = Field({})
+    paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})
 
 
 class Branches(Plot):
@@ -247,7 +246,7 @@ class Branches(Plot):
     quantities = ("branches",)
 
     kind: Literal["branches"] = "branches"
-    paper_cases: dict[str, Number] = Field({})
+    paper_cases: dict[str, Finite] = Field({})
 
 
 class BasinShares(Plot):
@@ -323,7 +322,7 @@ class General(Plot):
 
     variable: str
     x: str
-    at: Annotated[dict[str, Number | str], Unit({name: Parameters.unit(name) for name in Parameters.model_fields})] = (
+    at: Annotated[dict[str, Finite | str], Unit({name: Parameters.unit(name) for name in Parameters.model_fields})] = (
         Field({})
     )
     by: str | None = None
@@ -406,7 +405,7 @@ class CurvePlot(General):
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"
-    limits: tuple[Number, Number] | None = None
+    limits: tuple[Finite, Finite] | None = None
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -93,9 +93,7 @@ def number_of(name: str) -> str:
 
 def label(name: str) -> str:
     """Number and title, for lists sorted as text: numbers of one digit follow two spaces to come first."""
-    number = number_of(name)
-    spaced = number.replace(" ", "  ") if len(number) == len("Fig. 1") else number
-    return f"{spaced}: {CATALOGUE[name].title}"
+    return f"Fig. {number_of(name).removeprefix('Fig. '):>2}: {CATALOGUE[name].title}"
 
 
 def caption(name: str, parameters: Mapping[str, Parameters], windows: Mapping[str, Recorded] | None = None) -> str:
