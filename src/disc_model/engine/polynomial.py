@@ -7,6 +7,7 @@ of roots from above: none means no root, one means exactly one. With more the in
 """
 
 import numpy as np
+from scipy.special import comb
 
 from .compile import helper, inlined
 from .layout import ROWS
@@ -20,21 +21,13 @@ _SMALL, _STRAIGHT = 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
 
 
-def _binomials():
-    """Pascal's triangle: j over i at [i, j], shape (ROWS, ROWS)."""
-    choose = np.zeros((ROWS, ROWS))
-    choose[0] = 1.0
-    for j in range(1, ROWS):
-        choose[1:, j] = choose[1:, j - 1] + choose[:-1, j - 1]
-    return choose
-
-
-# Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
-_CHOOSE = _binomials().ravel()
-_ONE_OVER_CHOOSE = np.divide(1.0, _binomials().T, out=np.zeros((ROWS, ROWS)), where=_binomials().T > 0.0).ravel()
 _MOST_HALVINGS = 20
-_HALVES = 0.5 ** np.arange(ROWS)
 _COUNT = np.arange(float(ROWS))
+_HALVES = 0.5**_COUNT
+_BINOMIALS = np.rint(comb(_COUNT, _COUNT[:, None]))  # j over i at [i, j], exactly
+# Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
+_CHOOSE = _BINOMIALS.ravel()
+_ONE_OVER_CHOOSE = np.divide(1.0, _BINOMIALS.T, out=np.zeros((ROWS, ROWS)), where=_BINOMIALS.T > 0.0).ravel()
 _ONES = np.repeat([1.0, 0.0], ROWS)
 
 
