@@ -11,7 +11,7 @@ from .compile import helper, inlined, kernel
 from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
 from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK
 from .simd import WIDTH, fma, load, mul, splat, store, sub, total
-from .tangent import N_SCALARS, n_inputs, n_rows_of, point_change, slider_row
+from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import disc_point, event_function, instant
 
 
@@ -77,7 +77,7 @@ def _put_changes(model, state, t, x, c, changes):
 
     changes : whether columns change parameters
     """
-    at, q, slider = c * n_rows_of(model), c * n_inputs(model), c * n_rows_of(model) + slider_row(model, 0) * WIDTH
+    at, q, slider = c * t.rows, c * t.inputs, c * t.rows + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
     _, _, dw_dtheta = disc_point(model, state)
@@ -142,13 +142,12 @@ def event_times(model, state, t, cause):
 
 
 @helper
-def shift(model, t, rates_at, sign):
+def shift(t, rates_at, sign):
     """t.now += sign * rates * tau."""
-    R = n_rows_of(model)
     for c in range(0, t.columns, WIDTH):
         tau = load(t.tau, c)
-        for r in range(R):
-            at = c * R + r * WIDTH
+        for r in range(t.rows):
+            at = c * t.rows + r * WIDTH
             store(t.now, at, fma(splat(sign * rates_at[r * WIDTH]), tau, load(t.now, at)))
 
 
@@ -163,7 +162,7 @@ def impact_change(model, state, t):
         _set_derivative(model, i, t, 1, entry, f)
     for c in range(0, t.columns, WIDTH):
         _put_changes(model, state, t, t.now, c, c >= t.plain)
-        block, dp = c * n_rows_of(model), _change(t, 0)
+        block, dp = c * t.rows, _change(t, 0)
         store(t.now, block + slider_row(model, tangent.F_ROW) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
@@ -178,7 +177,7 @@ def slider_rows(model, state, t):
     """Rows of the slider that follow from the others in contact: u, u' if it is rigid, and df = 0 in stick, exactly."""
     _, _, B = disc_point(model, state)
     for c in range(0, t.columns, WIDTH):
-        block = c * n_rows_of(model)
+        block = c * t.rows
         if not model.compliant:
             du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
             store(t.now, block + slider_row(model, tangent.U_ROW) * WIDTH, du)

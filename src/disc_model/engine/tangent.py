@@ -49,6 +49,8 @@ class Tangent(NamedTuple):
     base_dw_dtheta: np.ndarray  # [order], B of the motion
     columns: int
     plain: int  # columns before this one carry no change of a parameter
+    rows: int  # of a column
+    inputs: int  # rows of ``parameters``
 
 
 def longest_step(order: int, tolerance: float) -> float:
@@ -66,39 +68,28 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, order_size = n_rows(model), (order + 2) * columns
+    inputs = N_SCALARS + rows - N_SLIDER_ROWS
     arrays = aligned_pieces(
-        order_size * rows, order_size, order_size, rows * columns, (N_SCALARS + rows - N_SLIDER_ROWS) * columns,
+        order_size * rows, order_size, order_size, rows * columns, inputs * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
-    return Tangent._make((*arrays, columns, plain))
+    return Tangent._make((*arrays, columns, plain, rows, inputs))
 
 
 @inlined
 def slider_row(model, row):
-    """Index of a slider's row, ``PSI_ROW`` to ``V_ROW``, in a column; ``N_SLIDER_ROWS`` gives the length of columns."""
+    """Index of a slider's row, ``PSI_ROW`` to ``V_ROW``, in a column."""
     return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + row
 
 
 @inlined
-def n_rows_of(model):
-    """As ``n_rows``, inside kernels."""
-    return slider_row(model, N_SLIDER_ROWS)
-
-
-@inlined
-def n_inputs(model):
-    """Number of rows of ``Tangent.parameters``."""
-    return N_SCALARS + slider_row(model, 0)
-
-
-@inlined
-def _convolve(s, t, origin, R, k, j, width, f_row):
+def _convolve(s, t, origin, k, j, width, f_row):
     """Order k of f dx + df x for a, b, alpha, beta of the pair whose a is lane j."""
     zero = splat(0.0)
     a0, b0, p0, q0, a1, b1, p1, q1 = zero, zero, zero, zero, zero, zero, zero, zero
-    a, b = origin + (k * R + j) * WIDTH, origin + (k * R + j + HALF) * WIDTH
+    a, b = origin + (k * t.rows + j) * WIDTH, origin + (k * t.rows + j + HALF) * WIDTH
     p, q = a + width * WIDTH, b + width * WIDTH
-    at, low, stride = origin + f_row * WIDTH, k * width + j, R * WIDTH
+    at, low, stride = origin + f_row * WIDTH, k * width + j, t.rows * WIDTH
     for i in range(k + 1):
         f, df = spread(s.f, i), load(t.series, at)
         a0, b0 = fma(f, load(t.series, a), a0), fma(f, load(t.series, b), b0)
@@ -130,14 +121,14 @@ def point_change(model, x, at, f, B):
 
 
 @inlined
-def _diametral_rates(model, s, t, block, k, phase, R):
+def _diametral_rates(model, s, t, block, k, phase):
     """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final.
 
     Returns their share of d(u'') and dB of order k + 1 (lanes).
     """
-    width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * R * WIDTH
-    f_row, q = slider_row(model, F_ROW), block * n_inputs(model) * WIDTH
-    here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+    width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * t.rows * WIDTH
+    f_row, q = slider_row(model, F_ROW), block * t.inputs * WIDTH
+    here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
     up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
@@ -148,7 +139,7 @@ def _diametral_rates(model, s, t, block, k, phase, R):
             rate_p, rate_q = fma(stiffness, da, mul(damping, dp)), fma(stiffness, db, mul(damping, dq))
             if phase != STICK:
                 l = splat(model.shift[j])
-                fa, fb, fp, fq = _convolve(s, t, origin, R, k, j, width, f_row)
+                fa, fb, fp, fq = _convolve(s, t, origin, k, j, width, f_row)
                 dp, dq = fma(l, fb, dp), sub(dq, mul(l, fa))
                 rate_p, rate_q = fma(l, fq, rate_p), sub(rate_q, mul(l, fp))
             if block * WIDTH >= t.plain:
@@ -167,10 +158,11 @@ def _diametral_rates(model, s, t, block, k, phase, R):
 
 
 @inlined
-def _axisymmetric_rates(model, s, t, block, k, R):
+def _axisymmetric_rates(model, s, t, block, k):
     """As ``_diametral_rates`` for the modes without nodal diameter.  Returns their share of d(u'')."""
-    width, n0, origin = len(model.mode_amplitude), len(model.mode_amplitude0), block * len(t.base_dw_dtheta) * R * WIDTH
-    q, here, there = block * n_inputs(model) * WIDTH, origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
+    width, n0, q = len(model.mode_amplitude), len(model.mode_amplitude0), block * t.inputs * WIDTH
+    here = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
+    there = here + t.rows * WIDTH
     up, free = splat(s.up[k]), splat(0.0)
     for j in range(n0):
         y, g = 2 * width + j, 2 * width + n0 + j
@@ -189,7 +181,7 @@ def _axisymmetric_rates(model, s, t, block, k, R):
 @inlined
 def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
     """Changes of order k of F, of the vertical force without m u'', and of psi' (lanes)."""
-    q = block * n_inputs(model) * WIDTH
+    q = block * t.inputs * WIDTH
     pull = sub(mul(splat(model.k_p), dpsi), mul(splat(model.c_p), df))
     vertical = fma(splat(model.k), du, mul(splat(model.c), dv))
     turn = sub(splat(0.0), df)
@@ -210,14 +202,16 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 
 
 @inlined
-def _path_change(s, t, block, k, R, f_row):
+def _path_change(s, t, block, k, f_row):
     """Change of f B without f'_k B_0, order k + 1: the contribution of the disc's slope to d(u') (lanes)."""
     orders = len(t.base_dw_dtheta)
-    origin, chain = block * orders * R * WIDTH, block * orders * WIDTH
+    origin, chain = block * orders * t.rows * WIDTH, block * orders * WIDTH
     carried = mul(splat(s.f[k + 1]), load(t.dw_dtheta, chain))
     for i in range(k + 1):
         carried = fma(splat(s.f[i]), load(t.dw_dtheta, chain + (k + 1 - i) * WIDTH), carried)
-        carried = fma(splat(t.base_dw_dtheta[k + 1 - i]), load(t.series, origin + (i * R + f_row) * WIDTH), carried)
+        carried = fma(
+            splat(t.base_dw_dtheta[k + 1 - i]), load(t.series, origin + (i * t.rows + f_row) * WIDTH), carried
+        )
     return carried
 
 
@@ -233,9 +227,9 @@ def _leverage_change(model, s, t, block, k):
 
 
 @inlined
-def _compliant_change(model, s, t, block, k, R, friction):
+def _compliant_change(model, s, t, block, k, friction):
     """Change of V = (w - u) / compliance of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
-    at = (block * len(t.base_dw_dtheta) + k) * R * WIDTH
+    at = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
     compression = sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH))
     change = mul(splat(1.0 / model.compliance), compression)
@@ -244,13 +238,13 @@ def _compliant_change(model, s, t, block, k, R, friction):
         if model.normal:
             for i in range(k + 1):
                 V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
-        d_give = load(t.parameters, block * n_inputs(model) * WIDTH + D_COMPLIANCE * WIDTH)
+        d_give = load(t.parameters, block * t.inputs * WIDTH + D_COMPLIANCE * WIDTH)
         change = sub(change, mul(splat(V), d_give))
     return change
 
 
 @inlined
-def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, vertical, pull):
+def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
     """Changes of order k of the contact force (P or R), of V and of f' (lanes), for laws other than the paper's.
 
     friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
@@ -260,7 +254,7 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
     if model.normal:
         h = _leverage_change(model, s, t, block, k)
     if model.compliant:
-        V = _compliant_change(model, s, t, block, k, R, friction)
+        V = _compliant_change(model, s, t, block, k, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
     else:
         top = fma(splat(t.base_dw_dtheta[0]), pull, fma(splat(model.m), free, vertical))
@@ -273,10 +267,10 @@ def _forces_in_slip(model, s, t, block, k, R, friction, denominator, free, verti
 
 
 @inlined
-def _apply_force(model, s, t, block, k, R, P):
+def _apply_force(model, s, t, block, k, P):
     """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
     width, n0, up = len(model.mode_amplitude), len(model.mode_amplitude0), splat(s.up[k])
-    there = (block * len(t.base_dw_dtheta) + k + 1) * R * WIDTH
+    there = (block * len(t.base_dw_dtheta) + k + 1) * t.rows * WIDTH
     for j in range(width):
         if model.shift[j] > 0.0:
             e = there + (width + j) * WIDTH
@@ -289,7 +283,7 @@ def _apply_force(model, s, t, block, k, R, P):
 @helper
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
-    R, orders, width = n_rows_of(model), len(t.base_dw_dtheta), len(model.mode_amplitude)
+    R, orders, width = t.rows, len(t.base_dw_dtheta), len(model.mode_amplitude)
     psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
     u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
     for k in range(order + 1):
@@ -312,21 +306,21 @@ def tangent_series(model, s, t, order, phase, direction):
         for k in range(order):
             up = splat(s.up[k])
             here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
-            free, dB = _diametral_rates(model, s, t, block, k, phase, R)
-            free = add(free, _axisymmetric_rates(model, s, t, block, k, R))
+            free, dB = _diametral_rates(model, s, t, block, k, phase)
+            free = add(free, _axisymmetric_rates(model, s, t, block, k))
             store(t.dw_dtheta, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
             P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
             if phase == SLIP and not model.compliant:
-                free = fma(splat(s.down[k]), _path_change(s, t, block, k, R, f_row), free)
+                free = fma(splat(s.down[k]), _path_change(s, t, block, k, f_row), free)
             if phase == SEPARATION:
                 rate_f = mul(pull, lightness)
             elif (model.compliant or model.normal) and phase == SLIP:
                 mu, denominator = direction * model.mu_k, slip_denominator(model, model.m, direction, B0)
-                P, V, rate_f = _forces_in_slip(model, s, t, block, k, R, mu, denominator, free, vertical, pull)
+                P, V, rate_f = _forces_in_slip(model, s, t, block, k, mu, denominator, free, vertical, pull)
             elif model.compliant:
-                P = V = _compliant_change(model, s, t, block, k, R, 0.0)
+                P = V = _compliant_change(model, s, t, block, k, 0.0)
             else:
                 if phase == SLIP:
                     vertical = fma(splat(B0), pull, vertical)
@@ -340,7 +334,7 @@ def tangent_series(model, s, t, order, phase, direction):
                 if phase == SLIP:
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
-            _apply_force(model, s, t, block, k, R, V)
+            _apply_force(model, s, t, block, k, V)
             store(t.series, there + psi_row * WIDTH, mul(turn, up))
             store(t.series, there + f_row * WIDTH, mul(rate_f, up))
             du, dv = mul(dv, up), mul(acceleration, up)
@@ -349,9 +343,9 @@ def tangent_series(model, s, t, order, phase, direction):
 
 
 @helper
-def tangent_at(model, t, order, x):
+def tangent_at(t, order, x):
     """``t.now`` at x (time units) of the step."""
-    size, at = n_rows_of(model) * WIDTH, splat(x)
+    size, at = t.rows * WIDTH, splat(x)
     for block in range(t.columns // WIDTH):
         origin, now = block * len(t.base_dw_dtheta) * size, block * size
         for i in range(0, size, WIDTH):

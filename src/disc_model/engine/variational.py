@@ -15,7 +15,7 @@ from .packing import packed
 from .saltation import event_change, event_gradient, event_times, impact_change, rates, shift, slider_rows
 from .simd import WIDTH, mul, splat, store
 from .stepping import advance_time, expand, first_event, step_size
-from .tangent import PSI_ROW, n_rows_of, slider_row, tangent_at, tangent_series
+from .tangent import PSI_ROW, slider_row, tangent_at, tangent_series
 
 # Counts of an integration, entries of ``Tangent.log``.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -86,7 +86,7 @@ def _integrate(model, s, state, t, course):
             return NO_SOLUTION if x_end < 0.0 else NON_FINITE
         if tangent:
             tangent_series(model, s, t, order, phase, direction)
-            tangent_at(model, t, order, x_end)
+            tangent_at(t, order, x_end)
         state_at(model, s, order, x_end, phase, state)
         before = x[TIME]
         advance_time(x, x_end * model.unit)
@@ -109,7 +109,7 @@ def _integrate(model, s, state, t, course):
         if tangent:
             rates(model, state, t.before)
             event_times(model, state, t, cause)
-            shift(model, t, t.before, 1.0)
+            shift(t, t.before, 1.0)
             if cause == transitions.GAP_CLOSED and not model.compliant:
                 impact_change(model, state, t)
         if last:
@@ -123,7 +123,7 @@ def _integrate(model, s, state, t, course):
             if x[PHASE] == SEPARATION:
                 slider_rows(model, state, t)
             rates(model, state, t.after)
-            shift(model, t, t.after, -1.0)
+            shift(t, t.after, -1.0)
             if x[PHASE] != SEPARATION:
                 slider_rows(model, state, t)
         if x[PHASE] == SEPARATION and not course.may_separate:
@@ -150,7 +150,7 @@ def release_angle(model, state):
 @helper
 def _leave_section(model, s, state, t, course, section, start):
     """Put state and, if requested, columns just after the release at ``start``.  Returns CONSISTENT or an exit code."""
-    rows, scale, R = section.rows, section.scale, n_rows_of(model)
+    rows, scale = section.rows, section.scale
     t.log[:] = 0.0
     state.x[:] = 0.0
     for i in range(len(rows)):
@@ -163,12 +163,12 @@ def _leave_section(model, s, state, t, course, section, start):
     if course.tangent:
         t.now[:] = 0.0
         for i in range(len(rows)):
-            t.now[((i // WIDTH) * R + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
+            t.now[((i // WIDTH) * t.rows + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
         event_gradient(model, state, t, transitions.RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[ANGLE])
         for c in range(0, t.columns, WIDTH):
             dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
-            store(t.now, c * R + slider_row(model, PSI_ROW) * WIDTH, dpsi)
+            store(t.now, c * t.rows + slider_row(model, PSI_ROW) * WIDTH, dpsi)
     if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself belongs to the integration that ended here
@@ -193,7 +193,7 @@ def _flight(model, s, state, t, course, section, start, from_section):
         section.end[i] = entries[place] * section.scale[i]
         if course.tangent:
             for c in range(t.columns):
-                at = ((c // WIDTH) * n_rows_of(model) + section.rows[i]) * WIDTH + c % WIDTH
+                at = ((c // WIDTH) * t.rows + section.rows[i]) * WIDTH + c % WIDTH
                 section.jacobian[i, c] = t.now[at] * section.scale[i]
     return outcome
 
