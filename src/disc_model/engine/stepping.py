@@ -98,42 +98,33 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand_slip(compliant, normal, model, s, order, direction):
-    """Series of slip under the model's law of contact.  Returns the denominator of the contact force.
+def _expand(compliant, normal, model, s, order, phase, direction):
+    """Series of a phase under the model's law of contact.  Returns as ``expand``.
 
     compliant, normal: flags of the model; the compiler drops a branch unseen if its condition is an argument's length.
     """
-    if len(compliant) == 1:
-        return series.compliant_slip_series(model, s, order, direction)
-    if len(normal) == 1:
-        return series.normal_slip_series(model, s, order, direction)
-    return series.slip_series(model, s, order, direction)
-
-
-@inlined
-def _expand_stick(compliant, normal, model, s, order):
-    """Series of stick, likewise."""
-    if len(compliant) == 1:
+    if phase == layout.SEPARATION:
+        series.separation_series(model, s, order)
+    elif len(compliant) == 1:
+        if phase == layout.SLIP:
+            return series.compliant_slip_series(model, s, order, direction)
         series.compliant_stick_series(model, s, order)
+    elif phase == layout.SLIP:
+        if len(normal) == 1:
+            return series.normal_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
+        return series.slip_series(model, s, order, direction) / transitions.usual_denominator(model)
     else:
         series.stick_series(model, s, order)
         if len(normal) == 1:
             series.release_series(model, s, order)
+    return 1.0
 
 
 @inlined
 def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
     load_state(model, s, state)
-    phase = state.x[layout.PHASE]
-    if phase == layout.SLIP:
-        denominator = _expand_slip(model.compliant, model.normal, model, s, order, state.x[layout.DIRECTION])
-        return denominator / transitions.usual_denominator(model)
-    if phase == layout.STICK:
-        _expand_stick(model.compliant, model.normal, model, s, order)
-    else:
-        series.separation_series(model, s, order)
-    return 1.0
+    return _expand(model.compliant, model.normal, model, s, order, state.x[layout.PHASE], state.x[layout.DIRECTION])
 
 
 @inlined
