@@ -199,7 +199,6 @@ def test_mode_arrays_are_read_only() -> None:
 
 
 def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    plate_module._shapes.cache_clear()
     roots = plate_module._roots
 
     def with_a_gap(inner: float, nu: float, n_diameters: int, n_circles: int) -> np.ndarray:
@@ -207,7 +206,7 @@ def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(plate_module, "_roots", with_a_gap)
     with pytest.raises(ModeError, match="missed or doubled"):
-        plate_modes(P.replace(nu=0.2123))
+        plate_modes(P.replace(nu=0.2123))  # of no other test: nothing is remembered of it
 
 
 def test_overflow_of_the_published_normalisation_is_an_error() -> None:

@@ -58,7 +58,7 @@ def code(*command):
 
 assert code("init", sys.argv[1] + ".study") == 2
 assert code("run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png") == 2
-assert not code("modes")
+assert not code("modes", "--normalization", "orthonormal")
 assert not code("run", "--N", "200", "--Omega", "20", "--t-end", "0.02")
 main(["study", "my.yaml"])
 """
