@@ -15,11 +15,26 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 import xarray as xr
+import yaml
+from pydantic import BaseModel, ConfigDict
 
 from disc_model.data.dataset import markdown_table
-from disc_model.data.texts import read_passages
+from disc_model.data.texts import Part, Sentences
 
-TEXTS = read_passages(Path(__file__).with_name("benchmark_texts.yaml"))
+
+class Passage(BaseModel):
+    """A template with the parts for its lists, by the name of the value."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    text: str
+    parts: dict[str, Part] = {}
+
+    def fill(self, **values: Any) -> str:
+        return Sentences(self.parts, values).fill(self.text)
+
+
+_RAW = yaml.safe_load(Path(__file__).with_name("benchmark_texts.yaml").read_text(encoding="utf-8"))
+TEXTS = {name: Passage.model_validate(passage) for name, passage in _RAW.items()}
 
 
 class Column(NamedTuple):

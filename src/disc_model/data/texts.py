@@ -2,31 +2,28 @@
 
 import string
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, model_validator
 
 
-class _Templates(BaseModel):
-    """Templates by name; a plain text is the first of them."""
+class Part(BaseModel):
+    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any.
+
+    A plain text is that for every row.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _named(cls, raw: Any) -> Any:
-        return {next(iter(cls.model_fields)): raw} if isinstance(raw, str) else raw
-
-
-class Part(_Templates):
-    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any."""
-
     each: str
     between: str = "; "
     around: str = "{}"
     empty: str = ""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_every_row(cls, raw: Any) -> Any:
+        return {"each": raw} if isinstance(raw, str) else raw
 
 
 UNITS = {"%": 100, "mm": 1e3, "ms": 1e3, "GPa": 1e-9}
@@ -59,21 +56,3 @@ class Sentences(string.Formatter):
             return ", ".join(self.format_field(each, spec) for each in value) or "none"
         own, _, unit = spec.rpartition(" ")
         return f"{format(UNITS[unit] * value, own)} {unit}" if unit in UNITS else format(value, spec)
-
-
-class Passage(_Templates):
-    """A template with the parts for its lists, by the name of the value."""
-
-    text: str
-    parts: dict[str, Part] = {}
-
-    def fill(self, **values: Any) -> str:
-        return Sentences(self.parts, values).fill(self.text)
-
-
-def read_passages(path: Path) -> dict[str, Passage]:
-    """The passages of a YAML file by name."""
-    import yaml
-
-    raw = yaml.safe_load(path.read_text(encoding="utf-8"))
-    return {name: Passage.model_validate(passage) for name, passage in raw.items()}
