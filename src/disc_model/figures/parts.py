@@ -2,8 +2,8 @@
 
 import json
 import logging
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from itertools import chain, repeat
 from pathlib import Path
 from pkgutil import resolve_name
@@ -17,7 +17,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.patheffects import AbstractPathEffect, withStroke
-from scipy import ndimage
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -91,12 +90,28 @@ def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -
                 figure = function(*inputs.values(), **plot.options)
             except Missing as reason:
                 figure, [ax] = panels(COLUMN, 2)
-                ax.set_axis_off()
-                ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 48), ha="center", va="center")
+                _say_missing(ax, reason)
         if isinstance(plot, CasePlot):
             (case,) = inputs.values()
             entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
     return figure
+
+
+@contextmanager
+def blank_if_missing(*axes: Axes) -> Iterator[None]:
+    """Show the reason in these panels alone if a case does not hold their data."""
+    try:
+        yield
+    except Missing as reason:
+        for ax in axes:
+            ax.cla()
+            _say_missing(ax, reason)
+
+
+def _say_missing(ax: Axes, reason: Missing) -> None:
+    phrase = fill(f"not shown: the case {reason}", 24)
+    ax.set_axis_off()
+    ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -297,7 +312,8 @@ def edges(values: np.ndarray) -> np.ndarray:
 
 def stretches(there: np.ndarray) -> list[tuple[int, int]]:
     """Runs of True: index of the first element, and the index after the last."""
-    return [(run.start, run.stop) for (run,) in ndimage.find_objects(ndimage.label(there)[0])]
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
+    return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:

@@ -78,21 +78,23 @@ def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
 def contact_force(case: xr.DataTree) -> Figure:
     """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
-    parts.show(whole, case, parts.history(case), "P")
-    _show_zero(whole, case)
-    parts.letter(whole, "a")
-    window = dataset.samples(case, "zoom")
-    # a separation that the window cuts off at its start would look like a jump
-    window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
-    start = float(window["time"][0])
-    window = after(window, start)
-    parts.letter(zoom, "b")
-    shade(zoom, spans := separations(window))
-    zoom.plot(window["time"], window["P"], color=FORCE)
-    _show_zero(zoom, case)
-    zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
-    if spans:
-        parts.legend_above(zoom)
+    with parts.blank_if_missing(whole):
+        parts.show(whole, case, parts.history(case), "P")
+        _show_zero(whole, case)
+        parts.letter(whole, "a")
+    with parts.blank_if_missing(zoom):
+        window = dataset.samples(case, "zoom")
+        # a separation that the window cuts off at its start would look like a jump
+        window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
+        start = float(window["time"][0])
+        window = after(window, start)
+        parts.letter(zoom, "b")
+        shade(zoom, spans := separations(window))
+        zoom.plot(window["time"], window["P"], color=FORCE)
+        _show_zero(zoom, case)
+        zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
+        if spans:
+            parts.legend_above(zoom)
     return figure
 
 

@@ -94,16 +94,17 @@ def closures(*cases: xr.DataTree, titles: Sequence[str]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure, axes = panels(PAGE, 2.6, 1, len(cases), sharey=True)
     for ax, case in zip(axes, cases, strict=True):
-        events = dataset.events(case)
-        released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
-        counts = np.arange(1, (len(released) - 1) // 2 + 1)
-        if not counts.size:
-            raise Missing("keeps no two releases of stick")
-        rounding = np.spacing(released[-1])  # intervals that agree exactly have no place on a logarithmic scale
-        differences = [max(closure(np.diff(released), int(n)), rounding) for n in counts]
-        ax.plot(counts, differences, ".", color=BLACK, markersize=3)
-        ax.set(xscale="log", yscale="log", xlabel="Releases n")
-        ax.margins(0.04)
+        with parts.blank_if_missing(ax):
+            events = dataset.events(case)
+            released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
+            counts = np.arange(1, (len(released) - 1) // 2 + 1)
+            if not counts.size:
+                raise Missing("keeps no two releases of stick")
+            rounding = np.spacing(released[-1])  # intervals that agree exactly have no place on a logarithmic scale
+            differences = [max(closure(np.diff(released), int(n)), rounding) for n in counts]
+            ax.plot(counts, differences, ".", color=BLACK, markersize=3)
+            ax.set(xscale="log", yscale="log", xlabel="Releases n")
+            ax.margins(0.04)
     parts.letters(axes, titles)
     axes[0].set_ylabel("Largest difference (s)")
     return figure

@@ -112,9 +112,13 @@ def four_stretches(case: xr.DataTree) -> Figure:
     """
     figure = new_figure(PAGE, 4.6)
     axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
-    found = {name: spectrum_in_time(case, name, "w_point") for name in WINDOWS}
-    reference = max(float(each.power.max()) for each in found.values())
-    for (name, each), column in zip(found.items(), axes.T, strict=True):
+    found: dict[str, TimeFrequency] = {}
+    for name, column in zip(WINDOWS, axes.T, strict=True):
+        with parts.blank_if_missing(*column):
+            found[name] = spectrum_in_time(case, name, "w_point")
+    reference = max((float(each.power.max()) for each in found.values()), default=1.0)
+    for name, each in found.items():
+        column = axes[:, WINDOWS.index(name)]
         for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
             mesh = spectrogram(ax, case, each, reference, highest)
         parts.letter(column[0], name[-1])
@@ -122,8 +126,9 @@ def four_stretches(case: xr.DataTree) -> Figure:
         column[1].xaxis.set_major_locator(MaxNLocator(3))
     for ax in axes[:, 0]:
         ax.set_ylabel("Frequency (Hz)")
-    _name_lines(axes[1, -1])
-    colour_bar(figure, mesh, list(axes.flat))
+    if found:
+        _name_lines(axes[1, -1])
+        colour_bar(figure, mesh, list(axes.flat))
     return figure
 
 
@@ -159,24 +164,30 @@ def response(
     letters = "cd"[: len(zooms)]
     axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(zooms), 1), letters])))
     shown = right.subplots()
-    found = spectrum_in_time(case, window, variable)
-    spectrum(right, shown, case, found, HIGHEST)
-    parts.letter(shown, "b")
-    if highest:
-        p = Parameters.model_validate_json(case.attrs["parameters"])
-        natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
-        shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    parts.show(axes["a"], case, parts.history(case, until), variable)
-    _mark(axes["a"], *stretch(found))
-    parts.letter(axes["a"], "a")
+    marked = None
+    with parts.blank_if_missing(shown):
+        found = spectrum_in_time(case, window, variable)
+        marked = stretch(found)
+        spectrum(right, shown, case, found, HIGHEST)
+        parts.letter(shown, "b")
+        if highest:
+            p = Parameters.model_validate_json(case.attrs["parameters"])
+            natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
+            shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+    with parts.blank_if_missing(axes["a"]):
+        parts.show(axes["a"], case, parts.history(case, until), variable)
+        if marked is not None:
+            _mark(axes["a"], *marked)
+        parts.letter(axes["a"], "a")
     for letter, (name, start) in zip(letters, zooms, strict=True):
         ax = axes[letter]
         if letter != "c":
             ax.sharey(axes["c"])
             ax.tick_params(labelleft=False)
-        label = _closer(ax, dataset.samples(case, name), variable, start)
-        ax.set_ylabel(label if letter == "c" else "")
-        parts.letter(ax, letter)
+        with parts.blank_if_missing(ax):
+            label = _closer(ax, dataset.samples(case, name), variable, start)
+            ax.set_ylabel(label if letter == "c" else "")
+            parts.letter(ax, letter)
     return figure
 
 
