@@ -103,16 +103,16 @@ def _expand(compliant, normal, model, s, order, phase, direction):
 
     compliant, normal: flags of the model; the compiler drops a branch unseen if its condition is an argument's length.
     """
-    if phase == layout.SEPARATION:
-        series.separation_series(model, s, order)
-    elif len(compliant) == 1:
-        if phase == layout.SLIP:
+    if phase == layout.SLIP:
+        if len(compliant) == 1:
             return series.compliant_slip_series(model, s, order, direction)
-        series.compliant_stick_series(model, s, order)
-    elif phase == layout.SLIP:
         if len(normal) == 1:
             return series.normal_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
         return series.slip_series(model, s, order, direction) / transitions.usual_denominator(model)
+    if phase == layout.SEPARATION:
+        series.separation_series(model, s, order)
+    elif len(compliant) == 1:
+        series.compliant_stick_series(model, s, order)
     else:
         series.stick_series(model, s, order)
         if len(normal) == 1:
