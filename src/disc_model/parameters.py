@@ -10,7 +10,7 @@ import math
 import numbers
 import operator
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sized
 from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import pairwise
@@ -461,37 +461,44 @@ class Disc(Checked):
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
 
     def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+        # an empty key of a file leaves a column out
+        data = {name: x for name, x in data.items() if x is not None or name not in ("damping_ratio", "circles")}
         super().__init__(*unnamed, **data)
-        raise_faults(self._unequal_columns() or self._faults_of_modes(counted="circles" not in data))
+        circles = data.get("circles", ())
+        counted = isinstance(circles, Sized) and not len(circles)
+        raise_faults(self._more_faults(dict(self)) or self._faults_of_modes(counted))
 
     @field_validator("damping_ratio", "circles")
     @classmethod
     def _complete(cls, column: tuple[float, ...], info: Any) -> tuple[float, ...]:
         """The column, or what stands for it where it is left out: no damping, and circles counted by frequency."""
         diameters, omega = (info.data.get(name, ()) for name in ("diameters", "omega"))
-        if column or len(omega) != len(diameters):
+        if column or len(omega) != len(diameters) or len(omega) > MOST_MODES:
             return column
         if info.field_name == "damping_ratio":
             return (0.0,) * len(diameters)
         order = sorted(range(len(omega)), key=omega.__getitem__)
         return tuple(sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega)))
 
-    def _unequal_columns(self) -> list[str]:
+    @classmethod
+    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
         """Faults of the number of modes, and of columns that lack some or have more."""
-        count = len(self.diameters)
+        given = {name: data[name] for name in (*cls._columns, "radii") if isinstance(data.get(name), tuple | list)}
         faults: list[str] = []
-        if not 1 <= count <= MOST_MODES:
+        count = len(given.get("diameters", ()))
+        if "diameters" in given and not 1 <= count <= MOST_MODES:
             faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
-        for name in self._columns:
-            column = getattr(self, name)
-            if len(column) != count and (column or name in ("omega", "amplitude")):
+        for name in cls._columns:
+            column = given.get(name, ())
+            if len(column) != count and (column or (name in ("omega", "amplitude") and name in given)):
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
-        lengths = {len(self.radii)} if self.radii else set()
-        if {*map(len, self.shapes)} != lengths or lengths == {1}:
+        radii, shapes = given.get("radii", ()), given.get("shapes", ())
+        lengths = {len(radii)} if radii else set()
+        if {len(shape) if isinstance(shape, tuple | list) else 0 for shape in shapes} != lengths or lengths == {1}:
             rule = "must be two or more, with a value of the shape of every mode at each"
-            faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
-        elif any(a >= b for a, b in pairwise(self.radii)):
-            faults.append(Fault.of(("radii",), list(self.radii), "must ascend"))
+            faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
+        elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
+            faults.append(Fault.of(("radii",), list(radii), "must ascend"))
         return faults
 
     def _faults_of_modes(self, counted: bool) -> list[str]:

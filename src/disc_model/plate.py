@@ -289,7 +289,8 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     matrix, exponents = _columns(l, lam, inner, nu)
     if not np.all(np.isfinite(matrix)):
         raise ModeError(
-            f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} must not be so near 0: the modes cannot be computed"
+            f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} must not be so near 0 for "
+            f"{n_diameters} nodal diameters: the modes cannot be computed"
         )
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
@@ -427,7 +428,7 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
     """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x).
 
-    Y and K are infinite where they leave the range of floats: for 60 diameters at radii below 5e-5 of the outer one.
+    Y and K are infinite where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius.
     """
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
     exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])

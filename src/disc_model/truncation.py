@@ -115,7 +115,9 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
         error = _worst(coupled_frequencies(p, contact_compliance(chosen), kept), right, top)
         if error <= tolerance:
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
-    raise DiscModelError(f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it")
+    raise DiscModelError(
+        f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge the tolerance"
+    )
 
 
 def counts(disc: Disc) -> range:

@@ -69,8 +69,8 @@ def run(
     most = option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None)
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], faults)
-    faults += _file_faults(plot, save)
-    raise_faults(faults)  # all at once, before kernels load; `simulate` checks the rest
+    faults += _file_faults(plot, save, checkpoint)
+    raise_faults(faults)  # before kernels load; `simulate` checks ramps
     from disc_model.simulation.api import Execution, simulate
 
     record = Record(windows=tuple(windows.values())) if windows else None
@@ -143,7 +143,7 @@ def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict
     return found
 
 
-def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:
+def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) -> Iterator[str]:
     """Reasons why files cannot be written, found before the simulation instead of after it."""
     if plot is not None:
         from matplotlib.backend_bases import FigureCanvasBase
@@ -160,6 +160,10 @@ def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:
             yield f"{name}={str(path)!r}: must be in a folder that exists"
         elif not may_be_file(path):
             yield f"{name}={str(path)!r}: {NAME_RULE}"
+    if checkpoint is not None:
+        from disc_model.simulation.recorder import faults
+
+        yield from faults(checkpoint, 0)
 
 
 def plot_record(t_end: float) -> Record:

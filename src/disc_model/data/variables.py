@@ -174,8 +174,7 @@ def attributes(name: str) -> dict[str, Any]:
 
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape."""
-    names: np.ndarray = np.array(variable.attrs["flag_meanings"].split())[variable.values]
-    return names
+    return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
 
 
 def _parameter_variable(name: str) -> Variable:

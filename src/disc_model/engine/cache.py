@@ -75,8 +75,10 @@ def shipped_level() -> str | None:
     else:
         warn_once(f"{SHIPPED}: no kernels came with the package for this processor; they are compiled")
         return None
-    made_by = SHIPPED / level / VERSIONS
-    compiled_with = made_by.read_text(encoding="utf-8", errors="replace") if made_by.is_file() else "unknown versions"
+    try:
+        compiled_with = (SHIPPED / level / VERSIONS).read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        compiled_with = "unknown versions"
     if compiled_with != versions():
         warn_once(f"{SHIPPED / level}: these kernels are of {compiled_with}, here is {versions()}; they are compiled")
         return None

@@ -98,7 +98,11 @@ class Plot(Kind):
         """Roles that the figure does not have, and lacks."""
         for role, name in self.overlays.items():
             if role not in self.roles:
-                yield Fault.of(("overlays", role), name, f"unknown role{suggestion(role, self.roles)}")
+                yield Fault.of(
+                    ("overlays", role),
+                    name,
+                    "unknown role" + (suggestion(role, self.roles) if self.roles else ", this kind has no overlays"),
+                )
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.overlays:
                 yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")

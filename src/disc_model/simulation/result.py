@@ -43,6 +43,7 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.STALLED: errors.Stalled,
     Status.NON_FINITE: errors.NonFinite,
 }
+STATUS_OF = {error: status for status, error in _ERRORS.items()}
 
 
 @dataclass(frozen=True, eq=False, repr=False)

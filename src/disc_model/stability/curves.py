@@ -87,8 +87,8 @@ def stability_curves(
     """
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
-    two = isinstance(names, tuple | list) and len(names) == 2 and names[0] != names[1]
-    free = two and all(isinstance(name, str) and name in PARAMETERS for name in names)
+    known = isinstance(names, tuple | list) and all(isinstance(name, str) and name in PARAMETERS for name in names)
+    free = known and len(names) == len({*names}) == 2
     within = not free or (isinstance(bounds, Mapping) and all(is_interval(bounds.get(name)) for name in names))
     wrong = violations(
         (free, "names", names, f"must be 2 of {', '.join(PARAMETERS)}"),

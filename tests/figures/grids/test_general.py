@@ -57,6 +57,16 @@ def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_pa
     save(figure, tmp_path / "map.png")
 
 
+def test_a_range_by_factors_has_an_axis_by_factors_whatever_it_is_of(study: xr.Dataset) -> None:
+    loads = study.rename(c_p="N").assign_coords(N=[10.0, 20.0, 40.0, 80.0])
+    [ax, _] = draw("heat_map", loads, variable="drift", x="N", y="mu_k", at={"normalization": "orthonormal"}).axes
+    assert (ax.get_xscale(), ax.get_xlim()) == ("log", pytest.approx((10, 80)))
+    uneven = loads.assign_coords(N=[0.1, 0.2, 0.3, 4.0])
+    at = {"mu_k": 0.1, "normalization": "orthonormal"}
+    scales = [draw("curve", one, variable="drift", x="N", at=at).axes[0].get_xscale() for one in (loads, uneven)]
+    assert scales == ["log", "linear"]
+
+
 def test_one_value_of_a_dimension_can_be_shown(study: xr.Dataset) -> None:
     figure = mapped(study, "drift", at={"normalization": "orthonormal"})
     assert len(figure.axes) == 2  # one panel and its scale

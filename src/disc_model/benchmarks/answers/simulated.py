@@ -159,8 +159,7 @@ def growth(releases: Array) -> float:
     omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
 
     def model(t: Array, rate: float, omega: float, cosine: float, sine: float, rest: float) -> Array:
-        value: Array = np.exp(rate * t) * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + rest
-        return value
+        return np.asarray(np.exp(rate * t) * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + rest)
 
     basis = np.column_stack([np.cos(omega * times), np.sin(omega * times), np.ones_like(times)])
     first = np.linalg.lstsq(basis, y, rcond=None)[0]

@@ -1,6 +1,6 @@
 """Cells of maps: colours and hatches of outcomes, growth rates of the stick-slip cycle, and missing cycles."""
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -71,16 +71,6 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
     return np.asarray(np.any([(one == other) & (one != words) & (one != "") for one, other in pairs], axis=0))
 
 
-def edges_of(plane: xr.DataArray) -> Edges:
-    """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
-    found = []
-    for name in map(str, plane.dims):
-        values = plane[name].values * label_of(plane[name])[1]
-        log = scale_of(name, values) == "log"
-        found.append(np.exp(edges(np.log(values))) if log else edges(values))
-    return found[1], found[0]
-
-
 def scale_of(name: str, values: Array) -> str:
     """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear start from 0."""
     positive = values[values > 0]
@@ -89,6 +79,16 @@ def scale_of(name: str, values: Array) -> str:
     if np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
         return "linear"
     return "log" if values[0] > 0 else "symlog"
+
+
+def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of) -> Edges:
+    """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
+    found = []
+    for name in map(str, plane.dims):
+        values = plane[name].values * label_of(plane[name])[1]
+        log = scale(name, values) == "log"
+        found.append(np.exp(edges(np.log(values))) if log else edges(values))
+    return found[1], found[0]
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, edges_of, growth_panels, patches, scale_of
+from disc_model.figures.grids.cells import CYCLE_LOOKS, edges_of, growth_panels, patches
 from disc_model.figures.kinds import CurvePlot, General, HeatMap
 from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, panels
 
@@ -24,6 +24,12 @@ from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, P
 def _other(found: xr.DataArray, plot: General) -> str | None:
     """The dimension that is on no axis, if there is one."""
     return next((str(name) for name in found.dims if name not in plot.axes.values()), None)
+
+
+def _scale(name: str, values: np.ndarray) -> str:
+    """Scale of an axis: that of the range of its values."""
+    steps = np.diff(np.log(values)) if values[0] > 0 else values
+    return "log" if len(values) > 2 and values[0] > 0 and np.allclose(steps, steps[0], rtol=1e-6) else "linear"
 
 
 def _in_steps(colours: Sequence[Any]) -> dict[str, Any]:
@@ -77,7 +83,7 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
         if not words and (gaps := parts.gaps(study, found)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
     for axis, name in plot.axes.items():  # axes are shared
-        axes[0].set(**{f"{axis}scale": "log" if scale_of(name, study[name].values) == "log" else "linear"})
+        axes[0].set(**{f"{axis}scale": _scale(name, study[name].values)})
     width = round(figure.get_figwidth() / len(axes) / 0.08)
     # a value stays on the line of its name
     names = [
@@ -106,7 +112,7 @@ def _cells(ax: Axes, panel: xr.DataArray, plot: HeatMap, **colours: Any) -> Scal
     values = np.ma.masked_invalid(plane.values.astype(float))
     if isinstance(colours.get("norm"), LogNorm):
         values = np.ma.masked_where(values <= 0, values)
-    return ax.pcolormesh(*edges_of(plane), values, rasterized=True, **colours)
+    return ax.pcolormesh(*edges_of(plane, _scale), values, rasterized=True, **colours)
 
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
@@ -165,8 +171,7 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
         ax.set_yscale("symlog", linthresh=LINEAR)
         ax.yaxis.set_major_formatter("{x:g}")
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
-    if scale_of(plot.x, along) == "log":
-        ax.set_xscale("log")
+    ax.set_xscale(_scale(plot.x, along))
     ax.margins(0.03)
     ax.set(xlabel=label, ylabel=fill(parts.label_of(found)[0], 32))
     if words:

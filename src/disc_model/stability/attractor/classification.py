@@ -151,14 +151,15 @@ class Basins:
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < NEARING or not others:
             return None
-        apart = [[_apart(value, attractor.segment.range) for value in ranges] for attractor in others]
+        ends = [attractor.segment.range for attractor in others]
+        apart = [[abs(one - end) / max(one, end, sys.float_info.min) for one in ranges] for end in ends]
         nearest = min(range(len(others)), key=lambda i: apart[i][-1])
         if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
             return None
         last = apart[nearest][-1]
         nearing = all(later < earlier or later <= SETTLED for earlier, later in pairwise(apart[nearest]))
-        ends = _left(ranges) <= (2 * last + SETTLED) * ranges[-1]
-        return others[nearest] if last <= self.near and nearing and ends else None
+        slows = _left(ranges) <= (2 * last + SETTLED) * ranges[-1]
+        return others[nearest] if last <= self.near and nearing and slows else None
 
     def _settled(self, stretches: Sequence[Segment]) -> bool:
         last = stretches[-SETTLING:]
@@ -304,8 +305,3 @@ def _left(values: Sequence[float]) -> float:
     if not (np.all(changes > 0) or np.all(changes < 0)):
         return 0.0
     return float(last**2 / (before - last)) if last < before else math.inf
-
-
-def _apart(one: float, other: float) -> float:
-    """Relative difference of two ranges."""
-    return abs(one - other) / max(one, other, sys.float_info.min)

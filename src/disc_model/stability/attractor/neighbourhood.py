@@ -273,8 +273,7 @@ def _faster(near: NearCycle, distance: Array) -> float:
 # Steady sliding
 
 
-_sliding = lru_cache(maxsize=1)(steady_sliding)
-"""Asked at the end of each leg of a motion."""
+_sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
 
 
 def nears_sliding(p: Parameters, state: State, tol: float) -> bool:

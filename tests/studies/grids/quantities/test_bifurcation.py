@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model.data.variables import Outcome
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Poincare, Record, Start
@@ -33,6 +34,12 @@ def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatc
     values, message = bifurcation.compute_point(Point(p), BifurcationOptions(transient=0.1, samples=2))
     assert (values["status"], len(values["psi"]), len(values["phase"])) == ("paradox", 0, 0)
     assert message == "the simulation ended early: paradox"
+
+
+def test_without_a_drive_there_is_no_turn_to_sample_once() -> None:
+    p = Parameters(N=200, Omega=0, n_diameters=1)
+    with pytest.raises(ParameterError, match="Omega=0: must be > 0, because samples are taken once a turn"):
+        bifurcation.compute_point(Point(p), BifurcationOptions(transient=0.1, samples=2))
 
 
 def test_stretches_of_one_motion_are_alike() -> None:

@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 
 from disc_model.data.variables import Variable
+from disc_model.errors import SimulationError
 from disc_model.simulation.api import state_after
-from disc_model.simulation.result import State
+from disc_model.simulation.result import STATUS_OF, State
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.studies.document import LyapunovOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point
@@ -33,12 +34,16 @@ COORDINATES = {
 
 def compute_point(point: Point, options: LyapunovOptions) -> tuple[dict[str, Any], str]:
     """Compute the exponents after the transient."""
+    try:
+        start = state_at(point, options)
+    except SimulationError as error:
+        return {"status": STATUS_OF[type(error)].value}, str(error)
     found = lyapunov_exponents(
         point.parameters,
         options.duration,
         count=options.exponents,
         interval=options.interval,
-        initial_state=state_at(point, options),
+        initial_state=start,
         tol=options.tol,
         leave_out_trivial=True,
     )
