@@ -494,7 +494,8 @@ class Disc(Checked):
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
         radii, shapes = given.get("radii", ()), given.get("shapes", ())
         lengths = {len(radii)} if radii else set()
-        if {len(shape) if isinstance(shape, tuple | list) else 0 for shape in shapes} != lengths or lengths == {1}:
+        listed = all(isinstance(shape, tuple | list) for shape in shapes)  # otherwise the fields' types report it
+        if listed and ({*map(len, shapes)} != lengths or lengths == {1}):
             rule = "must be two or more, with a value of the shape of every mode at each"
             faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
         elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):

@@ -67,9 +67,8 @@ class CaseView:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
         return float(self._scalars[name].item())
 
-    # xarray makes a dataset of a node anew each time, and claims are judged again for each bound
     @cached_property
-    def _scalars(self) -> xr.Dataset:
+    def _scalars(self) -> xr.Dataset:  # which xarray would make anew for each value
         return self.node.to_dataset()
 
     @cached_property
