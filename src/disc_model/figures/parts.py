@@ -10,9 +10,9 @@ from pkgutil import resolve_name
 from textwrap import fill
 from typing import Any, Literal, TypeVar
 
-import matplotlib as mpl
 import numpy as np
 import xarray as xr
+from matplotlib import style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
@@ -66,7 +66,7 @@ BORDERS: dict[str, dict[str, Any]] = {
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
-    return mpl.style.context(Path(__file__).with_name("disc_model.mplstyle"), after_reset=True)
+    return style.context(Path(__file__).with_name("disc_model.mplstyle"), after_reset=True)
 
 
 def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:
