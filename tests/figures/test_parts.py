@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.figures import parts
 from disc_model.figures.kinds import Campbell
+from tests.processes import python
 
 
 @pytest.mark.parametrize(
@@ -48,3 +49,8 @@ def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog
     with caplog.at_level(logging.INFO):
         parts.save(figure, tmp_path / "figure.pdf")
     assert not caplog.records
+
+
+def test_the_style_needs_no_figure_of_another_kind() -> None:
+    """A figure alone in its process ended in an AttributeError: other modules had imported matplotlib's styles."""
+    python("from disc_model.figures.parts import styled\nwith styled():\n    pass")
