@@ -162,7 +162,6 @@ CELLS = ("1", "-1", "0", "1e400", "nan", "inf", "", " 2 ", "x", "1,2", '"', "\0"
 NUMBERS = ("1", "2", "3", "60", "0", "0.3", "1e-9", "1e-5", "1e5", "999999")
 
 
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
 def test_faults_of_columns_and_of_numbers_are_named_together() -> None:
     given = {"diameters": [2, 2], "omega": [100, 100.5], "amplitude": [1, 1]}
     for circles in ({}, {"circles": []}, {"circles": None}, {"circles": ()}):
@@ -177,6 +176,7 @@ def test_faults_of_columns_and_of_numbers_are_named_together() -> None:
         dm.Disc(diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000)  # circles are not counted before
 
 
+@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
 def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
     """A thousand of them; half have numbers in all columns, and what is a disc among these is computed."""
     path, draw, discs = tmp_path / "disc.csv", np.random.default_rng(0), 0

@@ -488,9 +488,9 @@ class Disc(Checked):
         count = len(given.get("diameters", ()))
         if "diameters" in given and not 1 <= count <= MOST_MODES:
             faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
-        for name in cls._columns:
-            column = given.get(name, ())
-            if len(column) != count and (column or (name in ("omega", "amplitude") and name in given)):
+        for name, column in given.items():
+            needed = column or name in ("omega", "amplitude")
+            if needed and name != "radii" and len(column) != count:
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
         radii, shapes = given.get("radii", ()), given.get("shapes", ())
         lengths = {len(radii)} if radii else set()

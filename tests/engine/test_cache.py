@@ -10,7 +10,7 @@ import numba
 import pytest
 
 import disc_model.engine
-from disc_model import Parameters, floquet
+from disc_model import Parameters, floquet, simulate
 from disc_model.engine import cache, event_loop
 from tests.processes import python, run
 
@@ -183,7 +183,9 @@ event.register("numba:compile", Told())
 dm.simulate(p, 0.1)
 dm.floquet(p)
 """
-    floquet(Parameters(N=385, Omega=15))  # compiles them where the cache has none
+    p = Parameters(N=385, Omega=15)  # its kernels are compiled here where the cache has none
+    simulate(p, 0.1)
+    floquet(p)
     done = python(code)
     assert not done.stdout
     assert not done.stderr  # kernels from the cache are no news
