@@ -81,7 +81,7 @@ def _record(model, state, kind, buffers):
 def _apply_event(model, state, cause, at_once, buffers):
     """Carry out the event and record its events; ``at_once``: the phase had no duration.  Returns its exit code."""
     came_from, before, velocity, dw_dtheta = state.x[layout.DIRECTION], 0.0, 0.0, 0.0
-    hits = cause == transitions.GAP_CLOSED and not model.compliant
+    hits = cause == transitions.GAP_CLOSED and len(model.compliant) == 0  # numba has no `not` of a tuple as a value
     if hits:
         before, velocity = transverse_energy(model, state, layout.SEPARATION), state.x[layout.U_VELOCITY]
         _, _, dw_dtheta = transitions.disc_point(model, state)
