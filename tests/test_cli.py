@@ -3,6 +3,7 @@
 import json
 import re
 import resource
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -242,16 +243,22 @@ def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path:
     assert (folder / "profiles" / "default" / "config.yaml").is_file()
     err = command.error("init", str(folder))
     assert "must not hold my_study.yaml, Snakefile, profiles/default/config.yaml yet" in err
+    err = command.error("init", str(folder / "Snakefile"))  # a file
+    assert "cannot be written (File exists)" in err
 
 
 @pytest.fixture
-def called(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], list[str] | None]:
-    """What Snakemake is told, if anything, in a folder where another program bears its name: one that ends with 3."""
-    told = tmp_path / "told.json"
-    (tmp_path / "snakemake.py").write_text(
-        f"import json, sys; json.dump(sys.argv, open({str(told)!r}, 'w')); sys.exit(3)"
-    )
+def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], object]:
+    """Puts another program in the place of Snakemake: one of its name in the folder where commands are given."""
     monkeypatch.chdir(tmp_path)
+    return (tmp_path / "snakemake.py").write_text
+
+
+@pytest.fixture
+def called(tmp_path: Path, stand_in: Callable[[str], object]) -> Callable[[], list[str] | None]:
+    """What Snakemake is told, if anything, by a command that it ends with 3."""
+    told = tmp_path / "told.json"
+    stand_in(f"import json, sys; json.dump(sys.argv, open({str(told)!r}, 'w')); sys.exit(3)")
     return lambda: json.loads(told.read_text()) if told.exists() else None
 
 
@@ -283,3 +290,26 @@ def test_without_a_file_nothing_is_computed(command: Command, called: Callable[[
     for asked in (["study"], ["list", "figures"]):
         assert "Missing argument 'files'" in command.error(*asked)
     assert called() is None
+
+
+def test_a_dry_run_shows_the_jobs_or_why_there_is_no_plan(
+    command: Command, stand_in: Callable[[str], object], mine: Path
+) -> None:
+    stand_in("print('Building DAG of jobs...\\njob    count\\n----------\\nall    1\\n\\nReasons: many')")
+    out = command.out("study", str(mine), "--dry-run")
+    assert out == "job    count\n----------\nall    1\nnothing was run: --dry-run\n"
+    stand_in("import sys; sys.exit('no plan')")
+    assert command.run("study", str(mine), "--dry-run") == (1, "", "no plan\n")
+    assert command.run("list", "outdated", str(mine))[2] == "error: Snakemake failed: no plan\n"
+
+
+def test_an_interrupted_study_waits_for_snakemake_and_says_how_to_go_on(
+    command: Command, stand_in: Callable[[str], object], mine: Path
+) -> None:
+    """Ctrl-C in a terminal reaches both; what Snakemake ends with is the shells' code for it."""
+    stand_in("import os, signal, sys; os.kill(os.getppid(), signal.SIGINT); sys.exit(1)")
+    handler = signal.getsignal(signal.SIGINT)
+    code, _, err = command.run("study", str(mine))
+    assert code == 130
+    assert err == "what is finished stays: the same command continues from there\nerror: interrupted\n"
+    assert signal.getsignal(signal.SIGINT) is handler
