@@ -14,7 +14,7 @@ from disc_model.simulation.case import Poincare, Record, Start
 from disc_model.studies.document import BifurcationOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import bifurcation
-from tests.stability.test_attractor import paradox
+from tests.stability.test_attractor import SMALL, paradox
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
 
@@ -28,11 +28,13 @@ def test_samples_are_those_of_the_simulator() -> None:
     assert values["status"] == "ok"
 
 
-def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("section", ["stroboscopic", "event"])
+def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatch, section: str) -> None:
     p, start = paradox()
     monkeypatch.setattr(bifurcation, "make_initial_state", lambda *_: start)
-    values, message = bifurcation.compute_point(Point(p), BifurcationOptions(transient=0.1, samples=2))
-    assert (values["status"], len(values["psi"]), len(values["phase"])) == ("paradox", 0, 0)
+    options = BifurcationOptions(transient=0.1, samples=2, section=section)
+    values, message = bifurcation.compute_point(Point(p), options)
+    assert (values["status"], len(values.get("psi", ())), len(values.get("phase", ()))) == ("paradox", 0, 0)
     assert message == "the simulation ended early: paradox"
 
 
@@ -92,6 +94,31 @@ def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]
     values, message = bifurcation.compute_point(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)), options)
     assert (message == "") == (values["stationary"] == "yes")
     return values
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("p", "kind", "transient"),
+    [
+        (SMALL, Outcome.QUIET, 2.0),
+        (Parameters(N=200, Omega=0), Outcome.AT_REST, 2.0),
+        (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, 2.0),
+        # contact is first lost at 11 s: of 2, 4 and 8 s, the first transient after whose two stretches it has been
+        (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATING, 8.0),
+    ],
+)
+def test_a_transient_is_doubled_until_the_motion_has_settled(p: Parameters, kind: Outcome, transient: float) -> None:
+    options = BifurcationOptions(section="event", transient=2, max_transient=20, samples=5)
+    values, message = bifurcation.compute_point(Point(p), options)
+    assert (values["kind"], values["transient_time"], message) == (kind, transient, "")
+    assert len(values["psi"]) == (0 if kind in (Outcome.AT_REST, Outcome.STEADY_SLIDING) else 5)
+
+
+def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_limit() -> None:
+    p = Parameters(N=385, Omega=15.1, n_diameters=-1)
+    values, _ = bifurcation.compute_point(Point(p), BifurcationOptions(section="event", transient=2, samples=5))
+    assert (values["period_events"], values["stationary"]) == (1, "yes")
+    assert values["psi"] == pytest.approx([p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9)  # at a tolerance of 1e-10
 
 
 @pytest.mark.compiled

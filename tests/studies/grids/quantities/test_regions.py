@@ -16,9 +16,11 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.stability.attractor.neighbourhood import NearCycle
 from disc_model.stability.attractor.outcome import OutcomeResult
-from disc_model.stability.cycle import CycleStatus
+from disc_model.stability.cycle import CycleStatus, floquet
 from disc_model.studies.document import RegionsOptions
+from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import regions
+from tests.stability.test_attractor import SMALL
 from tests.studies.grids.conftest import computed
 from tests.studies.refused import parse_grid
 
@@ -311,3 +313,19 @@ def test_a_cycle_that_is_passed_in_the_first_seconds_is_not_the_one_that_the_sta
     assert early["growth_rate"] == pytest.approx(passed, abs=5e-4)
     assert row["growth_rate"] == pytest.approx(left, abs=5e-4)
     assert row["outcome"] == "growing"
+
+
+@pytest.mark.compiled
+def test_a_motion_is_shown_on_the_cycle_that_attracts_it_or_5_s_after_contact_was_lost() -> None:
+    options = RegionsOptions(horizon=50)
+    state = regions.state_at(Point(SMALL), options)
+    cycle = floquet(SMALL)
+    later = simulate(SMALL, state.time + cycle.period, initial_state=state).final_state
+    assert cycle.stable
+    # to the tolerance of simulations, 1e-10
+    assert later.psi == pytest.approx(state.psi, rel=1e-9)
+    assert later.a == pytest.approx(state.a, abs=1e-9 * np.abs(state.a).max())
+    apart = Parameters(N=800, Omega=40, n_diameters=2)
+    first = simulate(apart, 50, stop_at="first_separation").first_separation
+    # the departure up to a tenth of the static deflection is that of multipliers: it may err by ln(1.1) / 0.48 s
+    assert regions.state_at(Point(apart), options).time == pytest.approx(first + 5, abs=0.2)
