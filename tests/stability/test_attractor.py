@@ -17,8 +17,15 @@ from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
 from disc_model.stability.attractor.classification import Basins, random_perturbation
-from disc_model.stability.attractor.neighbourhood import NearCycle, cycle_of_static_start, departure, follows
+from disc_model.stability.attractor.neighbourhood import (
+    NearCycle,
+    cycle_of_static_start,
+    departs_after,
+    departure,
+    follows,
+)
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
+from disc_model.stability.cycle import FloquetResult
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -78,6 +85,20 @@ def test_a_departure_with_several_slow_multipliers_is_extrapolated_while_it_is_l
     moved = near.moved(near.x + near.distance, round(time / near.cycle.period), coarse=False).end
     # the phase is lost, since it drifts with the amplitude; the linear map's growth is tested to 10 % at the end
     assert np.linalg.norm(moved - near.x) == pytest.approx(np.linalg.norm(distance), rel=0.1)
+
+
+@pytest.mark.compiled
+def test_a_motion_that_has_not_departed_by_the_horizon_is_still_near_its_cycle() -> None:
+    p = Parameters(N=300, Omega=20)
+    near = cycle_of_static_start(p)
+    assert isinstance(near, NearCycle)
+    assert departs_after(near, 60)
+    assert not departs_after(near, 150)  # contact is lost at 149.41 s
+    _, x = near.map.next_release(simulate(p, 60).final_state)
+    assert np.linalg.norm(x - near.x) < 0.1 * near.map.deflection
+    rest = cycle_of_static_start(p.replace(Omega=0))
+    assert isinstance(rest, FloquetResult)
+    assert repr(rest) == "FloquetResult(N=300 N, Omega=0 rad/s: at_rest, 0 multipliers)"
 
 
 @pytest.mark.compiled
