@@ -329,3 +329,18 @@ def test_a_motion_is_shown_on_the_cycle_that_attracts_it_or_5_s_after_contact_wa
     first = simulate(apart, 50, stop_at="first_separation").first_separation
     # the departure up to a tenth of the static deflection is that of multipliers: it may err by ln(1.1) / 0.48 s
     assert regions.state_at(Point(apart), options).time == pytest.approx(first + 5, abs=0.2)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("p", "outcome", "cycle"),
+    [
+        (Parameters(N=200, Omega=0), Outcome.AT_REST, "at_rest"),
+        (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, "steady_sliding"),
+        (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATION, "nearby_only"),  # after 11 s
+        (Parameters(N=200, Omega=20, mu_k=0.4), Outcome.GROWING, "followed"),  # by half in the 15 s
+    ],
+)
+def test_a_point_is_told_with_what_its_motion_has_to_do_with_a_cycle(p: Parameters, outcome: str, cycle: str) -> None:
+    (((row, _),),) = regions.compute_tile([[p]], RegionsOptions(horizon=15), [(0, 0)])
+    assert (row["outcome"], row["cycle"]) == (outcome, cycle)
