@@ -338,9 +338,9 @@ def _middle(places: Sequence[Place]) -> Place:
 
 
 def _edges(size: int, coarse: int) -> list[int]:
-    """Indices of the edges of coarse cells along `size` points."""
+    """Indices of the edges of coarse cells along `size` points; a single point is both edges of its cell."""
     cells = max(1, math.ceil((size - 1) / coarse))
-    return sorted({round(i * (size - 1) / cells) for i in range(cells + 1)})
+    return [round(i * (size - 1) / cells) for i in range(cells + 1)]
 
 
 def _halves(first: int, last: int) -> list[Place]:
