@@ -10,7 +10,8 @@ pytestmark = pytest.mark.compiled
 
 GROWS = Parameters(N=385, Omega=15.1)
 """Separates after 54 s."""
-SETTLES = Parameters(N=385, Omega=15.1, n_diameters=1, D_star=1e-3, c=20)
+SETTLES = Parameters(N=600, Omega=25, c=0.2)
+"""The slider's damper takes nearly all."""
 
 
 def mean(found: tuple[Powers, ...]) -> Powers:
@@ -24,7 +25,7 @@ def test_while_contact_lasts_what_the_slope_supplies_is_damped_or_gained(p: Para
     # 12,000 samples at random phases of the swing leave half a per cent
     assert whole.impacts == pytest.approx(0, abs=0.01 * whole.supplied)
     assert whole.pulls == 0  # the contact force does not change its sign
-    assert (whole.gained > 0.7 * whole.supplied) if p is GROWS else (whole.gained < 0.01 * whole.supplied)
+    assert (whole.gained > 0.7 * whole.supplied) if p is GROWS else (whole.gained < 0.05 * whole.supplied)
 
 
 def test_in_the_end_impacts_take_what_damping_does_not() -> None:
