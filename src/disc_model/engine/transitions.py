@@ -67,11 +67,14 @@ def _free_acceleration(model, state):
 @inlined
 def instant(model, state):
     """The arguments of the laws of contact; size of the terms of A."""
-    x, (w, velocity, dw_dtheta), (free, size) = state.x, disc_point(model, state), _free_acceleration(model, state)
+    # Read in this order, before the sums over modes: it decides which product in F the optimiser does not round (see
+    # ``compile``). In another order results with c_p differ in their last bits.
+    x, N, Omega = state.x, load_now(model, state), drive_now(model, state)
+    k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.SPEED], model.compliance, x[layout.PSI]
+    (w, velocity, dw_dtheta), (free, size) = disc_point(model, state), _free_acceleration(model, state)
     return Instant(
-        load_now(model, state), model.k, model.c, model.m, model.k_p, model.c_p, drive_now(model, state),
-        model.compliance, x[layout.PSI], x[layout.SPEED], w, velocity, dw_dtheta, free,
-        x[layout.U], x[layout.U_VELOCITY],
+        N, model.k, model.c, model.m, k_p, c_p, Omega, compliance, psi, f,
+        w, velocity, dw_dtheta, free, x[layout.U], x[layout.U_VELOCITY],
     ), size  # fmt: skip
 
 
