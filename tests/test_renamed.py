@@ -12,7 +12,7 @@ from disc_model import cli
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.errors import ParameterError
 from disc_model.figures.kinds import KINDS, Mark
-from disc_model.renamed import RENAMED, renamed
+from disc_model.renamed import renamed, successors
 from disc_model.studies.document import QUANTITIES, STATIC, VARIED, BifurcationOptions, RecordSpec
 from disc_model.studies.grids.merge import summary_of
 
@@ -38,7 +38,7 @@ def places() -> Iterator[set[str]]:
         yield set(get_args(model.model_fields[key].annotation))
 
 
-@pytest.mark.parametrize(("old", "new"), [(old, new) for old, several in RENAMED.items() for new in several])
+@pytest.mark.parametrize(("old", "new"), [(old, new) for old, several in successors().items() for new in several])
 def test_a_successor_is_there_where_its_name_is_not(old: str, new: str) -> None:
     there = [names for names in places() if new in names]
     assert there
@@ -48,7 +48,7 @@ def test_a_successor_is_there_where_its_name_is_not(old: str, new: str) -> None:
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
 def test_a_key_that_is_gone_is_refused_with_its_successor(model: Any) -> None:
-    for old, several in RENAMED.items():
+    for old, several in successors().items():
         new = next((new for new in several if new in model.model_fields), None)
         if new is not None:
             with pytest.raises(ParameterError) as error:

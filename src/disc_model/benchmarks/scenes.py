@@ -32,7 +32,6 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State
 
-REFERENCED = ("stick_slip", "separating", "many_modes")
 JUDGED = ("stick_slip", "separating")
 """Scenes for short comparisons of methods: a second each."""
 CONVERGED = 1e-6
