@@ -113,7 +113,7 @@ def installed(request: pytest.FixtureRequest, wheel: Path, tree: Path, tmp_path_
     work = folder / "work"
     work.mkdir()
     made = Installed(folder / "venv" / "bin", work)
-    made.run("python", "-m", "pip", "install", "--require-hashes", "-r", tree / "requirements.lock")
+    made.run("python", "-m", "pip", "install", "--require-hashes", "--no-deps", "-r", tree / "requirements.lock")
     made.run("python", "-m", "pip", "install", "--no-deps", wheel)
     made.run("python", "-m", "pip", "check")
     return made
