@@ -3,6 +3,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+# A lock lists everything, so pip is to look for nothing else: it would try newer releases of a package wanted with extras.
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps
 CORES ?= 2
 # What jobs print at the same time comes in one piece each, where make knows how to.
 SYNC := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
@@ -21,13 +23,12 @@ TESTED_others := tests/claims tests/data tests/docs tests/explorer tests/figures
 env: $(STAMP)
 
 # Every version is locked and every file checked by its hash; the package itself is installed in place.
-# A lock lists everything, so pip is to look for nothing else: it would try newer releases of a package wanted with extras.
 $(STAMP): requirements.lock pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.12")'
 	$(PYTHON) -m venv $(VENV)
 	@echo "Installing into $(VENV), which takes a minute or two"
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements.lock
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	$(INSTALL) --require-hashes -r requirements.lock
+	$(INSTALL) --no-build-isolation -e .
 	touch $@
 
 reproduce: env
@@ -63,7 +64,7 @@ gallery: env
 	$(BIN)/python docs/make_gallery.py
 
 $(VENV)/.docs: requirements-docs.lock $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-docs.lock
+	$(INSTALL) --require-hashes -r requirements-docs.lock
 	touch $@
 
 # The pages of docs/ and the reference as a site, in docs/_build/html; a warning, as of a link that leads nowhere, ends it.
@@ -144,7 +145,7 @@ format: env
 	$(BIN)/snakefmt Snakefile workflow
 
 $(VENV)/.bench: requirements-bench.lock $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps -r requirements-bench.lock
+	$(INSTALL) --require-hashes -r requirements-bench.lock
 	touch $@
 
 # Speed against accuracy, where methods fail, truncation: measured here and now, on one core at a time.
