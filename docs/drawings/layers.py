@@ -15,7 +15,7 @@ PACKAGE = ROOT / "src" / "disc_model"
 WHAT = {
     "cli": "commands: text to and from the functions below",
     "benchmarks": "speed against accuracy, other integrators included",
-    "claims": "what the paper says, checked against datasets",
+    "paper": "what the paper says, checked against datasets",
     "explorer": "one page to look at datasets, motions, figures",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
     "kernels": "compilation before jobs need it",

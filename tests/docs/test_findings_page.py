@@ -6,8 +6,8 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from disc_model.claims.ledger import CLAIMS
-from disc_model.claims.model import FAILS, HOLDS, NOT_TESTABLE, REMARK, UNDECIDED
+from disc_model.paper.ledger import CLAIMS
+from disc_model.paper.model import FAILS, HOLDS, NOT_TESTABLE, REMARK, UNDECIDED
 
 ROOT = Path(__file__).parents[2]
 LEDGER = ROOT / "results" / "paper" / "claims.csv"

@@ -142,8 +142,8 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
         # the provenance page and the ledger are laid out alike
-        ("src/disc_model/claims/section42.py", lambda _: {"check_claims", "describe_study"}),
-        ("src/disc_model/claims/section42.yaml", lambda _: {"check_claims", "describe_study"}),
+        ("src/disc_model/paper/section42.py", lambda _: {"check_claims", "describe_study"}),
+        ("src/disc_model/paper/section42.yaml", lambda _: {"check_claims", "describe_study"}),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:

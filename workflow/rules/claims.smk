@@ -1,7 +1,7 @@
 # The paper's claims against the computed results.
 
 
-from disc_model.claims import SCANS
+from disc_model.paper import SCANS
 
 SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 

@@ -2,7 +2,7 @@
 # normalisation of the modes, and the conclusions that hold under other models.
 
 
-from disc_model.claims import SURVIVAL_GRIDS
+from disc_model.paper import SURVIVAL_GRIDS
 
 
 report: "../report/overview.rst"

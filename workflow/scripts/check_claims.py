@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from disc_model.claims.ledger import check_claims
-from disc_model.claims.pages import ledger, to_markdown
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
+from disc_model.paper.ledger import check_claims
+from disc_model.paper.pages import ledger, to_markdown
 
 
 @script

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from disc_model.claims.ledger import compare
 from disc_model.data.dataset import load_inputs
 from disc_model.errors import script
+from disc_model.paper.ledger import compare
 
 
 @script

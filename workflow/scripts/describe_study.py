@@ -7,10 +7,10 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims.pages import page, table_html
 from disc_model.data.dataset import load_inputs
 from disc_model.data.variables import STATUSES, values_text
 from disc_model.errors import script
+from disc_model.paper.pages import page, table_html
 from disc_model.parameters import Parameters
 
 WORDS = (

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from disc_model.claims.survival import judge, page_of
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
+from disc_model.paper.survival import judge, page_of
 
 
 @script

@@ -3,11 +3,11 @@
 import math
 from pathlib import Path
 
-from disc_model.claims.measures import CaseView
-from disc_model.claims.pages import table_page
-from disc_model.claims.paper_tables import table_1, table_2_or_why
 from disc_model.data.dataset import load_inputs, markdown_table
 from disc_model.errors import script
+from disc_model.paper.measures import CaseView
+from disc_model.paper.pages import table_page
+from disc_model.paper.paper_tables import table_1, table_2_or_why
 
 TITLES = {"table1": "Table 1: base values", "table2": "Table 2: frequencies of the disc in the first 10 s"}
 NOTES = {

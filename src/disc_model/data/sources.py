@@ -58,7 +58,7 @@ KINDS = {
     "draw_figure": "figure analysis catalogue figures.grids.cells figures.grids.growth_map "
     "figures.grids.stability_map stability.resonances",
     "draw_benchmark": "figures.benchmark figures/benchmark.yaml",
-    "check_claims": "cycle analysis claims/ data.texts config/paper.yaml",
+    "check_claims": "cycle analysis paper/ data.texts config/paper.yaml",
     "compare_normalisations": "check_claims",
     "judge_survival": "check_claims",
     "make_table": "check_claims",

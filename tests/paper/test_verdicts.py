@@ -11,15 +11,15 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.analysis import classify
-from disc_model.claims import disc, energy, ledger, measures, section44
-from disc_model.claims.ledger import CLAIMS, views
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED, Claim, Finding
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS
+from disc_model.paper import disc, energy, ledger, measures, section44
+from disc_model.paper.ledger import CLAIMS, views
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import FAILS, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED, Claim, Finding
 from disc_model.plate import plate_modes
-from tests.claims import made_up
-from tests.claims.made_up import DAMAGES, EACH_DAMAGE, STILL, Groups, Story, damaged, root_with
+from tests.paper import made_up
+from tests.paper.made_up import DAMAGES, EACH_DAMAGE, STILL, Groups, Story, damaged, root_with
 
 pytestmark = pytest.mark.usefixtures("cycles_as_told")
 BY_NAME = {claim.id: claim for claim in CLAIMS}
@@ -254,7 +254,7 @@ def test_other_simulations_of_a_case_are_a_remark(
     """The first separation at 385 N, 15.1 rad/s held, though a spring 0.1 % stiffer keeps contact."""
     cases, told = made_up.cases(some("F13")), made_up.AS_TOLD["F13"]
     again = lambda p, until: made_up.case("F13", told if p.k == 5e4 else story)  # noqa: E731
-    monkeypatch.setattr("disc_model.claims.model.simulate_again", again)
+    monkeypatch.setattr("disc_model.paper.model.simulate_again", again)
     found, by = BY_NAME["F13"].settle(lambda one, *changed: one.evaluate(cases, *changed))
     assert (found.verdict, by) == (verdict, turned)
     assert (turned in found.remark) == (verdict == REMARK)

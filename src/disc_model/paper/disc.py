@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from scipy.integrate import fixed_quad
 
-from disc_model.claims.model import Answer
+from disc_model.paper.model import Answer
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 

@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.claims import measures
-from disc_model.claims.disc import moving_load_speed
-from disc_model.claims.measures import Absent, CaseView, Range
-from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
+from disc_model.paper import measures
+from disc_model.paper.disc import moving_load_speed
+from disc_model.paper.measures import Absent, CaseView, Range
+from disc_model.paper.model import Answer
 
 
 def quiet(case: CaseView, *, part: float, newtons: float) -> Answer:

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import irregularity, separation_location, stick_disappears
 from disc_model.analysis.poincare import distinct_points
-from disc_model.claims import measures
-from disc_model.claims.disc import BASE, moving_load_speed
-from disc_model.claims.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
-from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
+from disc_model.paper import measures
+from disc_model.paper.disc import BASE, moving_load_speed
+from disc_model.paper.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
+from disc_model.paper.model import Answer
 from disc_model.parameters import Parameters
 
 STIFFENED = {

@@ -10,8 +10,8 @@ from typing import Any
 import pandas as pd
 import yaml
 
-from disc_model.claims.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED
 from disc_model.data.dataset import markdown_table
+from disc_model.paper.model import FAILS, FOLDER, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED
 
 TEXTS: dict[str, dict[str, Any]] = yaml.safe_load((FOLDER / "pages.yaml").read_text(encoding="utf-8"))
 """The texts of each page."""

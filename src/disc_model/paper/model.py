@@ -19,10 +19,10 @@ import yaml
 from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
 
 from disc_model.analysis.classify import SETTLED
-from disc_model.claims.measures import STRETCH, Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Part, Sentences
 from disc_model.errors import DiscModelError
+from disc_model.paper.measures import STRETCH, Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
 from disc_model.parameters import Parameters
 
 HOLDS = "holds"
@@ -110,7 +110,7 @@ class Claim(BaseModel):
     beside : further ones, for remarks only: None instead of one that is missing
     ours : what we found
     remark, remarks : what should be known besides: in any case; where the value of that name is true. Any may have
-        ``elsewhere`` and ``another``, see `elsewhere` and `another_motion` in `disc_model.claims.measures`
+        ``elsewhere`` and ``another``, see `elsewhere` and `another_motion` in `disc_model.paper.measures`
     undecided : by name, reasons why the evidence may decide nothing
     parts : by name of a value, how its rows are said
     apart : why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint

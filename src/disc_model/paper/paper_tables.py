@@ -5,10 +5,10 @@ import pandas as pd
 import yaml
 
 from disc_model.analysis import spectra
-from disc_model.claims import measures
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import FOLDER
 from disc_model.data.dataset import Missing
+from disc_model.paper import measures
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import FOLDER
 from disc_model.parameters import Parameters
 
 TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))

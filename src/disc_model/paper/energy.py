@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.claims.measures import Absent, Array
+from disc_model.paper.measures import Absent, Array
 from disc_model.parameters import Parameters
 from disc_model.plate import modal_damping, mode_arrays
 

@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 import xarray as xr
 
-from disc_model.claims import disc, measures, section41, section42, section43, section44, survival
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import HOLDS, NOT_COMPUTED, REMARK, claims
-from disc_model.claims.pages import TEXTS, Comparison
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import values_text
+from disc_model.paper import disc, measures, section41, section42, section43, section44, survival
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import HOLDS, NOT_COMPUTED, REMARK, claims
+from disc_model.paper.pages import TEXTS, Comparison
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -25,7 +25,7 @@ def check_claims(tree: xr.DataTree, scans: Mapping[str, xr.Dataset] | None = Non
     Parameters
     ----------
     tree : merged cases, see `disc_model.studies.cases`
-    scans : merged grid studies by name, of `disc_model.claims.SCANS`; claims that need missing ones are not computed
+    scans : merged grid studies by name, of `disc_model.paper.SCANS`; claims that need missing ones are not computed
     """
     cases = views(tree, scans)
     rows = []

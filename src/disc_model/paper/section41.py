@@ -9,11 +9,11 @@ import xarray as xr
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity
 from disc_model.analysis.poincare import distinct_points
-from disc_model.claims import energy, measures
-from disc_model.claims.measures import Absent, CaseView, is_kind, pairs
-from disc_model.claims.model import Answer
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
+from disc_model.paper import energy, measures
+from disc_model.paper.measures import Absent, CaseView, is_kind, pairs
+from disc_model.paper.model import Answer
 
 FULL = 1.1
 """A section is full if its last points hold at most this factor more distinct points than their last half."""

@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
-from disc_model.claims.pages import ledger, table_page
-from disc_model.claims.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2, table_2_or_why
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
+from disc_model.paper.pages import ledger, table_page
+from disc_model.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2, table_2_or_why
 
 COLUMNS = [
     "id",

@@ -15,10 +15,11 @@ import yaml
 from pydantic import ValidationError
 
 from disc_model import Parameters
-from disc_model.claims import SCANS, disc, measures, section41, section42, section43, section44, survival
-from disc_model.claims.ledger import CLAIMS, check_claims, views
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import (
+from disc_model.data.dataset import Missing
+from disc_model.paper import SCANS, disc, measures, section41, section42, section43, section44, survival
+from disc_model.paper.ledger import CLAIMS, check_claims, views
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import (
     FAILS,
     HOLDS,
     NOT_COMPUTED,
@@ -31,14 +32,13 @@ from disc_model.claims.model import (
     claims,
     paper_cases,
 )
-from disc_model.claims.pages import to_markdown
-from disc_model.claims.survival import CONCLUSIONS
-from disc_model.data.dataset import Missing
+from disc_model.paper.pages import to_markdown
+from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
 from disc_model.stability.cycle import floquet
 from disc_model.studies.study import parse_study
-from tests.claims.made_up import kept_events
-from tests.claims.test_pages import COLUMNS
+from tests.paper.made_up import kept_events
+from tests.paper.test_pages import COLUMNS
 
 
 def tree_of(**cases: dict[str, Any]) -> xr.DataTree:

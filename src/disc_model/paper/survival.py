@@ -16,12 +16,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
-from disc_model.claims import measures, section42
-from disc_model.claims.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
-from disc_model.claims.model import Answer, claims
-from disc_model.claims.pages import TEXTS, Comparison
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, stated_in
+from disc_model.paper import measures, section42
+from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
+from disc_model.paper.model import Answer, claims
+from disc_model.paper.pages import TEXTS, Comparison
 
 # ----------------------------------------------------------------------------------------------------
 # The models and the data of each

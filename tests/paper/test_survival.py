@@ -9,13 +9,13 @@ import xarray as xr
 import yaml
 
 from disc_model import Parameters, residual_flexibility
-from disc_model.claims import SURVIVAL_GRIDS
-from disc_model.claims.measures import CaseView
-from disc_model.claims.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, Finding
-from disc_model.claims.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.data.variables import STATUSES
+from disc_model.paper import SURVIVAL_GRIDS
+from disc_model.paper.measures import CaseView
+from disc_model.paper.model import FAILS, HOLDS, NOT_COMPUTED, REMARK, UNDECIDED, Finding
+from disc_model.paper.survival import CONCLUSIONS, MODELS, Evidence, judge, page_of
 from disc_model.studies.study import load_study
-from tests.claims.made_up import grid, kept_events, logistic
+from tests.paper.made_up import grid, kept_events, logistic
 
 BY_TITLE = {one.id: one for one in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"

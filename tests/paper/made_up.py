@@ -20,11 +20,11 @@ import pytest
 import xarray as xr
 import yaml
 
-from disc_model.claims.energy import Powers
-from disc_model.claims.ledger import views
-from disc_model.claims.measures import CaseView
 from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
 from disc_model.data.variables import PHASES, STATUSES
+from disc_model.paper.energy import Powers
+from disc_model.paper.ledger import views
+from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies
 from disc_model.simulation.case import CaseSpec, Start

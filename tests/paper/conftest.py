@@ -3,8 +3,8 @@
 import pytest
 import xarray as xr
 
-from disc_model.claims import energy, measures
-from tests.claims import made_up
+from disc_model.paper import energy, measures
+from tests.paper import made_up
 
 
 @pytest.fixture(scope="session")
@@ -17,6 +17,6 @@ def told() -> xr.DataTree:
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """Growth rates, energies and repeated simulations that fit it, without a search for cycles and a simulation."""
     again = made_up.case("F13", made_up.AS_TOLD["F13"])
-    monkeypatch.setattr("disc_model.claims.model.simulate_again", lambda p, until: again)
+    monkeypatch.setattr("disc_model.paper.model.simulate_again", lambda p, until: again)
     monkeypatch.setattr(energy, "course", made_up.course_as_told)
     monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)
