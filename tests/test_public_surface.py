@@ -76,7 +76,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (disc_model.steady_sliding, {}, {}),
     (disc_model.choose_modes, {"case": P}, right(case="dict", tolerance="None digits")),
     (simulate, {"p": P, "t_end": 1.0}, right("initial_state record stop_at", "None", ramps="empty")),
-    (run, {}, right(progress="None True", max_steps="None huge", checkpoint=f"None {FILE}", checkpoint_every="zero")),
+    (run, {}, right(progress="None True", max_steps="None huge")),
     (
         start,
         {},

@@ -43,7 +43,6 @@ NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
         *({"t_end": number(0.0625)} for number in NUMBERS),
         *({"tol": number(2.0**-30)} for number in NUMBERS if number is not np.float16),
         *({"max_steps": whole(100)} for whole in (np.int8, np.uint64)),
-        {"checkpoint_every": np.float32(1)},
     ],
     ids=str,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -39,7 +38,6 @@ RAMP_HELP = (
     "a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, end (s); may be "
     "repeated"
 )
-CHECKPOINT_HELP = "from it the same command continues if this one is interrupted"
 
 
 @with_case_options()
@@ -57,7 +55,6 @@ def run(
     window: Annotated[list[str] | None, typer.Option(metavar="NAME:KEY=VALUE,...", help=WINDOW_HELP)] = None,
     ramp: Annotated[list[str] | None, typer.Option(metavar="PARAMETER:KEY=VALUE,...", help=RAMP_HELP)] = None,
     max_steps: Annotated[str | None, typer.Option(metavar="COUNT", help="give up after so many steps")] = None,
-    checkpoint: Annotated[Path | None, typer.Option(metavar="FILE", help=CHECKPOINT_HELP)] = None,
     case: dict[str, str],
 ) -> None:
     """Simulate one case from static equilibrium and print what happened."""
@@ -69,23 +66,15 @@ def run(
     most = option("max_steps", max_steps, Annotated[Count, Field(ge=1)], faults, default=None)
     windows = _windows(window or [], end, faults)
     ramps = _ramps(ramp or [], faults)
-    faults += _file_faults(plot, save, checkpoint)
+    faults += _file_faults(plot, save)
     raise_faults(faults)  # before kernels load; `simulate` checks ramps
     from disc_model.simulation.api import Execution, simulate
 
     record = Record(windows=tuple(windows.values())) if windows else None
     if plot is not None and record is None:
         record = plot_record(end)
-    if checkpoint is not None:  # reports where a run continues, or why it does not
-        logging.basicConfig(format="%(message)s")
-        logging.getLogger("disc_model").setLevel(logging.INFO)
-    execution = Execution(max_steps=most, checkpoint=checkpoint)
-    try:
-        result = simulate(p, end, tol=tolerance, record=record, stop_at=until, ramps=ramps, execution=execution)
-    except KeyboardInterrupt:
-        if checkpoint is not None and checkpoint.exists():
-            typer.echo(f"{checkpoint} holds what was reached: the same command continues from there", err=True)
-        raise
+    execution = Execution(max_steps=most)
+    result = simulate(p, end, tol=tolerance, record=record, stop_at=until, ramps=ramps, execution=execution)
     _print_summary(result, choice)
     complete = result.status.complete
     if save is not None:
@@ -143,7 +132,7 @@ def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict
     return found
 
 
-def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) -> Iterator[str]:
+def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:
     """Reasons why files cannot be written, found before the simulation instead of after it."""
     if plot is not None:
         from matplotlib.backend_bases import FigureCanvasBase
@@ -160,10 +149,6 @@ def _file_faults(plot: Path | None, save: Path | None, checkpoint: Path | None) 
             yield f"{name}={str(path)!r}: must be in a folder that exists"
         elif not may_be_file(path):
             yield f"{name}={str(path)!r}: {NAME_RULE}"
-    if checkpoint is not None:
-        from disc_model.simulation.recorder import faults
-
-        yield from faults(checkpoint, 0)
 
 
 def plot_record(t_end: float) -> Record:

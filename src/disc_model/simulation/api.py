@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import logging
 import math
-import os
 import time as clock
 import warnings
 from collections.abc import Callable
@@ -35,7 +33,7 @@ from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.ramps import Ramp
-from disc_model.simulation.recorder import Checkpoint, Collector, Contents, faults
+from disc_model.simulation.recorder import Collector
 from disc_model.simulation.result import (
     Result,
     State,
@@ -49,8 +47,6 @@ from disc_model.simulation.result import (
 )
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     import xarray as xr
 
 log = logging.getLogger(__name__)
@@ -83,15 +79,10 @@ class Execution:
     progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
         compilation; False shows nothing
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
-    checkpoint : file from which the same call continues after an interruption. The result is the same to the last bit
-        (except ``wall_time``). The file is removed at the end; two simultaneous runs must not share it
-    checkpoint_every : s of wall time between checkpoints
     """
 
     progress: Progress = None
     max_steps: int | None = None
-    checkpoint: str | os.PathLike[str] | None = None
-    checkpoint_every: float = 5.0
 
 
 _PLAIN = Execution()
@@ -119,7 +110,7 @@ def simulate(
     record : quantities to keep, or a single window; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
-    execution : progress, largest number of steps and checkpoints, see `Execution`
+    execution : progress and largest number of steps, see `Execution`
 
     Returns
     -------
@@ -141,24 +132,15 @@ def simulate(
     run = _Run(asked)
     for window in asked.record.outside(start, end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
-    file = execution.checkpoint
-    kept = None if file is None else Checkpoint(file, execution.checkpoint_every, run.identity)
-    if kept is not None and (contents := kept.load()) is not None:
-        run.restore(contents)
-        log.info("continues at t = %.9g s from checkpoint %s", run.time, kept.path)
     code = run.advance()
     if code == exit_codes.PAUSED or callable(execution.progress):  # a short run has no progress to show
         with simulating(execution.progress, end) as tell:
             while code == exit_codes.PAUSED:
-                if kept is not None and kept.due:
-                    kept.save(run.carried | run.collector.contents())
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
     result = run.result(_STATUS[code])
     run.case.idle[run.limits.order].append((run.state, run.probe, run.series))
-    if kept is not None:
-        kept.remove()
     return result
 
 
@@ -207,7 +189,6 @@ class _Request:
             (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
             (shows, "progress", how.progress, "must be a function of the time, or False"),
         )
-        found += faults(how.checkpoint, how.checkpoint_every)
         if isinstance(self.p, Parameters) and not (isinstance(self.ramps, tuple) and not self.ramps):
             found += courses.faults(self.p, self.ramps, poincare=getattr(self.record, "poincare", None) is not None)
         return found
@@ -228,11 +209,11 @@ class _Run:
             at_switch = write_state(case, asked.initial_state, self.state, self.key)
         longest_step = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
-        self.place, self.wall_time = np.zeros(1, np.int64), np.zeros(1)
+        self.wall_time = 0.0
         most, every_step = asked.execution.max_steps, asked.record.audit_every_step
         tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
         most_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
-        # pauses serve checkpoints, progress and Ctrl-C; there are fewer steps between them where a step costs more
+        # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
         pause_after = max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1)))
         audit_every = 1 if every_step else 256  # a compliant contact takes about four times as many steps per second
         self.limits = event_loop.Limits(
@@ -247,7 +228,7 @@ class _Run:
 
     def _enter(self, place: int) -> None:
         """Continue with another piece of the ramps."""
-        self.place[0], self.model, piece = place, self.case.model, self.pieces[place]
+        self.place, self.model, piece = place, self.case.model, self.pieces[place]
         if self.asked.ramps:
             self.limits = self.limits._replace(t_end=min(self.asked.t_end, piece.end))
         if not piece.constant:
@@ -270,51 +251,20 @@ class _Run:
         """The time reached, s."""
         return float(self.state.x[layout.TIME])
 
-    @property
-    def identity(self) -> dict[str, str]:
-        """Values that a checkpoint of this run must share; to be read before the first step."""
-        asked, modes = self.asked, mode_arrays(self.asked.p)
-        return {
-            "parameters": asked.p.canonical_json,
-            "modes": " ".join(array.tobytes().hex() for array in (modes.omega, modes.psi)),
-            "t_end": repr(asked.t_end),
-            "tol": repr(asked.tol),
-            "record": repr(asked.record),
-            "stop_at": str(asked.stop_at),
-            "max_steps": str(self.limits.max_steps),
-            "initial state": " ".join(array.tobytes().hex() for array in self.state),
-            "sources": source_hash("case"),
-            "versions": json.dumps(versions(), sort_keys=True),
-            "ramps": repr(asked.ramps),
-        }
-
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
         if code == exit_codes.TIME_OVER and self.limits.t_end < self.asked.t_end:
-            self._enter(int(self.place[0]) + 1)
+            self._enter(self.place + 1)
             code = exit_codes.PAUSED
         self.collector.drain()
-        self.wall_time[0] += clock.perf_counter() - began
+        self.wall_time += clock.perf_counter() - began
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
         """Arguments of `event_loop.run`."""
         return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
-
-    @property
-    def carried(self) -> Contents:
-        """Arrays that carry the run from one call of the engine to the next, by name."""
-        state = {f"state_{name}": array for name, array in self.state._asdict().items()}
-        return self.collector.carried | state | {"place": self.place, "wall_time": self.wall_time}
-
-    def restore(self, contents: Contents) -> None:
-        """Continue from `carried` and the recorded rows as they were when a checkpoint was made."""
-        for name, array in self.carried.items():
-            array[...] = contents[name]
-        self._enter(int(self.place[0]))
-        self.collector.restore(contents)
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run."""
@@ -328,10 +278,10 @@ class _Run:
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
-            first_separation=float(self.collector.first_separation),
+            first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.collector.buffers, asked.record.audit_every_step, float(self.wall_time[0])),
+            statistics=_statistics(self.collector.buffers, asked.record.audit_every_step, self.wall_time),
             samples=samples,
             poincare=poincare,
             ramps=asked.ramps,
@@ -476,14 +426,13 @@ def transfer_state(p: Parameters, state: State) -> State:
 # A case of a study
 
 
-def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | None = None) -> xr.DataTree:
+def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
     """Simulate a named case of a study; `disc_model.data.dataset` describes the layout of the tree.
 
     A failure is recorded as a status in the dataset and does not end the study.
 
     Parameters
     ----------
-    checkpoint : file from which an interrupted case continues, see `Execution`
     choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
         for a case that asks for such a choice
     """
@@ -499,7 +448,7 @@ def run_case(spec: CaseSpec, checkpoint: Path | None = None, choose: Choose | No
         start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
             p, spec.t_end, tol=spec.tol, initial_state=start, record=spec.record, stop_at=spec.stop_at,
-            ramps=spec.ramps, execution=Execution(checkpoint=checkpoint),
+            ramps=spec.ramps,
         )  # fmt: skip
     except DiscModelError as error:
         log.error("no result: %s", error)

@@ -1,21 +1,9 @@
-"""Recorded rows of a run, and the checkpoints from which an interrupted run continues.
+"""Recorded rows of a run: buffers between the engine and the arrays of a result."""
 
-A run that continues from its last checkpoint gives the same result as an uninterrupted one. The file of a run holds
-the state of the engine and all rows recorded so far. It is written atomically and with a checksum: an interruption
-leaves the previous checkpoint. Only the same run uses it: same arguments, modes, sources and versions. A checkpoint
-of another run in its place, or a file that is no checkpoint, is renamed, and a warning says why. The new name
-identifies the other run, which finds its checkpoint again under that name.
-"""
-
-import hashlib
-import json
-import logging
 import math
 import os
 import sys
-import time as clock
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -24,131 +12,10 @@ from numpy.typing import NDArray
 from disc_model.engine import event_loop, sampling
 from disc_model.engine.audit import N_SUMS
 from disc_model.errors import Fault, ParameterError
-from disc_model.parameters import Parameters, canonical_json, content_key, is_number
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Record, Window
 
-# ----------------------------------------------------------------------------------------------------
-# Checkpoints
-
-log = logging.getLogger(__name__)
-
-SET_ASIDE = ".other"
-"""Suffix given to a file in the checkpoint's place that does not belong to this run."""
-SHARE = 0.1
-"""Largest share of the wall time that writing checkpoints may take."""
-
 Array = NDArray[Any]
-Contents = dict[str, Array]
-"""Contents of a checkpoint: the state, and parts of recorded rows such as ``events/0``, in order."""
-
-
-def faults(path: object, every: object) -> Iterator[str]:
-    """Faults of the arguments ``checkpoint`` and ``checkpoint_every`` of `disc_model.Execution`."""
-    if path is not None:
-        from disc_model.data.dataset import LONGEST_NAME, may_be_file
-
-        if not may_be_file(path) or not Path(path).parent.is_dir():  # type: ignore[arg-type]
-            rule = f"must be a file in a folder that exists, with a name of at most {LONGEST_NAME} bytes"
-            yield Fault(("checkpoint",), repr(str(path)), rule)
-    if not is_number(every) or not 0 <= float(every) < math.inf:  # type: ignore[arg-type]
-        yield f"checkpoint_every={every!r}: must be finite and >= 0"
-
-
-class Checkpoint:
-    """The checkpoint file of one run.
-
-    Parameters
-    ----------
-    path : the file; simultaneous runs must not share it
-    every : s of wall time between two checkpoints; longer if writing takes more than `SHARE` of it, unless it is 0
-    belongs_to : values that a run must share to continue from it, by name
-    """
-
-    def __init__(self, path: str | os.PathLike[str], every: float, belongs_to: Mapping[str, str]) -> None:
-        self.path, self.every, self.belongs_to = Path(path), every, dict(belongs_to)
-        self._mine = False  # whether the file there is this run's
-        self._next = clock.monotonic() + every
-
-    def load(self) -> Contents | None:
-        """Contents of the run's file, which may have been renamed; None if it does not exist."""
-        from disc_model.data.dataset import remove_leftovers
-
-        remove_leftovers(self.path)
-        found, aside = self._read(), self._aside(content_key(canonical_json(self.belongs_to)))
-        if found is None and aside.exists():
-            os.replace(aside, self.path)
-            found = self._read()
-        self._mine = found is not None
-        return found
-
-    def _read(self) -> Contents | None:
-        """Contents of the file; a file that does not belong to this run is renamed."""
-        from disc_model.data.dataset import DamagedFile, verify_checksum
-
-        try:
-            verify_checksum(self.path)
-            with np.load(self.path) as file:
-                held = dict(file)
-            belongs_to = json.loads(str(held.pop("belongs_to")))
-        except FileNotFoundError:
-            return None
-        except OSError as error:
-            rule = f"cannot be read: {error.strerror}"
-            raise ParameterError(Fault(("checkpoint",), repr(str(self.path)), rule)) from None
-        except (DamagedFile, ValueError, KeyError):
-            self._set_aside("damaged, or not a checkpoint", hashlib.sha256(self.path.read_bytes()).hexdigest()[:12])
-            return None
-        differing = [name for name, value in self.belongs_to.items() if belongs_to.get(name) != value]
-        if differing:
-            self._set_aside(f"of another run (other {', '.join(differing)})", content_key(canonical_json(belongs_to)))
-            return None
-        return held
-
-    def _aside(self, whose: str) -> Path:
-        return self.path.with_name(f"{self.path.name}.{whose}{SET_ASIDE}")
-
-    def _set_aside(self, why: str, whose: str) -> None:
-        aside = self._aside(whose)
-        try:
-            os.replace(self.path, aside)
-        except OSError as error:
-            rule = f"is {why} and cannot be renamed ({error.strerror})"
-            raise ParameterError(Fault(("checkpoint",), repr(str(self.path)), rule)) from None
-        log.warning("checkpoint %s ignored: %s; it is now called %s", self.path, why, aside.name)
-
-    @property
-    def due(self) -> bool:
-        """Whether it is time for the next checkpoint."""
-        return clock.monotonic() >= self._next
-
-    def save(self, contents: Contents) -> None:
-        """Write a checkpoint; if that fails, the run continues and the previous checkpoint stays."""
-        from disc_model.data.dataset import write_atomically
-
-        arrays: dict[str, Any] = contents | {"belongs_to": np.array(json.dumps(self.belongs_to))}
-
-        def write(name: str) -> None:
-            with open(name, "wb") as file:  # given a name, numpy would add a suffix to it
-                np.savez(file, **arrays)
-
-        began = clock.monotonic()
-        try:
-            write_atomically(self.path, write, sum(array.nbytes for array in arrays.values()))
-        except OSError as error:
-            log.warning("checkpoint %s not written: %s", self.path, error)
-        else:
-            self._mine = True
-        now = clock.monotonic()
-        self._next = now + (max(self.every, (now - began) / SHARE) if self.every > 0 else 0)
-
-    def remove(self) -> None:
-        """Remove the file of a complete run; a file that this run neither used nor wrote stays."""
-        if self._mine:
-            self.path.unlink(missing_ok=True)
-
-
-# ----------------------------------------------------------------------------------------------------
-# Rows: buffers between the engine and the arrays of a result
 
 BUFFER = 1 << 15  # rows of a buffer: large enough for cheap draining, small enough to stay in the cache
 SMALL_BUFFER = 1 << 8  # rows of the first buffer of events: a large one takes longer to make than a short simulation
@@ -181,32 +48,12 @@ class Collector:
         self.buffers = event_loop.RunBuffers(
             counters, np.zeros(3), np.zeros(N_SUMS), samplers, sampled, sample_rows, capacity, event_rows
         )
-        self.first_separation = np.array(math.nan)
+        self.first_separation = math.nan
         """Time of the first loss of contact, s; nan if there was none."""
         # recorded arrays in order of time; those of the rest, rows of bins that are not full
         self._events: list[Array] = []
         self._samples: list[list[Array]] = [[] for _ in grids]
         self._rest: list[list[Array]] = [[] for _ in grids]
-
-    def _lists(self) -> Iterator[tuple[str, list[Array]]]:
-        yield "events", self._events
-        for name, lists in (("samples", self._samples), ("rest", self._rest)):
-            yield from ((f"{name}_{i}", parts) for i, parts in enumerate(lists))
-
-    @property
-    def carried(self) -> Contents:
-        """Arrays that carry a run from one call of the engine to the next, by name."""
-        names = ("counters", "phase_times", "audit", "sampled")
-        return {"first_separation": self.first_separation} | {name: getattr(self.buffers, name) for name in names}
-
-    def contents(self) -> Contents:
-        """Recorded rows for a checkpoint.  It must follow `drain`, because the buffers are not part of it."""
-        return {f"{name}/{i}": part for name, parts in self._lists() for i, part in enumerate(parts)}
-
-    def restore(self, contents: Contents) -> None:
-        """Continue from `contents`."""
-        for name, parts in self._lists():
-            parts[:] = [part for entry, part in contents.items() if entry.startswith(f"{name}/")]
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
@@ -214,8 +61,8 @@ class Collector:
         events = event_rows[: counters[event_loop.EVENT_ROWS]]
         rows = self.buffers.sample_rows[: counters[event_loop.SAMPLE_ROWS]]
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
-        if counters[event_loop.SEPARATIONS] > 0 and np.isnan(self.first_separation):
-            self.first_separation[...] = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0]
+        if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
+            self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
         if self._record.events and len(events):
             self._events.append(events.copy())
         if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
