@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import failure_maps
+from disc_model.benchmarks import failure_maps, figures
 from disc_model.benchmarks.answers import measure, modelled, questions, simulated
 from disc_model.benchmarks.answers.questions import SIDE, AnswerStatus, AnswerVerdict, Found, verdict
 from disc_model.benchmarks.methods import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.registry import METHODS, Method
-from disc_model.figures import benchmark as figures
 from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
 from tests.references.stored import load
 

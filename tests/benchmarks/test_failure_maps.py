@@ -6,11 +6,10 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from disc_model.benchmarks import failure_maps
+from disc_model.benchmarks import failure_maps, figures
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import Verdict, errors
-from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 from disc_model.plate import mode_arrays
 

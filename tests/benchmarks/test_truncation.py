@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from disc_model.benchmarks import figures
 from disc_model.benchmarks.truncation import contact_study, truncation_study
-from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 
 

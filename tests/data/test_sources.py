@@ -51,8 +51,7 @@ ROOTS = {
 }
 """Where results begin that are no script's."""
 DRAWN = {
-    ("draw_figure", plot.module.removeprefix("disc_model."))
-    for plot in (*(entry.plot for entry in CATALOGUE.values()), OwnFigure(by="benchmark.draw"))
+    ("draw_figure", plot.module.removeprefix("disc_model.")) for plot in (entry.plot for entry in CATALOGUE.values())
 } | {
     ("draw_figure", kind.model_construct().module.removeprefix("disc_model."))
     for kind in FIGURES.values()

@@ -104,10 +104,6 @@ rule draw_benchmark:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plot=lambda wildcards: OwnFigure(
-            by="benchmark.draw", options={"figure": wildcards.figure}
-        ).model_dump_json(),
-        made_of=made_of("draw_figure", "draw_benchmark"),
-        files=lambda wildcards, input: [f"{Path(file).stem}={file}" for file in input],
+        made_of=made_of("draw_benchmark"),
     shell:
-        "job draw_figure {params.plot:q} '' {output} {params.files:q} > {log} 2>&1"
+        "job draw_benchmark {wildcards.figure} {output} {input} > {log} 2>&1"

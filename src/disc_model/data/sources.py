@@ -57,7 +57,7 @@ KINDS = {
     # pictures and pages; a figure's own module is named beside its kind
     "draw_figure": "figure analysis catalogue figures.grids.cells figures.grids.growth_map "
     "figures.grids.stability_map stability.resonances",
-    "draw_benchmark": "figures.benchmark figures/benchmark.yaml",
+    "draw_benchmark": "figure benchmarks.figures benchmarks/figures.yaml",
     "check_claims": "cycle analysis paper/ data.texts config/paper.yaml",
     "compare_normalisations": "check_claims",
     "judge_survival": "check_claims",

@@ -529,7 +529,7 @@ def spectrum_faults(window: Window, highest: float) -> Iterator[str]:
 
 
 class OwnFigure(Kind):
-    """A figure that no study file asks for, of the paper or of the benchmark: a function with its options."""
+    """A figure of the paper that no study file asks for: a function with its options."""
 
     kind: Literal["own"] = "own"
     by: str

@@ -5,7 +5,7 @@ All are pure functions of the datasets of `disc_model.benchmarks`.
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -421,6 +421,7 @@ DRAWN: dict[str, Callable[..., Figure]] = {
 }
 
 
-def draw(*inputs: xr.DataTree, figure: str) -> Figure:
-    """Draw a figure by its name."""
-    return DRAWN[figure](*(tree.to_dataset() for tree in inputs))
+def draw(name: str, datasets: Iterable[xr.Dataset]) -> Figure:
+    """Draw a figure by its name in `DRAWN`, in the common style."""
+    with parts.styled():
+        return DRAWN[name](*datasets)

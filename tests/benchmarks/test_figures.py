@@ -7,11 +7,10 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import scenes
+from disc_model.benchmarks import figures, scenes
 from disc_model.benchmarks.answers import measure
 from disc_model.benchmarks.grid import words
 from disc_model.benchmarks.registry import METHODS, SCENES
-from disc_model.figures import benchmark as figures
 from disc_model.figures.parts import save
 from tests.benchmarks.conftest import dataset, known
 from tests.figures.grids.reading import labels
