@@ -61,7 +61,7 @@ def test_help_shows_units_defaults_choices_and_the_version(command: Command, mon
     assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
     assert command.out("help", "run") == out
     out = command.out("help")
-    assert out == command.out("--help")
+    assert out == command.out("--help") == command.out()
     for name in ("run", "floquet", "modes", "study", "list", "init", "compile", "--install-completion"):
         assert name in out
     assert re.search(r"--disc +FILE", command.out("modes", "--help"))

@@ -6,6 +6,7 @@ import zlib
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.explorer.contents import BITS, LEVELS, motion_contents, runs, shortened, study_contents, traces
 from disc_model.studies.grids.motions import SAMPLES
@@ -37,10 +38,21 @@ def test_numbers_flags_and_messages_come_through(contents):
     assert (told["growth_rate"]["unit"], told["growth_rate"]["title"]) == ("s-1", "growth rate")
     words = np.array(told["outcome"]["flags"])[numbers(told["outcome"], "u1")]
     assert words.tolist() == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
-    text = np.array(contents["messages"]["words"])[numbers(contents["messages"], "<u2")].reshape(3, 4, 2)
+    text = np.array(contents["messages"]["words"])[numbers(contents["messages"], "<u4")].reshape(3, 4, 2)
     assert (text[tuple(made_up.FAILED.values())], (text != "").sum()) == (made_up.MESSAGE, 1)
     spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
     assert contents["fixed"] == [spring]
+
+
+def test_more_messages_and_greater_numbers_than_fit_into_small_types():
+    """Indices of messages wrapped at 65,536, and numbers above 3.4e38 were infinite."""
+    words = np.array([f"message {i:05}" for i in range(70_000)], dtype=object)
+    study = xr.Dataset({"message": ("N", words), "c": ("N", np.where(np.arange(70_000) == 3, 1e300, 0.5))})
+    told = study_contents("x", study)
+    assert told["messages"]["words"][numbers(told["messages"], "<u4")[69_999]] == "message 69999"
+    (variable,) = told["variables"]
+    assert variable["wide"]
+    np.testing.assert_array_equal(numbers(variable, "<f8"), study["c"])
 
 
 def test_chosen_modes_are_told_with_their_tolerance():

@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 from disc_model.studies.document import schema_text
-from disc_model.studies.study import load_study, parse_study, read_yaml
+from disc_model.studies.study import StudyError, load_study, parse_study, read_yaml
 from tests.studies.test_messages import TEXTS
 
 ROOT = Path(__file__).parents[2]
@@ -94,6 +94,20 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
 def test_values_of_an_axis(given: Any, values: list[float]) -> None:
     study = parse_study(GRID | {"axes": {"N": [100], "Omega": [10], "c": given}})
     assert study.grid.values["c"] == tuple((value,) for value in values)
+
+
+def test_values_that_fall_together_are_no_axis() -> None:
+    axes = GRID["axes"] | {"c": {"start": 0.1, "stop": 0.10000000000000002, "count": 50}}
+    with pytest.raises(StudyError, match=re.escape("axes.c: must be 50 values that differ")):
+        parse_study(GRID | {"axes": axes})
+
+
+@pytest.mark.parametrize("name", ["x" * 101, "ab" * 20])
+def test_names_that_files_cannot_bear_are_refused(name: str) -> None:
+    """Files have names of at most 255 bytes, and Snakemake refuses wildcards that repeat themselves."""
+    with pytest.raises(StudyError, match=r"must (be at most 100 characters|not end in 20 equal parts)"):
+        parse_study(GRID | {"study": name})
+    assert parse_study(GRID | {"study": ("ab" * 19 + "_" * 100)[:57]}).name.endswith("_")
 
 
 def test_no_document_is_nothing() -> None:

@@ -15,7 +15,6 @@ from disc_model.errors import DiscModelError
 from disc_model.renamed import renamed
 
 app = typer.Typer(
-    no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
@@ -41,15 +40,14 @@ def _all(
 
 def _fail(message: str) -> NoReturn:
     """Print a fault on stderr and exit with code 2."""
-    if message:  # empty after a help text
-        typer.echo(f"error: {message}", err=True)
+    typer.echo(f"error: {message}", err=True)
     sys.exit(2)
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     arguments = sys.argv[1:] if arguments is None else arguments
-    if arguments[:1] == ["help"]:
+    if not arguments or arguments[0] == "help":
         arguments = [*arguments[1:], "--help"]
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")

@@ -15,6 +15,8 @@ from disc_model.data.variables import attributes
 TRACES = ("P", "u", "psi")
 LEVELS = 65535
 """Steps between the least and the greatest value of a stored history."""
+MOST_SINGLE = 3.4e38
+"""Magnitude up to which numbers fit into 32 bits."""
 BITS = 17
 """Number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown."""
 
@@ -31,7 +33,8 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     Returns
     -------
     dict with the parameters that do not vary, the dimensions, each variable that lies along one (numbers as 32-bit
-    floats of `BITS`, flags as bytes with their words), messages, and motions.
+    floats of `BITS`, or of 64 bits if they are too great for that; flags as bytes with their words), messages, and
+    motions.
     """
     study = study.transpose(*study.sizes)
     message = study.get("message")
@@ -121,13 +124,15 @@ def _variable(variable: xr.DataArray) -> dict[str, Any]:
         words = str(attrs["flag_meanings"]).split()
         codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
         return found | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
+    if np.abs(values[np.isfinite(values)]).max(initial=0.0) > MOST_SINGLE:
+        return found | {"wide": True, "data": packed(values, "<f8")}
     return found | {"data": packed(shortened(values), "<f4")}
 
 
 def _messages(variable: xr.DataArray) -> dict[str, Any]:
     """Messages of the points, as indices into the distinct ones; most points share theirs."""
     words, places = np.unique(variable.values.astype(str), return_inverse=True)
-    return {"dims": list(variable.dims), "words": words.tolist(), "data": packed(places, "<u2")}
+    return {"dims": list(variable.dims), "words": words.tolist(), "data": packed(places, "<u4")}
 
 
 def _plain(values: NDArray[Any]) -> list[Any]:

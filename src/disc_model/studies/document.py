@@ -9,7 +9,9 @@ shipped copy is ``workflow/schemas/study.schema.json``.
 
 import json
 import math
+import re
 from collections.abc import Callable, Collection, Mapping
+from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union
 
 from pydantic import (
@@ -71,7 +73,15 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
     return AfterValidator(must(lambda name: name not in taken, rule))
 
 
-Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]
+_LENGTH = must(lambda name: len(name) <= 100, "must be at most 100 characters")
+_REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
+Name = Annotated[
+    str,
+    StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$"),
+    AfterValidator(_LENGTH),
+    AfterValidator(_REPETITION),
+]
+"""A name that files are called by; Snakemake takes a name that repeats itself for an endless recursion."""
 CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
 WindowName = Annotated[
     Name, _but(TAKEN | BESIDE_WINDOWS, "a window must not be called so, the name is taken by a variable or group")
@@ -162,6 +172,8 @@ class Range(Ruled):
             # the lowest resolution at which this value is there
             level = resolution // math.gcd(i, resolution)
             found.setdefault(level, []).append(self._at(i / n))
+        if len({*chain(*found.values())}) <= n:
+            raise ValueError(f"must be {n + 1} values that differ in their first 12 digits")
         return tuple(tuple(found[level]) for level in sorted(found))
 
     def _at(self, share: float) -> float:
