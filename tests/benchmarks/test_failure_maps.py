@@ -10,7 +10,7 @@ from disc_model.benchmarks import failure_maps, figures
 from disc_model.benchmarks.methods.rk4 import STABILITY_LIMIT
 from disc_model.benchmarks.registry import METHODS
 from disc_model.benchmarks.scenes import Verdict, errors
-from disc_model.figures.parts import save
+from disc_model.figures.drawing import save
 from disc_model.plate import mode_arrays
 
 

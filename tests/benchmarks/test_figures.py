@@ -11,9 +11,9 @@ from disc_model.benchmarks import figures, scenes
 from disc_model.benchmarks.answers import measure
 from disc_model.benchmarks.grid import words
 from disc_model.benchmarks.registry import METHODS, SCENES
-from disc_model.figures.parts import save
+from disc_model.figures.drawing import save
 from tests.benchmarks.conftest import dataset, known
-from tests.figures.grids.reading import labels
+from tests.figures.reading import labels
 
 __all__ = ["dataset", "known"]
 

@@ -5,7 +5,7 @@ import pytest
 
 from disc_model.benchmarks import figures
 from disc_model.benchmarks.truncation import contact_study, truncation_study
-from disc_model.figures.parts import save
+from disc_model.figures.drawing import save
 
 
 @pytest.mark.compiled

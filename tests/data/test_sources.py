@@ -29,7 +29,6 @@ BESIDES = {
     "data.sources": "says what made a result",
     "explorer": "a name only",
     "figures": "a name only",
-    "figures.grids": "a name only",
     "figures.kinds": "says what a file may ask for",
     "figures.paper": "a name only",
     "figures.paper.catalogue": "says what a file may ask for",

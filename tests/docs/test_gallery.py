@@ -6,7 +6,7 @@ import numpy as np
 from docs.make_gallery import PAGE, shrink
 from PIL import Image, ImageColor
 
-from disc_model.figures.parts import PHASE_COLOURS, SLIDER
+from disc_model.figures.drawing import PHASE_COLOURS, SLIDER
 
 
 def test_small_pictures_showed_phases_in_other_colours(tmp_path: Path) -> None:

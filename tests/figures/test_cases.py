@@ -15,12 +15,12 @@ from PIL import Image
 from disc_model import Parameters, Poincare, Record, Window, simulate
 from disc_model.data.dataset import Missing, events_dataset
 from disc_model.data.variables import PERTURBATIONS, SHOWN, values_text
-from disc_model.figures import parts
+from disc_model.figures import drawing
+from disc_model.figures.drawing import COLUMN, PAGE, save
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of
 from disc_model.figures.paper.disc import film, motion_of
-from disc_model.figures.parts import COLUMN, PAGE, save
-from tests.figures.grids.reading import labels
+from tests.figures.reading import labels
 from tests.paper.made_up import DAMAGES, EACH_DAMAGE, damaged
 
 SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
@@ -60,7 +60,7 @@ OPTIONS = {
 
 def drawn(name: str, cases: dict[str, xr.DataTree]) -> Figure:
     plot = CATALOGUE[name].plot
-    return parts.draw(OwnFigure(by=plot.by, options=plot.options | OPTIONS.get(name, {})), cases)
+    return drawing.draw(OwnFigure(by=plot.by, options=plot.options | OPTIONS.get(name, {})), cases)
 
 
 def draw(name: str, *, separates: bool = True) -> Figure:
@@ -144,7 +144,7 @@ def test_two_angles_are_both_named() -> None:
 
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     plot = CASE_PLOTS[kind].model_validate({"kind": kind, "case": "A", **phrase})
-    return parts.draw(plot, {"A": simulated(True) if case is None else case})
+    return drawing.draw(plot, {"A": simulated(True) if case is None else case})
 
 
 def test_a_history_has_a_panel_for_each_variable() -> None:

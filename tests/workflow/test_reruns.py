@@ -137,8 +137,8 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/studies/cases.py", lambda _: TABLES),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/paper/histories.py", lambda _: FIGURES),
-        ("src/disc_model/figures/grids/stability_map.py", lambda _: FIGURES | PLOT),
-        ("src/disc_model/figures/disc_model.mplstyle", lambda _: FIGURES | PLOT),
+        ("src/disc_model/figures/stability_map.py", lambda _: FIGURES | PLOT),
+        ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
         # the provenance page and the ledger are laid out alike

@@ -5,7 +5,7 @@ from pathlib import Path
 from disc_model.benchmarks.figures import draw
 from disc_model.data.dataset import load_inputs
 from disc_model.errors import script
-from disc_model.figures.parts import save
+from disc_model.figures.drawing import save
 
 
 @script

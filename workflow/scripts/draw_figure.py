@@ -2,7 +2,7 @@
 
 plot : JSON, the figure as its kind describes it
 title : written into the files
-inputs : name=netCDF file, as `disc_model.figures.parts.draw` has it
+inputs : name=netCDF file, as `disc_model.figures.drawing.draw` has it
 """
 
 import json
@@ -10,8 +10,8 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_inputs
 from disc_model.errors import script
+from disc_model.figures.drawing import draw, save
 from disc_model.figures.kinds import KINDS
-from disc_model.figures.parts import draw, save
 
 
 @script

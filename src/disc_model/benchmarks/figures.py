@@ -24,8 +24,8 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import values_text
-from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, panels
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, panels
 
 _TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TITLES: dict[str, str] = _TEXTS["titles"]
@@ -33,7 +33,7 @@ WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
 """Names of the verdicts, by number, and their shades."""
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
-LINES = {name: look | {"color": getattr(parts, look["color"])} for name, look in _TEXTS["lines"].items()}
+LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method, and of lines that belong to no method."""
 _HALO = halo()
 
@@ -49,7 +49,7 @@ def overview(dataset: xr.Dataset) -> Figure:
     found: dict[str, list[Line2D]] = {}
     for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
         found |= _cost_panel(ax, dataset.sel(scene=scene))
-        parts.letter(ax, letter, TITLES[scene])
+        drawing.letter(ax, letter, TITLES[scene])
     for ax in figure.axes[-2:]:  # the lower row
         ax.set_xlabel("Event-time error (s)")
     handles = [handle for method in LINES for handle in found.get(method, ())]
@@ -128,7 +128,7 @@ def answers(dataset: xr.Dataset) -> Figure:
         part = answers[name]
         ax.set(xscale="log", yscale="log", xlabel=ANSWERS[name])
         ax.margins(0.06)  # no marker cut at the edge
-        parts.letter(ax, letter)
+        drawing.letter(ax, letter)
         least = min(0.1 * enough[name], 0.3 * part["error"][part["error"] > 0].min())
         part = part.assign(error=part["error"].clip(lower=least))
         for line, points in part.groupby("line", sort=False):
@@ -247,7 +247,7 @@ def _map_panels(
         ax.set_yticks(rows[:-1] + 0.5, [f"{int(n)}" for n in dataset["modes"].values])
         ax.set_xlabel(SETTINGS[dataset.attrs["setting"]][0], labelpad=1)
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
-        parts.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
+        drawing.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
         for style, values in _borders(dataset) if borders else ():
             x = np.repeat(np.clip(values, edges[0], edges[-1]), 2)
             for color, dashes, width in (("white", "-", 2.4), (BLACK, style, 1.4)):
@@ -386,7 +386,7 @@ def _against_modes(
                     linewidth=0.8, markeredgewidth=0.7, **marks[mark])  # fmt: skip
         ax.set(xscale="log", yscale="log" if log else "linear")
         ax.margins(x=0.06)
-        parts.letter(ax, letter, label, fontsize=7)
+        drawing.letter(ax, letter, label, fontsize=7)
         ax.set_xticks(ticks, [str(tick) for tick in ticks])
         for axis in (ax.xaxis, ax.yaxis):
             axis.set_minor_formatter(NullFormatter())
@@ -423,5 +423,5 @@ DRAWN: dict[str, Callable[..., Figure]] = {
 
 def draw(name: str, datasets: Iterable[xr.Dataset]) -> Figure:
     """Draw a figure by its name in `DRAWN`, in the common style."""
-    with parts.styled():
+    with drawing.styled():
         return DRAWN[name](*datasets)

@@ -29,7 +29,7 @@ KINDS = {
     "settled": "cycle stability.attractor stability.lyapunov analysis.classify",
     "continuation": "cycle stability.branch stability.continuation",
     "point": "dataset simulation.case simulation.ramps studies.grids.points studies.grids.run truncation",
-    "figure": "dataset simulation.case simulation.ramps figures.kinds figures.parts figures/disc_model.mplstyle",
+    "figure": "dataset simulation.case simulation.ramps figures.kinds figures.drawing figures/drawing.mplstyle",
     "catalogue": "figures.paper.catalogue figures/paper/catalogue.yaml",
     "modes_by_motion": "cycle mode_choice truncation",
     # named cases
@@ -55,8 +55,8 @@ KINDS = {
     "sensitivity": "point settled studies.grids.quantities.sensitivity",
     "campbell": "floquet stability.campbell studies.grids.quantities.campbell",
     # pictures and pages; a figure's own module is named beside its kind
-    "draw_figure": "figure analysis catalogue figures.grids.cells figures.grids.growth_map "
-    "figures.grids.stability_map stability.resonances",
+    "draw_figure": "figure analysis catalogue figures.cells figures.growth_map "
+    "figures.stability_map stability.resonances",
     "draw_benchmark": "figure benchmarks.figures benchmarks/figures.yaml",
     "check_claims": "cycle analysis paper/ data.texts config/paper.yaml",
     "compare_normalisations": "check_claims",

@@ -16,7 +16,7 @@ from cmcrameri import cm
 from matplotlib.colors import to_hex
 from PIL import Image, ImageOps
 
-from disc_model.figures.parts import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
+from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
 
 PICTURE_WIDTH = 1100
 """Width of a page-wide figure, pixels; narrower ones are scaled alike."""

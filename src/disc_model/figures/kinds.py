@@ -33,8 +33,8 @@ class Kind(Strict):
 
     @property
     def function(self) -> str:
-        """Module and function that draw it, see `disc_model.figures.parts.draw`."""
-        return f"{__package__}.{self.drawn_by or f'grids.{self.kind}.draw'}"
+        """Module and function that draw it, see `disc_model.figures.drawing.draw`."""
+        return f"{__package__}.{self.drawn_by or f'{self.kind}.draw'}"
 
     @property
     def module(self) -> str:
@@ -172,7 +172,7 @@ class StabilityMap(Plot):
 class RegionMap(StabilityMap):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
-    drawn_by = "grids.stability_map.draw_regions"
+    drawn_by = "stability_map.draw_regions"
     quantities = ("regions",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -204,7 +204,7 @@ class CriticalSpeed(Plot):
 class Thresholds(CriticalSpeed):
     """Where the cycle becomes unstable and where separation follows, on one chart."""
 
-    drawn_by = "grids.critical_speed.draw"
+    drawn_by = "critical_speed.draw"
     roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
 
     kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
@@ -230,7 +230,7 @@ class Bifurcation(Plot):
     paper_cases : cases of the paper by name, each with its value of x
     """
 
-    drawn_by = "grids.motions.draw_bifurcation"
+    drawn_by = "motions.draw_bifurcation"
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
 
@@ -246,7 +246,7 @@ class Branches(Plot):
     paper_cases : cases of the paper by name, each with its value of the parameter
     """
 
-    drawn_by = "grids.motions.draw_branches"
+    drawn_by = "motions.draw_branches"
     quantities = ("branches",)
 
     kind: Literal["branches"] = "branches"
@@ -256,7 +256,7 @@ class Branches(Plot):
 class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
-    drawn_by = "grids.motions.draw_basins"
+    drawn_by = "motions.draw_basins"
     quantities = ("basins",)
 
     kind: Literal["basins"] = "basins"
@@ -266,7 +266,7 @@ class BasinShares(Plot):
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
-    drawn_by = "grids.motions.draw_ramps"
+    drawn_by = "motions.draw_ramps"
     quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
 
@@ -393,7 +393,7 @@ def _listed(values: Sequence[Any]) -> str:
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
 
-    drawn_by = "grids.general.draw_heat_map"
+    drawn_by = "general.draw_heat_map"
 
     kind: Literal["heat_map"] = "heat_map"
     y: str
@@ -405,7 +405,7 @@ class CurvePlot(General):
     limits : ends of the variable's axis, so that figures can be compared
     """
 
-    drawn_by = "grids.general.draw_curve"
+    drawn_by = "general.draw_curve"
     room = MOST_LINES
 
     kind: Literal["curve"] = "curve"

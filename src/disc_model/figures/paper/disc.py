@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
-from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
 
@@ -92,7 +92,7 @@ def instants(case: xr.DataTree) -> Figure:
     discs = above.subplots(1, 4)
     circle = around.subplots()
     motion = motion_of(case)
-    losses = [first for first, _ in parts.stretches(motion.phase == "separation") if first > 0]
+    losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
     first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
     scale = _scale(motion)
     for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
-from disc_model.figures import parts
-from disc_model.figures.parts import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, panels
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, panels
 
 
 def history(case: xr.DataTree, *, window: str, variables: Sequence[str], until: float = np.inf) -> Figure:
@@ -20,9 +20,9 @@ def history(case: xr.DataTree, *, window: str, variables: Sequence[str], until: 
     found = dataset.group(case, window).sel(time=slice(None, until))
     if found.sizes["time"] < 2:  # the run ended before it
         raise Missing(f"has {found.sizes['time']} samples in {window}, at least 2 are needed")
-    parts.letters(axes)
+    drawing.letters(axes)
     for ax, name in zip(axes, variables, strict=True):
-        parts.show(ax, case, found, name)
+        drawing.show(ax, case, found, name)
         ax.label_outer()
     axes[-1].locator_params(axis="x", nbins=6)
     figure.align_ylabels()
@@ -32,11 +32,11 @@ def history(case: xr.DataTree, *, window: str, variables: Sequence[str], until: 
 def with_and_without(separating: xr.DataTree, bonded: xr.DataTree) -> Figure:
     """Figure 10: range of the disc at r_0 and a fixed angle over the run, with bonded contact and with separation."""
     figure, [ax] = panels(COLUMN, 2.4)
-    ignored, followed = parts.history(bonded), parts.history(separating)
-    parts.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
-    parts.envelope(ax, followed, "w_point", label="with separation")
-    ax.set(xlabel="Time (s)", ylabel=parts.sampled("w_point", ignored, followed)[0])
-    parts.headroom(ax, 0.25)
+    ignored, followed = drawing.history(bonded), drawing.history(separating)
+    drawing.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
+    drawing.envelope(ax, followed, "w_point", label="with separation")
+    ax.set(xlabel="Time (s)", ylabel=drawing.sampled("w_point", ignored, followed)[0])
+    drawing.headroom(ax, 0.25)
     ax.legend(loc="upper left")
     return figure
 
@@ -53,7 +53,7 @@ def after(window: xr.Dataset, start: float) -> xr.Dataset:
 def separations(window: xr.Dataset) -> list[tuple[float, float]]:
     """Separations in a window of samples, in its times, including those that the window cuts off."""
     time = window["time"].values.tolist()
-    return [(time[a], time[b - 1]) for a, b in parts.stretches(flag_names(window["phase"]) == "separation")]
+    return [(time[a], time[b - 1]) for a, b in drawing.stretches(flag_names(window["phase"]) == "separation")]
 
 
 def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
@@ -78,23 +78,23 @@ def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
 def contact_force(case: xr.DataTree) -> Figure:
     """Figure 2: (a) range of the contact force over the run, (b) the contact force in the window `zoom`."""
     figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
-    with parts.blank_if_missing(whole):
-        parts.show(whole, case, parts.history(case), "P")
+    with drawing.blank_if_missing(whole):
+        drawing.show(whole, case, drawing.history(case), "P")
         _show_zero(whole, case)
-        parts.letter(whole, "a")
-    with parts.blank_if_missing(zoom):
+        drawing.letter(whole, "a")
+    with drawing.blank_if_missing(zoom):
         window = dataset.samples(case, "zoom")
         # a separation that the window cuts off at its start would look like a jump
         window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
         start = float(window["time"][0])
         window = after(window, start)
-        parts.letter(zoom, "b")
+        drawing.letter(zoom, "b")
         shade(zoom, spans := separations(window))
         zoom.plot(window["time"], window["P"], color=FORCE)
         _show_zero(zoom, case)
-        zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=parts.axis_of("P")[0])
+        zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=drawing.axis_of("P")[0])
         if spans:
-            parts.legend_above(zoom)
+            drawing.legend_above(zoom)
     return figure
 
 
@@ -123,8 +123,8 @@ def one_separation(case: xr.DataTree) -> Figure:
     displacements(both, part, float(case["u_0"]))
     gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
     gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
-    parts.letters(axes)
-    parts.legend_above(both)
+    drawing.letters(axes)
+    drawing.legend_above(both)
     figure.align_ylabels()
     return figure
 
@@ -145,5 +145,5 @@ def light_slider(case: xr.DataTree) -> Figure:
         height = (losses["w"] - rest) * 1e3
         ax.plot(losses["time"], height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
     ax.set_xlabel(f"Time after {start:.4f} s (ms)")
-    parts.legend_above(ax)
+    drawing.legend_above(ax)
     return figure

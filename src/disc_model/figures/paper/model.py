@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle, Rectangle
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.figures.parts import BLACK, DISC, FORCE, PAGE, SLIDER
+from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SLIDER
 from disc_model.parameters import Parameters
 
 Point = tuple[float, float] | NDArray[np.float64]

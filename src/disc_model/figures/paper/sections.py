@@ -15,8 +15,8 @@ from disc_model.analysis.poincare import stages
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.figures import parts
-from disc_model.figures.parts import AFTER, BEFORE, BLACK, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, panels
+from disc_model.figures import drawing
+from disc_model.figures.drawing import AFTER, BEFORE, BLACK, COLUMN, PAGE, PHASE_COLOURS, SEPARATED, panels
 from disc_model.parameters import Parameters
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -38,12 +38,12 @@ def sections(case: xr.DataTree, *others: xr.DataTree, window: str = "poincare") 
     samples = dataset.samples(case, window, at_least=1)
     first, end = float(case["first_separation"]), float(case["time_reached"])
     found = stages(samples["time"].values, samples["phase"].values, first, end)
-    parts.letters((slider, disc))
+    drawing.letters((slider, disc))
     for ax, name in ((slider, "psi"), (disc, "w_point")):
         room = [samples, *(dataset.samples(other, window, at_least=1) for other in others if ax is slider)]
         at = []
         for axis, one in (("x", name), ("y", f"{name}_velocity")):
-            label, factor, _ = parts.sampled(one, samples)
+            label, factor, _ = drawing.sampled(one, samples)
             at.append(samples[one].values * factor)
             limits = _around(np.concatenate([each[one] for each in room]) * factor)
             ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
@@ -74,7 +74,7 @@ def portrait(case: xr.DataTree, *, window: str = "orbit", x: str = "psi", y: str
     """Draw one variable over another in a window, coloured by phase."""
     figure, [ax] = panels(COLUMN, 2.7)
     samples = dataset.samples(case, window)
-    (across, in_x, _), (up, in_y, _) = (parts.sampled(name, samples) for name in (x, y))
+    (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
     for i, name in enumerate(PHASES):
         inside = samples["phase"].values == i
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
@@ -84,7 +84,7 @@ def portrait(case: xr.DataTree, *, window: str = "orbit", x: str = "psi", y: str
             height = np.where(inside, samples[y].values * in_y, np.nan)
             ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
     ax.margins(0.04)
-    for line in parts.legend_above(ax).get_lines():
+    for line in drawing.legend_above(ax).get_lines():
         line.set_linewidth(line.get_linewidth() + 0.5)
     ax.set(xlabel=across, ylabel=up)
     return figure
@@ -94,7 +94,7 @@ def closures(*cases: xr.DataTree, titles: Sequence[str]) -> Figure:
     """Draw differences between release intervals and those n later, against n: small where a motion repeats."""
     figure, axes = panels(PAGE, 2.6, 1, len(cases), sharey=True)
     for ax, case in zip(axes, cases, strict=True):
-        with parts.blank_if_missing(ax):
+        with drawing.blank_if_missing(ax):
             events = dataset.events(case)
             released = events["time"].values[events["kind"].values == EVENT_KINDS.index("stick_to_slip")]
             counts = np.arange(1, (len(released) - 1) // 2 + 1)
@@ -105,6 +105,6 @@ def closures(*cases: xr.DataTree, titles: Sequence[str]) -> Figure:
             ax.plot(counts, differences, ".", color=BLACK, markersize=3)
             ax.set(xscale="log", yscale="log", xlabel="Releases n")
             ax.margins(0.04)
-    parts.letters(axes, titles)
+    drawing.letters(axes, titles)
     axes[0].set_ylabel("Largest difference (s)")
     return figure

@@ -13,10 +13,10 @@ from matplotlib.ticker import MaxNLocator
 from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.figures import parts
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, PAGE, SKY, new_figure, panels
 from disc_model.figures.kinds import HIGHEST
 from disc_model.figures.paper.catalogue import ZOOM
-from disc_model.figures.parts import BLACK, PAGE, SKY, new_figure, panels
 from disc_model.parameters import Parameters
 from disc_model.plate import plate_modes
 
@@ -46,7 +46,7 @@ def spectrogram(ax: Axes, case: xr.DataTree, found: TimeFrequency, reference: fl
     )
     ax.set_facecolor(POWERS(0.0))
     ax.set(xlim=stretch(found), ylim=(0, highest))
-    parts.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
+    drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
     return mesh
 
 
@@ -74,7 +74,7 @@ def spectrogram_of(case: xr.DataTree, *, window: str, variable: str, highest: fl
     """Draw the spectrum in time of a variable of any case."""
     figure, [ax] = panels(PAGE / 2, 2.7)
     spectrum(figure, ax, case, spectrum_in_time(case, window, variable), highest)
-    ax.set_title(parts.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
+    ax.set_title(drawing.sampled(variable, dataset.group(case, window))[0].partition(" (")[0])
     return figure
 
 
@@ -88,8 +88,8 @@ def with_stretches(case: xr.DataTree, *, until: float = np.inf) -> Figure:
         start, stop = stretch(spectrum_in_time(case, name, "w_point", hop=0.5))
         ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
         ax.text(start + 0.4, 0.97, f"({name[-1]})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-    parts.show(ax, case, parts.history(case, until), "w_point")
-    parts.headroom(ax, 0.15)
+    drawing.show(ax, case, drawing.history(case, until), "w_point")
+    drawing.headroom(ax, 0.15)
     return figure
 
 
@@ -114,14 +114,14 @@ def four_stretches(case: xr.DataTree) -> Figure:
     axes = figure.subplots(2, len(WINDOWS), sharex="col", sharey="row")
     found: dict[str, TimeFrequency] = {}
     for name, column in zip(WINDOWS, axes.T, strict=True):
-        with parts.blank_if_missing(*column):
+        with drawing.blank_if_missing(*column):
             found[name] = spectrum_in_time(case, name, "w_point")
     reference = max((float(each.power.max()) for each in found.values()), default=1.0)
     for name, each in found.items():
         column = axes[:, WINDOWS.index(name)]
         for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
             mesh = spectrogram(ax, case, each, reference, highest)
-        parts.letter(column[0], name[-1])
+        drawing.letter(column[0], name[-1])
         column[1].set_xlabel("Time (s)")
         column[1].xaxis.set_major_locator(MaxNLocator(3))
     for ax in axes[:, 0]:
@@ -165,29 +165,29 @@ def response(
     axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(zooms), 1), letters])))
     shown = right.subplots()
     marked = None
-    with parts.blank_if_missing(shown):
+    with drawing.blank_if_missing(shown):
         found = spectrum_in_time(case, window, variable)
         marked = stretch(found)
         spectrum(right, shown, case, found, HIGHEST)
-        parts.letter(shown, "b")
+        drawing.letter(shown, "b")
         if highest:
             p = Parameters.model_validate_json(case.attrs["parameters"])
             natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
             shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
-    with parts.blank_if_missing(axes["a"]):
-        parts.show(axes["a"], case, parts.history(case, until), variable)
+    with drawing.blank_if_missing(axes["a"]):
+        drawing.show(axes["a"], case, drawing.history(case, until), variable)
         if marked is not None:
             _mark(axes["a"], *marked)
-        parts.letter(axes["a"], "a")
+        drawing.letter(axes["a"], "a")
     for letter, (name, start) in zip(letters, zooms, strict=True):
         ax = axes[letter]
         if letter != "c":
             ax.sharey(axes["c"])
             ax.tick_params(labelleft=False)
-        with parts.blank_if_missing(ax):
+        with drawing.blank_if_missing(ax):
             label = _closer(ax, dataset.samples(case, name), variable, start)
             ax.set_ylabel(label if letter == "c" else "")
-            parts.letter(ax, letter)
+            drawing.letter(ax, letter)
     return figure
 
 
@@ -196,7 +196,7 @@ def _mark(ax: Axes, start: float, stop: float) -> None:
     ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0, zorder=0)
     if stop - start < 0.02 * ax.get_xlim()[1]:
         ax.axvline((start + stop) / 2, color=BLACK, linewidth=0.8, zorder=0)
-        parts.say_above(ax, (start + stop) / 2, "(b)")
+        drawing.say_above(ax, (start + stop) / 2, "(b)")
 
 
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:
@@ -204,7 +204,7 @@ def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:
     part = window.sel(time=slice(start, start + ZOOM))
     if part.sizes["time"] < 2:
         raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
-    label, scale, colour = parts.sampled(variable, window)
+    label, scale, colour = drawing.sampled(variable, window)
     ax.plot((part["time"].values - start) * 1e3, part[variable].values * scale, color=colour, linewidth=0.6)
     ax.set(xlabel=f"Time after {start:g} s (ms)", xlim=(0, ZOOM * 1e3))
     return label

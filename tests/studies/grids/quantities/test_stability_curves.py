@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.grids.growth_map import curves_of
+from disc_model.figures.growth_map import curves_of
 from tests.stability.toy_map import fold_at, outside
 from tests.studies.grids.conftest import computed
 

@@ -14,7 +14,7 @@ from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.figures.parts import BLACK, GREY, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, edges, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.figures.grids import motions as drawn
-from disc_model.figures.grids.growth_map import Curve, crossings
+from disc_model.figures import motions as drawn
+from disc_model.figures.growth_map import Curve, crossings
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps
-from tests.figures.grids.reading import crosses, draw, labels, lines
+from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.grids.conftest import computed, growth_over, in_base, made_up_samples, with_failed
 from tests.studies.grids.quantities.test_basins import Made, made
 

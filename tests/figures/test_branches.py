@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from matplotlib.text import Annotation
 
-from disc_model.figures.parts import BLACK, GREY, SEPARATED
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.studies.grids.quantities import branches
-from tests.figures.grids.reading import draw
+from tests.figures.reading import draw
 from tests.studies.grids.conftest import computed
 
 

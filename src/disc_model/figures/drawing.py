@@ -66,7 +66,7 @@ BORDERS: dict[str, dict[str, Any]] = {
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
-    return style.context(Path(__file__).with_name("disc_model.mplstyle"), after_reset=True)
+    return style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
 
 
 def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:

@@ -11,8 +11,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import AsinhNorm, to_rgb
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids import motions
-from disc_model.figures.grids.cells import (
+from disc_model.figures import motions
+from disc_model.figures.cells import (
     OUTCOME_LOOKS,
     Look,
     alone,
@@ -23,12 +23,12 @@ from disc_model.figures.grids.cells import (
     scale_of,
     unresolved,
 )
-from disc_model.figures.grids.growth_map import Curve, parted
-from disc_model.figures.grids.stability_map import set_scales
+from disc_model.figures.drawing import save
+from disc_model.figures.growth_map import Curve, parted
 from disc_model.figures.kinds import StabilityMap
-from disc_model.figures.parts import save
+from disc_model.figures.stability_map import set_scales
 from disc_model.studies.grids.quantities import regions
-from tests.figures.grids.reading import ON_EACH_SCALE, draw, labels
+from tests.figures.reading import ON_EACH_SCALE, draw, labels
 from tests.studies.grids.conftest import growth_over
 
 NORMS = ["as_published", "orthonormal"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from disc_model.figures import parts
+from disc_model.figures import drawing
 from disc_model.figures.kinds import Campbell
 from tests.processes import python
 
@@ -25,32 +25,32 @@ from tests.processes import python
 )
 def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: str) -> None:
     study = xr.Dataset(coords={"k": [1.0, 2.0]}, attrs={"title": "Made up", "base": json.dumps(base)})
-    figure = parts.new_figure(parts.COLUMN, 2)
-    parts.head(figure, study, Campbell())
+    figure = drawing.new_figure(drawing.COLUMN, 2)
+    drawing.head(figure, study, Campbell())
     assert figure.get_suptitle() == f"Made up\n{text}"
 
 
 def test_a_figure_with_a_caption_has_no_heading() -> None:
     """The paper's figures have none, and those of grids said in the picture what stood below it too."""
-    figure = parts.new_figure(parts.COLUMN, 2)
-    parts.head(figure, xr.Dataset(attrs={"title": "Made up", "base": '{"N": 385}'}), Campbell(caption="Said below."))
+    figure = drawing.new_figure(drawing.COLUMN, 2)
+    drawing.head(figure, xr.Dataset(attrs={"title": "Made up", "base": '{"N": 385}'}), Campbell(caption="Said below."))
     assert figure.get_suptitle() == ""
 
 
 def test_a_value_stays_in_the_line_of_its_name() -> None:
-    figure = parts.new_figure(1.0, 2)
-    parts.entitle(figure, Campbell(), "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
+    figure = drawing.new_figure(1.0, 2)
+    drawing.entitle(figure, Campbell(), "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
     assert figure.get_suptitle().split("\n") == ["N = 385 N,", "Ω = 15.1 rad/s,", "D* = 2e-05 N m s"]
 
 
 def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    figure = parts.new_figure(parts.COLUMN, 2)
+    figure = drawing.new_figure(drawing.COLUMN, 2)
     figure.suptitle("text")
     with caplog.at_level(logging.INFO):
-        parts.save(figure, tmp_path / "figure.pdf")
+        drawing.save(figure, tmp_path / "figure.pdf")
     assert not caplog.records
 
 
 def test_the_style_needs_no_figure_of_another_kind() -> None:
     """A figure alone in its process ended in an AttributeError: other modules had imported matplotlib's styles."""
-    python("from disc_model.figures.parts import styled\nwith styled():\n    pass")
+    python("from disc_model.figures.drawing import styled\nwith styled():\n    pass")

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from disc_model.figures import parts
+from disc_model.figures import drawing
 from disc_model.figures.kinds import PLOTS
 
 ON_EACH_SCALE = pytest.mark.parametrize(
@@ -23,7 +23,7 @@ def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None =
     """A figure of a kind, as a file asks for it, with further studies by their roles."""
     shown = {"study": study, **(others or {})}
     plot = PLOTS[kind].model_validate({"kind": kind, **phrase})
-    return parts.draw(plot, {name: xr.DataTree(one) for name, one in shown.items()})
+    return drawing.draw(plot, {name: xr.DataTree(one) for name, one in shown.items()})
 
 
 def crosses(ax: Axes) -> list[list[float]]:

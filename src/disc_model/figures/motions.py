@@ -12,11 +12,11 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import parts
-from disc_model.figures.grids.cells import OUTCOME_LOOKS, Look, patches
-from disc_model.figures.grids.growth_map import crossings, curves_of
+from disc_model.figures import drawing
+from disc_model.figures.cells import OUTCOME_LOOKS, Look, patches
+from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, panels
+from disc_model.figures.growth_map import crossings, curves_of
 from disc_model.figures.kinds import BasinShares, Bifurcation, Branches, RampedSpeeds
-from disc_model.figures.parts import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, panels
 
 # ----------------------------------------------------------------------------------------------------
 # Bifurcation diagrams, with the largest Lyapunov exponents below
@@ -24,7 +24,7 @@ from disc_model.figures.parts import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED
 DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
 MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}
 """Looks of samples, and those other than dots by phase: in grey print, green and vermilion are alike."""
-EXPONENTS = (BLACK, parts.BLUE, parts.BROWN, GREY)
+EXPONENTS = (BLACK, drawing.BLUE, drawing.BROWN, GREY)
 """Colours of the exponents, the largest first; none is that of a phase."""
 ERRORS = 4
 """Half-width of the band about an exponent, in standard errors."""
@@ -42,13 +42,13 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     heights = [2.4, 0.9, *[1.4] * ("lyapunov" in overlays)]  # inch
     figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
     ax = axes[0]
-    xlabel, factor = parts.axis_of(plot.x)
-    ylabel, scale = parts.axis_of(plot.variable)
+    xlabel, factor = drawing.axis_of(plot.x)
+    ylabel, scale = drawing.axis_of(plot.variable)
     if plot.variable == "psi":  # some hundredths of a radian
         ylabel, scale = ylabel.replace("rad", "mrad"), 1e3
     along, values = study[plot.x].values * factor, study[plot.variable].values * scale
     position = np.broadcast_to(along[:, None], values.shape)
-    lost = parts.failed(study).values
+    lost = drawing.failed(study).values
     phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
     steady = (flag_names(study["stationary"]) != "no")[:, None]
     dots = [("not stationary", ~steady & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
@@ -57,7 +57,7 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     for label, there, look in dots:
         if there.any():
             ax.plot(position[there], values[there], linestyle="", label=label, **look)
-    parts.mark_failed(ax, along[lost])
+    drawing.mark_failed(ax, along[lost])
     moving = (phase >= 0).any(axis=1)
     slides = flag_names(study["kind"]) == "steady_sliding"
     at_edge: dict[str, Any] = {"color": GREY, "markersize": 4, "transform": ax.get_xaxis_transform()}
@@ -69,11 +69,11 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     _period(axes[1], along[moving], study["period_events"].values[moving])
     if "lyapunov" in overlays:
         _exponents(axes[2], overlays["lyapunov"], plot.x)
-    parts.letters(axes)
+    drawing.letters(axes)
     for one in axes:
         one.margins(x=0.01)  # no dot is cut at the edge
-    parts.mark_cases(axes, {case: value * factor for case, value in plot.paper_cases.items()})
-    for handle in parts.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
+    drawing.mark_cases(axes, {case: value * factor for case, value in plot.paper_cases.items()})
+    for handle in drawing.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
         if isinstance(handle, Line2D):
             handle.set_markersize(6)
     return figure
@@ -85,22 +85,22 @@ def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
     ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
     ax.set(yscale="log", ylim=(0.4, None), ylabel="Period\n(events)")  # room for crosses below period 1
     ax.yaxis.set_major_formatter("{x:g}")
-    parts.mark_failed(ax, along[~repeats], name="not shown to repeat")
+    drawing.mark_failed(ax, along[~repeats], name="not shown to repeat")
     if not repeats.all():
-        parts.legend_above(ax)
+        drawing.legend_above(ax)
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     """Draw the largest exponents with their errors; rings of their colours where they have not converged."""
-    lyapunov, known = lyapunov.transpose("exponent_number", name, ...), ~parts.failed(lyapunov)
+    lyapunov, known = lyapunov.transpose("exponent_number", name, ...), ~drawing.failed(lyapunov)
     exponent, error = (lyapunov[each].where(known) for each in ("exponent", "exponent_error"))
     moving = flag_names(lyapunov["converged"])[: len(EXPONENTS)] == "no"
-    along = exponent[name].values * parts.axis_of(name)[1]
+    along = exponent[name].values * drawing.axis_of(name)[1]
     ax.axhline(0, color=GREY, linewidth=0.8)
     ring: dict[str, Any] = {"color": GREY, "markerfacecolor": "none", "markersize": 4, "markeredgewidth": 0.6}
     for i, color in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = "largest exponent" if i == 0 else f"exponent {i + 1}"
-        shown = parts.broken(along, exponent[i].values, 0.05)  # 1/s, beyond which another motion begins
+        shown = drawing.broken(along, exponent[i].values, 0.05)  # 1/s, beyond which another motion begins
         ax.plot(*shown, ".-", color=color, markersize=3, linewidth=0.8, label=label)
         band = ERRORS * np.interp(shown[0], along, error[i].values)
         ax.fill_between(shown[0], shown[1] - band, shown[1] + band, color=color, alpha=0.15, linewidth=0)
@@ -108,9 +108,9 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=f"± {ERRORS} standard errors")
     if moving.any():
         ax.plot([], [], "o", label="not converged", **ring)
-    parts.mark_failed(ax, along[np.isnan(exponent[0].values)])
+    drawing.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
-    parts.legend_above(ax)
+    drawing.legend_above(ax)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -128,7 +128,7 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
     """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
     study = study.squeeze()
     name = str(stated_in(study, "options")["parameter"])
-    label, factor = parts.axis_of(name)
+    label, factor = drawing.axis_of(name)
     figure, [ax] = panels(PAGE, 3.6)
     ax.set_yscale("log")
     for i in range(int(study["n_branches"])):
@@ -141,8 +141,8 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
     unstable = study["sliding_growth_rate"].values > 0
     phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
     _branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
-    parts.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
-    parts.mark_cases([ax], {case: value * factor for case, value in plot.paper_cases.items()}, 0.05)
+    drawing.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
+    drawing.mark_cases([ax], {case: value * factor for case, value in plot.paper_cases.items()}, 0.05)
     ax.set(
         xlabel=label, ylabel="Range of the slider's height (mm)", xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None)
     )
@@ -164,10 +164,10 @@ def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: s
     there = np.isfinite(x)
     x, y, stable = x[there], y[there], stable[there]
     # over larger factors the branch may bend
-    along, height = parts.broken(x, np.log(y), np.log(2.5))
+    along, height = drawing.broken(x, np.log(y), np.log(2.5))
     ax.plot(along, np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
-    for first, last in parts.stretches(stable[:-1] & stable[1:]):
+    for first, last in drawing.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
 
 
@@ -196,22 +196,22 @@ def draw_ramps(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Ramp
     options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
-    figure, [ax] = panels(parts.COLUMN, 3.4)
-    ax.plot(rates, onset, "^-", color=parts.ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp")
-    ax.plot(rates, end, "v-", color=parts.END, markersize=4, linewidth=0.8, label="end, falling ramp")
+    figure, [ax] = panels(drawing.COLUMN, 3.4)
+    ax.plot(rates, onset, "^-", color=drawing.ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp")
+    ax.plot(rates, end, "v-", color=drawing.END, markersize=4, linewidth=0.8, label="end, falling ramp")
     late = rates[np.isnan(onset) & ~gone]
     if late.size:
-        look: dict[str, Any] = {"color": parts.ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
+        look: dict[str, Any] = {"color": drawing.ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
         ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
     if "curves" in overlays:
         folds = [crossings(curve, load) for curve in curves_of(overlays["curves"]) if curve.kind == "fold"]
         if below := [speed for speed in chain(*folds) if speed <= np.fmin.reduce(onset)]:
-            ax.axhline(max(below), **parts.BORDERS["fold"], zorder=0)
-            parts.say_beside(ax, max(below), f"{max(below):.2f}")
-    parts.mark_failed(ax, rates[gone])
+            ax.axhline(max(below), **drawing.BORDERS["fold"], zorder=0)
+            drawing.say_beside(ax, max(below), f"{max(below):.2f}")
+    drawing.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
-    ax.set(xlabel="Ramp rate (rad/s²)", ylabel=parts.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
+    ax.set(xlabel="Ramp rate (rad/s²)", ylabel=drawing.axis_of("Omega")[0], ylim=(options["low"], options["high"]))
     figure.legend(loc="outside lower center", ncols=1)
     return figure
 
@@ -224,7 +224,7 @@ LOOKS = {
     "other_cycle": OUTCOME_LOOKS["other_cycle"],
     "separating": OUTCOME_LOOKS["separation"]._replace(label="separating"),
     "quasi_periodic": Look("quasi-periodic", "#b5dcf2", 4 * "\\"),
-    "irregular": Look("irregular", parts.BROWN, 4 * "/"),
+    "irregular": Look("irregular", drawing.BROWN, 4 * "/"),
     **{name: OUTCOME_LOOKS[name] for name in ("steady_sliding", "at_rest", "undecided", "failed")},
 }
 """Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
@@ -237,9 +237,9 @@ def draw_basins(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bas
     size of an attractor's mark is its fraction of all starts.
     """
     study = study.transpose(plot.x, ...)
-    label, factor = parts.label_of(study[plot.x])
+    label, factor = drawing.label_of(study[plot.x])
     along, energies = study[plot.x].values * factor, study["energy"].values
-    figure = parts.new_figure(PAGE, 4.6)
+    figure = drawing.new_figure(PAGE, 4.6)
     above, below = np.asarray(figure.subfigures(2, 1))
     axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
     classes = [class_ for class_ in LOOKS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
@@ -255,11 +255,11 @@ def draw_basins(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bas
     axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
     _attractors(axes[-2], study, along)
     _kicks(axes[-1], study, along)
-    parts.letters(axes, [f"{energy:g} J" for energy in energies])
+    drawing.letters(axes, [f"{energy:g} J" for energy in energies])
     for ax in axes:
         ax.margins(x=0.04)
         ax.set_xlabel(label)
-        parts.mark_failed(ax, along[parts.failed(study).values])
+        drawing.mark_failed(ax, along[drawing.failed(study).values])
     options = stated_in(study, "options")
     undecided = LOOKS["undecided"]._replace(label=f"undecided after {options['horizon']:g} s")
     handles = patches(LOOKS | {"undecided": undecided}, classes)
@@ -278,7 +278,7 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         ax.scatter(along[point], ranges[point, number], area, color=look.face, edgecolor=BLACK, linewidth=0.4, zorder=3)
     for part, text in ((0.1, "10 %"), (0.5, "50 %"), (1.0, "all starts")):
         ax.scatter([], [], LARGEST * part, facecolor="none", edgecolor=BLACK, linewidth=0.4, label=text)
-    parts.legend_above(ax)
+    drawing.legend_above(ax)
     ax.set(ylabel="Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")
@@ -297,5 +297,5 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
         for place in along[found == 0]:
-            parts.say(ax, "0", (place, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7)
-    parts.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
+            drawing.say(ax, "0", (place, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7)
+    drawing.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)

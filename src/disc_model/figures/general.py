@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import EXCLUDED
-from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, edges_of, growth_panels, patches
+from disc_model.figures import drawing
+from disc_model.figures.cells import CYCLE_LOOKS, edges_of, growth_panels, patches
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, panels
 from disc_model.figures.kinds import CurvePlot, General, HeatMap
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, GREEN, GREY, ORANGE, PAGE, PURPLE, SKY, VERMILION, panels
 
 
 def _other(found: xr.DataArray, plot: General) -> str | None:
@@ -60,27 +60,27 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
 
     Growth rates have the colours of all growth maps; variables of both signs are centred on 0.
     """
-    study = parts.picked(study, plot.at)
+    study = drawing.picked(study, plot.at)
     ruled = EXCLUDED in study["status"].attrs["flag_meanings"]
-    left_out = parts.statuses(study) == EXCLUDED
+    left_out = drawing.statuses(study) == EXCLUDED
     found = study[plot.variable].where(~left_out) if ruled else study[plot.variable]
     by = _other(found, plot)
-    shown = parts.slices(found, by)
+    shown = drawing.slices(found, by)
     figure, axes = panels(PAGE if len(shown) > 1 else COLUMN * 1.2, 2.9, 1, len(shown), sharex=True, sharey=True)
     handles: list[Patch] = []
     if plot.variable == "growth_rate" and not plot.log:
         handles = _growth(figure, axes, study, plot, by)
     else:
-        words, colours = parts.flags_of(found), _colours(found, plot)
+        words, colours = drawing.flags_of(found), _colours(found, plot)
         for ax, (_, panel) in zip(axes, shown, strict=True):
             ax.patch.set(linewidth=0, **HATCH)
             mesh = _cells(ax, panel, plot, **colours)
         if ruled:
-            for ax, (_, panel) in zip(axes, parts.slices(left_out, by), strict=False):
+            for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
                 _cells(ax, panel.where(panel), plot, cmap=ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
-        _bar(figure, axes, mesh, parts.label_of(found)[0], words)
-        if not words and (gaps := parts.gaps(study, found)):
+        _bar(figure, axes, mesh, drawing.label_of(found)[0], words)
+        if not words and (gaps := drawing.gaps(study, found)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
     for axis, name in plot.axes.items():  # axes are shared
         axes[0].set(**{f"{axis}scale": _scale(name, study[name].values)})
@@ -92,7 +92,7 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
     ]
     for ax, name in zip(axes, names, strict=True):
         ax.set_title(name if len(axes) > 1 else "", loc="left")
-        ax.set(xlabel=parts.label_of(found[plot.x])[0], ylabel=parts.label_of(found[plot.y])[0])
+        ax.set(xlabel=drawing.label_of(found[plot.x])[0], ylabel=drawing.label_of(found[plot.y])[0])
         ax.label_outer()
     if handles:
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
@@ -102,7 +102,7 @@ def draw_heat_map(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: H
 def _growth(figure: Figure, axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
     """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
-    shown = [one.transpose(plot.y, plot.x) for _, one in parts.slices(study[names], by)]
+    shown = [one.transpose(plot.y, plot.x) for _, one in drawing.slices(study[names], by)]
     return patches(CYCLE_LOOKS, growth_panels(figure, axes, shown))
 
 
@@ -117,7 +117,7 @@ def _cells(ax: Axes, panel: xr.DataArray, plot: HeatMap, **colours: Any) -> Scal
 
 def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
     """Colour map and scale for matplotlib."""
-    if words := parts.flags_of(found):
+    if words := drawing.flags_of(found):
         return _in_steps([WORDS[i % len(WORDS)] for i in range(len(words))])
     values = found.values[np.isfinite(found.values)]
     if plot.log:
@@ -145,20 +145,20 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
 
     A second dimension of numbers has a colour scale, one of words or pairs a legend.
     """
-    study = parts.picked(study, plot.at)
+    study = drawing.picked(study, plot.at)
     found = study[plot.variable]
     by = _other(found, plot)
-    lines = parts.slices(found, by)
+    lines = drawing.slices(found, by)
     numbers = found[by] if by in found.coords and found[by].dtype.kind in "fi" else None
     figure, [ax] = panels(COLUMN, 2.9)
-    label, factor = parts.label_of(found[plot.x])
+    label, factor = drawing.label_of(found[plot.x])
     along = found[plot.x].values * factor
-    words = parts.flags_of(found)
+    words = drawing.flags_of(found)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     jump = np.inf if plot.log or plot.variable != "growth_rate" else LINEAR
     for colour, (text, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
         name = text if numbers is None else ""
-        x, y = parts.broken(along, line.values, jump)
+        x, y = drawing.broken(along, line.values, jump)
         ax.plot(
             x, y, mark + "-" * (not words), color=colour, label=name or None,
             markersize=3, markerfacecolor="none", markeredgewidth=0.6, linewidth=0.7,
@@ -173,14 +173,14 @@ def draw_curve(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Curv
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
     ax.set_xscale(_scale(plot.x, along))
     ax.margins(0.03)
-    ax.set(xlabel=label, ylabel=fill(parts.label_of(found)[0], 32))
+    ax.set(xlabel=label, ylabel=fill(drawing.label_of(found)[0], 32))
     if words:
         ax.set_yticks(range(len(words)), labels=words)
-    for (name, gone), mark in zip(parts.gaps(study, found).items(), "x+|12", strict=False):
+    for (name, gone), mark in zip(drawing.gaps(study, found).items(), "x+|12", strict=False):
         there = gone.any([dim for dim in gone.dims if dim != plot.x]).values
-        parts.mark_failed(ax, along[there], name=name, mark=mark)
+        drawing.mark_failed(ax, along[there], name=name, mark=mark)
     if numbers is not None:
-        label, factor = parts.label_of(numbers)
+        label, factor = drawing.label_of(numbers)
         steps = ScalarMappable(**_in_steps(colours))
         _bar(figure, [ax], steps, label, [f"{value * factor:g}" for value in numbers.values])
     if ax.get_legend_handles_labels()[0]:

@@ -15,11 +15,11 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import parts
-from disc_model.figures.grids.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
-from disc_model.figures.grids.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
+from disc_model.figures import drawing
+from disc_model.figures.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PAPER, PURPLE, SKY, panels
+from disc_model.figures.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import CriticalSpeed, Thresholds
-from disc_model.figures.parts import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PAPER, PURPLE, SKY, panels
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ EDGES: dict[str, Any] = {
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
     """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
-    lost = parts.failed(study).values
+    lost = drawing.failed(study).values
     sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
     scan = span(study["scan_Omega"].values)
     if cycle is not None:
@@ -49,7 +49,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
     axes[0].set(
         xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
     )
-    parts.mark_failed(axes[0], loads[lost], on="y")
+    drawing.mark_failed(axes[0], loads[lost], on="y")
     study = study.isel(N=~lost).sortby("N")
     handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
     if "curves" in overlays:
@@ -72,7 +72,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSp
             _measured(axes[1], overlays["basins"])
         elif cycle is not None:
             _both(axes[1], cycle, sweep)
-    parts.letters(axes, titles, pad=12)
+    drawing.letters(axes, titles, pad=12)
     for ax in axes:
         ax.set_xlabel(SPEED)
         handles += ax.get_legend_handles_labels()[0]
@@ -164,7 +164,7 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
     """Draw onset and end of separation as the speed rises and falls in steps; description of the sweep."""
-    N, lost = sweep["N"].values, parts.failed(sweep).values
+    N, lost = sweep["N"].values, drawing.failed(sweep).values
     look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
     for name, color, marker, text in (
         ("onset_speed", ONSET, "^", "sweep up: separation begins"),
@@ -174,7 +174,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
         ax.plot(speeds, N, color=color, marker=marker, label=text, **look)
     dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 2, "linestyle": (0, (2, 1.5))}
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
-    parts.mark_failed(ax, N[lost], on="y")
+    drawing.mark_failed(ax, N[lost], on="y")
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
     return f"sweeps: {stated_in(sweep, 'options')['dwell']:g} s, then {step:g} rad/s further"
 
@@ -205,6 +205,6 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
     quiet, separating = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
     # well within the step of the sweeps, N
     look: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
-    for i, (first, after) in enumerate(parts.stretches(((quiet > 0) & (separating > 0)).values)):
+    for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (separating > 0)).values)):
         label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
         ax.barh(load, speeds[after - 1] - speeds[first], left=speeds[first], label=label, **look)

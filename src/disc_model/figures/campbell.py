@@ -12,9 +12,9 @@ from matplotlib.lines import Line2D
 from scipy.optimize import isotonic_regression
 
 from disc_model.data.variables import flag_names
-from disc_model.figures import parts
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, BROWN, GREY, PAGE, SLIDER, panels
 from disc_model.figures.kinds import Campbell
-from disc_model.figures.parts import BLACK, BROWN, GREY, PAGE, SLIDER, panels
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
 """Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
@@ -44,7 +44,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) 
         for one in met:
             ax.axvline(one.Omega, color=GREY, linewidth=0.4, zorder=0)
     _crossings(top, study, met)
-    bottom.set_xlabel(parts.axis_of("Omega")[0])
+    bottom.set_xlabel(drawing.axis_of("Omega")[0])
     below.set_axis_off()
     heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
     nothing = "the cycle's growth rate has no peak at a crossing"
@@ -74,7 +74,7 @@ def noted(study: xr.Dataset) -> list[Noted]:
     speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
     rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))
     peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
-    for first, after in parts.stretches(np.nan_to_num(rate) > HIGH):
+    for first, after in drawing.stretches(np.nan_to_num(rate) > HIGH):
         at = first + int(np.argmax(rate[first:after]))
         beside = speeds[max(at - 1, 0)], speeds[min(at + 1, len(speeds) - 1)]
         there = np.flatnonzero((beside[0] <= crossed) & (crossed <= beside[1]))
@@ -106,8 +106,8 @@ def _rise(study: xr.Dataset, at: int, mode: int, crossings: list[int]) -> Noted:
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
     """Ranges of speeds without a cycle, extended by half a step, and the number of speeds in each."""
     speeds = study["Omega"].values
-    edges = parts.edges(speeds)
-    for first, last in parts.stretches(~np.isfinite(study["growth_rate"].values)):
+    edges = drawing.edges(speeds)
+    for first, last in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
         yield float(edges[first]), float(edges[last]), last - first
 
 
@@ -145,7 +145,7 @@ def _frequencies(ax: Axes, study: xr.Dataset) -> None:
     for l in range(1, most + 1):
         ax.plot(speeds, l * turns, color=GREY, linewidth=0.4, linestyle=":", zorder=0)
     if most:
-        parts.say_beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
+        drawing.say_beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
     ax.set_ylabel("Frequency in the slider's frame (Hz)")
     ax.set_title("(a)", loc="left", pad=16)
 
@@ -163,20 +163,22 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
         )
         ax.plot(speeds, n * rate, color=GREY, alpha=1 if whole else 0.6, zorder=0, **look)
         if whole and n * rate[known[-1]] <= highest:
-            parts.say_beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
+            drawing.say_beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
         elif whole:
             leaves = speeds[known[np.argmax(n * rate[known] > highest)]]
             if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
                 continue  # no room
             named = leaves
-            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=parts.halo())
+            ax.text(
+                leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=drawing.halo()
+            )
 
 
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
         # so large a step leads to another cycle
-        ax.plot(*parts.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1.6)
+        ax.plot(*drawing.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1.6)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
@@ -184,7 +186,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     ax.yaxis.set_major_formatter("{x:g}")
     ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
     ax.set_ylabel(f"Cycle's growth rates (1/s),\nlogarithmic beyond ±{LINEAR:g}")
-    parts.letter(ax, "b")
+    drawing.letter(ax, "b")
 
 
 def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:

@@ -9,9 +9,9 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
-from disc_model.figures import parts
-from disc_model.figures.parts import save
-from tests.figures.grids.reading import draw, labels, lines
+from disc_model.figures import drawing
+from disc_model.figures.drawing import save
+from tests.figures.reading import draw, labels, lines
 
 
 @pytest.fixture
@@ -132,7 +132,7 @@ def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
     """Survival's figure had the normal force before the vertical one, as the alphabet has them."""
     laws = {"contact_compliance": ("both", [3e-7, 3e-7]), "contact_force": ("both", ["normal", "vertical"])}
     alphabetic = zipped(study)["growth_rate"].drop_vars("normalization").assign_coords(laws)
-    panels = parts.slices(alphabetic, "both")
+    panels = drawing.slices(alphabetic, "both")
     assert [one["contact_force"].item() for _, one in panels] == ["vertical", "normal"]
     np.testing.assert_array_equal(panels[0][1], study["growth_rate"].sel(normalization="orthonormal"))
 

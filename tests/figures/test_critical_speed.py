@@ -9,11 +9,11 @@ import xarray as xr
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
-from disc_model.figures.grids import critical_speed
-from disc_model.figures.grids.critical_speed import branches
-from disc_model.figures.grids.growth_map import Curve
-from disc_model.figures.parts import save
-from tests.figures.grids.reading import draw, labels, lines
+from disc_model.figures import critical_speed
+from disc_model.figures.critical_speed import branches
+from disc_model.figures.drawing import save
+from disc_model.figures.growth_map import Curve
+from tests.figures.reading import draw, labels, lines
 from tests.studies.grids.conftest import SCAN, computed, growth_over
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
 from disc_model.data.variables import axis_of, flag_names, typeset
-from disc_model.figures import parts
-from disc_model.figures.grids.cells import CYCLE_LOOKS, growth_panels, patches
+from disc_model.figures import drawing
+from disc_model.figures.cells import CYCLE_LOOKS, growth_panels, patches
+from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, panels
 from disc_model.figures.kinds import GrowthMap
-from disc_model.figures.parts import BLACK, COLUMN, GREY, PAGE, panels
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 OTHER: dict[str, Any] = {
     "color": GREY,
     "linewidth": 1.0,
-    "path_effects": parts.halo(2.0),
+    "path_effects": drawing.halo(2.0),
     "label": "end of another cycle's stability",
 }
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
@@ -122,14 +122,14 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
     for ax, own in zip(axes, curves, strict=True):
         for curve in own:
-            ax.plot(curve.Omega, curve.N, **parts.BORDERS[curve.kind] | {"label": "_nolegend_"})
+            ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
             if curve.label and np.isfinite(curve.N).any():
                 i = int(np.nanargmax(curve.N))
                 end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-                look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": parts.halo()}
-                parts.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
+                look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
+                drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
     kinds = {curve.kind for own in curves for curve in own}
-    handles = [Line2D([], [], **parts.BORDERS[kind]) for kind in parts.BORDERS if kind in kinds]
+    handles = [Line2D([], [], **drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
@@ -145,18 +145,18 @@ def span(values: Array) -> tuple[float, float]:
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
     """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
-    norms = parts.normalizations(study)
+    norms = drawing.normalizations(study)
     figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
-    grids = [parts.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
+    grids = [drawing.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
     gaps = growth_panels(figure, axes, grids)
-    data = [parts.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
+    data = [drawing.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
     curves = [curves_of(one) for one in data] or [[] for _ in norms]
     shown, others = zip(*map(parted, curves, grids), strict=True)
     for ax, grid, other in zip(axes, grids, others, strict=True):
         ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
         for curve in other:
             ax.plot(curve.Omega, curve.N, **OTHER)
-    parts.letters(axes, [parts.MODES[norm] for norm in norms], pad=12)
+    drawing.letters(axes, [drawing.MODES[norm] for norm in norms], pad=12)
     axes[0].set_ylabel(LOAD)
     handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if any(others) else [])]
     handles += patches(CYCLE_LOOKS, gaps)

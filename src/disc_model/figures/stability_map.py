@@ -18,12 +18,11 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import parts
-from disc_model.figures.grids import cells
-from disc_model.figures.grids.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
-from disc_model.figures.grids.growth_map import curves_of, draw_curves, parted, span
+from disc_model.figures import cells, drawing
+from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
+from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, panels
+from disc_model.figures.growth_map import curves_of, draw_curves, parted, span
 from disc_model.figures.kinds import Mark, RegionMap, StabilityMap
-from disc_model.figures.parts import BLACK, BORDERS, MODES, PAGE, PAPER, panels
 
 MARKS: dict[str, dict[str, Any]] = {
     "quiet": {"marker": "o", "facecolor": "white", "s": 9},
@@ -42,12 +41,12 @@ EDGE = [withStroke(linewidth=2.4, foreground=BLACK)]
 
 def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityMap) -> Figure:
     """Draw one panel per normalization and one mark per point, over the further study ``growth`` if it is given."""
-    norms = parts.normalizations(study)
+    norms = drawing.normalizations(study)
     figure, axes = panels(PAGE, 3.3, 1, len(norms), sharex=True, sharey=True)
-    parts.letters(axes, [MODES[norm] for norm in norms])
+    drawing.letters(axes, [MODES[norm] for norm in norms])
     marks: dict[str, Artist] = {}
     for ax, one in zip(axes, _planes(study, norms, plot), strict=True):
-        x, y = np.meshgrid(*(one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y)))
+        x, y = np.meshgrid(*(one[name].values * drawing.axis_of(name)[1] for name in (plot.x, plot.y)))
         outcome = flag_names(one["outcome"])
         for name, look in MARKS.items():
             if (there := outcome == name).any():
@@ -58,7 +57,7 @@ def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: StabilityM
         growth = _planes(overlays["growth"], norms, plot)
         gaps = growth_panels(figure, axes, growth)
         for ax, one in zip(axes, growth, strict=True):
-            x, y = (one[name].values * parts.axis_of(name)[1] for name in (plot.x, plot.y))
+            x, y = (one[name].values * drawing.axis_of(name)[1] for name in (plot.x, plot.y))
             rate = one["growth_rate"].values
             # the line on which the growth rate changes its sign
             if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
@@ -73,11 +72,11 @@ def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Re
 
     Lines come from the further study ``curves``, if it is given, and else lie between cells.
     """
-    norms = parts.normalizations(study)
+    norms = drawing.normalizations(study)
     shown = _planes(study, norms, plot)
     figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
     above, below = axes[: len(norms)], axes[len(norms) :]
-    parts.letters(axes, [MODES[norm] for norm in norms])
+    drawing.letters(axes, [MODES[norm] for norm in norms])
     gaps = growth_panels(figure, below, shown) - {"alone"}
     # branches are continued along the study's first dimension, which may be either axis
     upward = [name for name in study["outcome"].dims if name in (plot.x, plot.y)] == [plot.y, plot.x]
@@ -98,7 +97,7 @@ def draw_regions(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Re
 def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
     """Draw continued curves of the map's cycle, within its points; growth maps show their numbers."""
     found = []
-    for curve in parted(curves_of(parts.of(curves, parts.normalizations(data)[0])), data)[0]:
+    for curve in parted(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data)[0]:
         along = {"Omega": curve.Omega, "N": curve.N}
         inside = [values == np.clip(values, *span(data[name].values)) for name, values in along.items()]
         found.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
@@ -138,9 +137,9 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     """Captions: the horizon, and disagreements between paper, start and cycle."""
     yield f"Within {stated_in(study, 'options')['horizon']:g} s of the static start."
-    if "as_published" not in parts.normalizations(study):
+    if "as_published" not in drawing.normalizations(study):
         return
-    data = parts.of(study, "as_published")
+    data = drawing.of(study, "as_published")
     for name, mark in plot.marks.items():
         here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
@@ -160,7 +159,7 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
 
 def _planes(study: xr.Dataset, norms: Sequence[str], plot: StabilityMap) -> list[xr.Dataset]:
     """A study over the two parameters, the vertical one first, for each normalization."""
-    return [parts.of(study, norm).transpose(plot.y, plot.x, ...) for norm in norms]
+    return [drawing.of(study, norm).transpose(plot.y, plot.x, ...) for norm in norms]
 
 
 def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[Artist]:
@@ -169,7 +168,7 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[
     Returns legend entries, one for each shape among the marks.
     """
     set_scales(axes, study, plot)
-    if parts.normalizations(study)[0] != "as_published":
+    if drawing.normalizations(study)[0] != "as_published":
         return []
     for name, mark in plot.marks.items():
         _paper_mark(axes[0], plot, name, mark)
@@ -185,19 +184,19 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[
 
 def _paper_mark(ax: Axes, plot: StabilityMap, name: str, mark: Mark) -> None:
     """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
-    at = (mark.x * parts.axis_of(plot.x)[1], mark.y * parts.axis_of(plot.y)[1])
+    at = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
     edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": EDGE}
     shape = MARKS[mark.paper_outcome]["marker"]
     ax.scatter(*at, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
     across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
     offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
-    parts.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=parts.halo(2.0))
+    drawing.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=drawing.halo(2.0))
 
 
 def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> None:
     """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
     for which, name in plot.axes.items():
-        label, factor = parts.axis_of(name)
+        label, factor = drawing.axis_of(name)
         values = study[name].values * factor
         axis = getattr(axes[0], f"{which}axis")
         if (scale := cells.scale_of(name, values)) != "linear":
@@ -220,5 +219,5 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> N
 
 
 def _legend_above(figure: Figure, handles: Sequence[Artist]) -> None:
-    """Draw a legend over all panels; `parts.head` is its title."""
+    """Draw a legend over all panels; `drawing.head` is its title."""
     figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)

@@ -18,9 +18,9 @@ from disc_model.data.variables import (
     stated_in,
     typeset,
 )
-from disc_model.figures import parts
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, BLUE, PAGE, new_figure
 from disc_model.figures.kinds import Sensitivity
-from disc_model.figures.parts import BLACK, BLUE, PAGE, new_figure
 
 BINS = 3
 """Number of parts, with equal numbers of draws, of a parameter's distribution."""
@@ -95,4 +95,4 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
         if not cell.sizes[SAMPLE]:
             continue
         names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
-        yield ", ".join(parts.coordinate_text(cell[name], name) for name in names), cell
+        yield ", ".join(drawing.coordinate_text(cell[name], name) for name in names), cell

@@ -7,10 +7,10 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
 
-from disc_model.figures.grids import sensitivity
-from disc_model.figures.grids.campbell import COLOURS, gaps, noted, spread
+from disc_model.figures import sensitivity
+from disc_model.figures.campbell import COLOURS, gaps, noted, spread
 from disc_model.studies.grids.summaries.campbell import EFFECTS
-from tests.figures.grids.reading import draw
+from tests.figures.reading import draw
 from tests.studies.grids.quantities import test_sensitivity as uncertain
 
 

@@ -1,1 +1,0 @@
-"""Figures of grid studies, one module per kind."""
