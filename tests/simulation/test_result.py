@@ -66,7 +66,7 @@ def test_names_that_no_file_can_have_are_refused(tmp_path: Path, name: Any) -> N
     result = simulate(P, 0.01)
     path = str(tmp_path) + "/" + name if isinstance(name, str) else name
     for use in (result.save, result.final_state.save, load, State.load):
-        with pytest.raises(ParameterError, match=r"^path=.*: must be the name of a file, of at most 233 bytes"):
+        with pytest.raises(ParameterError, match=r"^path=.*: must be the name of a regular file, of at most 233 bytes"):
             use(path)
     assert not list(tmp_path.iterdir())
 

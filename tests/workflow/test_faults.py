@@ -55,7 +55,7 @@ def test_two_workflows_without_lock(project: Project, finished: Project) -> None
     ("patterns", "count"), [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)]
 )
 def test_damaged_files(project: Project, finished: Project, patterns: tuple[str, ...], count: int) -> None:
-    """Every damaged file that a job reads is named, and the same command again computes it anew."""
+    """Every damaged file that a job reads is named with a command; after that the same command computes it anew."""
     results = project.folder / "results"
     damaged = [path for pattern in patterns for path in results.glob(pattern)]
     for path in damaged:
@@ -64,8 +64,9 @@ def test_damaged_files(project: Project, finished: Project, patterns: tuple[str,
     (results / "small_map" / "small_map.nc").unlink()  # else nothing asks for the batches
     told = project.refused("-j2", "--keep-going")
     for path in damaged:
-        assert f"{path.relative_to(project.folder)}: damaged" in told
-    assert "Run snakemake again" in told
+        assert f"{path.relative_to(project.folder)}: cannot be read" in told
+        path.unlink()
+    assert "Delete what cannot be read and run the same command again" in told
     project.complete("-j2")
     assert_recovered(project, finished)
 
@@ -83,7 +84,7 @@ def test_check_finds_damage_that_left_the_times_and_puts_times_right(project: Pr
     assert "has older modification time" in project.refused("-j2")
     checked = project.complete("-j1", "check")
     for path in damaged:
-        assert f"{path.relative_to(project.folder)}: damaged" in checked
+        assert f"{path.relative_to(project.folder)}: cannot be read" in checked
     assert not list(results.rglob(".*.tmp"))
     project.complete("-j2")
     assert_recovered(project, finished)

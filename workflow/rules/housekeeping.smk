@@ -21,7 +21,7 @@ rule gc:
 
 
 rule check:
-    # Moves files that are damaged or have no record out of the way, so that they are computed again.
+    # Removes files that cannot be read or have no record, so that they are computed again.
     log:
         "results/check.log",
     localrule: True

@@ -1,8 +1,8 @@
 """Clean up results after a fault.
 
-Every netCDF file is compared with its checksum, and set aside if damaged. Remains of killed jobs are removed, and so
-are the files without a record of Snakemake, read from standard input as a JSON list. Files with times in the future get
-the present one, since Snakemake refuses results older than their inputs.
+Every netCDF file is read, and removed if that fails. Remains of killed jobs are removed, and so are the files without a
+record of Snakemake, read from standard input as a JSON list. Files with times in the future get the present one, since
+Snakemake refuses results older than their inputs.
 
 Not to be run while jobs are running.
 """
@@ -13,14 +13,15 @@ import sys
 import time
 from pathlib import Path
 
-from disc_model.data.dataset import DamagedFile, set_aside, verify_checksum
+from disc_model.data.dataset import UnreadableFile, load
 from disc_model.errors import script
 
 
-def whole(path: Path) -> bool:
+def is_readable(path: Path) -> bool:
     try:
-        verify_checksum(path)
-    except DamagedFile:
+        load(path)
+    except UnreadableFile as error:
+        print(f"{error}; removed")
         return False
     return True
 
@@ -30,13 +31,11 @@ def main(folder: str = "results") -> None:
     results = Path(folder)
     unrecorded = [Path(name) for name in json.load(sys.stdin)]
     datasets = sorted(results.rglob("*.nc"))
-    damaged = [path for path in datasets if not whole(path)]
-    for path in damaged:
-        print(f"{path}: damaged, now called {set_aside(path).name}")
+    damaged = [path for path in datasets if not is_readable(path)]
     for path in unrecorded:
         print(f"{path}: not known how it was made, removed")
     leftovers = sorted(results.rglob(".*.tmp"))
-    for path in [*leftovers, *unrecorded]:
+    for path in [*leftovers, *damaged, *unrecorded]:
         path.unlink(missing_ok=True)
     now = time.time()
     early = [path for path in results.rglob("*") if path.stat().st_mtime > now]

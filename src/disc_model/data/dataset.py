@@ -4,19 +4,19 @@ A case is a tree of groups, and so is its file. The root holds the scalars, and 
 along `event`. Every recorded window is a group under its name, along `time`, and so is ``poincare``. No time stamps or
 run times are stored, so that equal runs give equal bytes.
 
-Files are written atomically and end in a checksum, which readers of netCDF and HDF5 ignore. The checksum is needed
-because HDF5 detects a changed byte in compressed arrays only, and not in scalars or attributes.
+Files are written under a temporary name and then renamed, so that no file is ever half written. Arrays carry the
+checksums of HDF5 (fletcher32), which every reader compares.
 """
 
 from __future__ import annotations
 
 import contextlib
-import glob
-import hashlib
 import json
 import math
 import os
 import secrets
+import shlex
+import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -150,12 +150,17 @@ def load(path: str | Path) -> xr.DataTree:
     ------
     ParameterError
         If the name is not allowed for a file.
-    disc_model.data.dataset.DamagedFile
-        If the checksum of the file does not match.
+    disc_model.data.dataset.UnreadableFile
+        If the file is damaged, or no such file.
     """
-    verify_checksum(_file(path))
-    with xr.open_datatree(path, engine="netcdf4", decode_timedelta=False) as tree:
-        return tree.load()
+    file = _file(path)
+    try:
+        with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
+            return tree.load()
+    except FileNotFoundError:
+        raise
+    except (OSError, RuntimeError, ValueError) as error:
+        raise UnreadableFile(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from error
 
 
 def json_attribute(value: Any) -> str:
@@ -173,28 +178,25 @@ def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
 def _encode(variable: xr.Variable) -> dict[str, Any]:
     if variable.dtype.kind in "UO":
         return {"dtype": "S1"}
-    compressed = {"zlib": True, "complevel": 1, "shuffle": True} if variable.ndim and variable.size else {}
+    compression = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
+    compressed = compression if variable.ndim and variable.size else {}
     return {"_FillValue": None} | compressed
 
 
 # ----------------------------------------------------------------------------------------------------
 # Whole files
 
-_LABEL = b"\nsha256 of the rest: "
-_LENGTH = len(_LABEL) + 65
-
-
 LONGEST_NAME = 233
 """Longest name of a file in bytes: its temporary name is longer, and file systems allow 255."""
-NAME_RULE = f"must be the name of a file, of at most {LONGEST_NAME} bytes"
+NAME_RULE = f"must be the name of a regular file, of at most {LONGEST_NAME} bytes"
 
 
 class WriteError(DiscModelError, OSError):
     """A file could not be written."""
 
 
-class DamagedFile(DiscModelError):
-    """A file whose checksum does not match its content."""
+class UnreadableFile(DiscModelError):
+    """A file that is damaged, or none that `save` has written."""
 
 
 def may_be_file(path: object) -> bool:
@@ -206,7 +208,7 @@ def may_be_file(path: object) -> bool:
             name not in (b"", b"..")
             and b"\0" not in os.fsencode(file)
             and len(name) <= LONGEST_NAME
-            and not file.is_dir()
+            and (file.is_file() or not file.exists())
         )
     except (TypeError, ValueError, OSError):
         return False
@@ -220,115 +222,53 @@ def _file(path: str | Path) -> Path:
 
 
 def write_atomically(path: Path, write: Callable[[str], object], size: int) -> None:
-    """Write a file atomically, with a checksum at its end: after a failure `path` is unchanged.
+    """Write a file under a temporary name and rename it: after a failure `path` is unchanged.
 
-    Raises `WriteError` if the folder does not exist, the disk is full, or the file may not be that large.
+    A symbolic link stays, and the file that it leads to is replaced. Raises `WriteError` if the folder does not exist,
+    the disk is full, or the file may not be that large.
 
     Parameters
     ----------
     write : function that writes the file whose name it receives, a new one in the same folder
-    size : approximate size of the file in bytes, by which a full disk is recognised
+    size : approximate size of the file in bytes, for the message
     """
-    if not path.parent.is_dir():
+    target = Path(os.path.realpath(path))
+    if not target.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
     # `write` makes the file, so that the umask determines its permissions
-    temporary = _temporary(path, secrets.token_hex(8))
+    temporary = target.with_name(f".{target.name}.{secrets.token_hex(8)}.tmp")
     try:
         write(str(temporary))
-        _append_checksum(temporary)
-        os.replace(temporary, path)
-    except Exception:
-        if refusal := _refusal(temporary, size):
-            reason = refusal.strerror or str(refusal)
-            raise WriteError(f"{path}: cannot be written: {reason} ({size / 1e6:.1f} MB needed)") from None
-        raise
+        with temporary.open("rb") as file:
+            os.fsync(file.fileno())  # otherwise a crash of the machine may leave an empty file under the new name
+        os.replace(temporary, target)
+    except (OSError, RuntimeError) as error:  # the netCDF library raises RuntimeError, without the system's reason
+        free = shutil.disk_usage(target.parent).free
+        needed = f"{size / 1e6:.1f} MB needed, {free / 1e6:.1f} MB free"
+        raise WriteError(f"{path}: cannot be written: {error} ({needed})") from error
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()
 
 
-def remove_leftovers(path: Path) -> None:
-    """Remove what processes left that were killed while they wrote this file by `write_atomically`."""
-    for temporary in path.parent.glob(_temporary(Path(glob.escape(path.name)), "[0-9a-f]" * 16).name):
-        with contextlib.suppress(OSError):
-            temporary.unlink()
-
-
-def _temporary(path: Path, token: str) -> Path:
-    """The file that is written first, beside the one that it will replace."""
-    return path.with_name(f".{path.name}.{token}.tmp")
-
-
-def verify_checksum(path: Path) -> None:
-    """Compare a file with the checksum at its end; raises `DamagedFile` if the checksum differs or is missing."""
-    content = path.read_bytes()
-    body, end = content[:-_LENGTH], content[-_LENGTH:]
-    if end != _checksum(hashlib.sha256(body)):
-        raise DamagedFile(f"{path}: damaged or not written by this version of disc_model (its checksum does not match)")
-
-
-def _append_checksum(path: Path) -> None:
-    with path.open("r+b") as file:
-        end = _checksum(hashlib.file_digest(file, "sha256"))
-        file.write(end)
-        file.flush()
-        os.fsync(file.fileno())  # otherwise a crash of the machine may leave an empty file under the new name
-
-
-def _checksum(digest: hashlib._Hash) -> bytes:
-    return _LABEL + digest.hexdigest().encode() + b"\n"
-
-
-def _refusal(temporary: Path, size: int) -> OSError | None:
-    """The error when so many bytes are written; the netCDF library does not report the reason."""
-    try:
-        with temporary.open("wb") as file:
-            file.write(bytes(size))
-    except OSError as error:
-        return error
-    return None
-
-
-# ----------------------------------------------------------------------------------------------------
-# Reading files that other jobs have written
-
-SET_ASIDE = ".damaged"
-"""Suffix given to the name of a damaged file."""
-
-
-class InputsError(DiscModelError):
-    """Files are damaged or missing; the message has a line for each, and says what to do."""
-
-
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
-    """Read files written by `save`; raises `InputsError` if any is damaged or missing.
-
-    Damaged files are renamed, so that the next run finds them missing and computes them again.
-    """
-    found, faults = [], []
+    """Read files that other jobs wrote by `save`; one `UnreadableFile` names all that cannot be read."""
+    trees, unreadable = [], []
     for path in paths:
         try:
-            found.append(load(path))
-        except DamagedFile as error:
-            faults.append(f"{error}; now called {set_aside(path).name}")
-        except FileNotFoundError:
-            faults.append(f"{path}: not there; another job may just have set it aside")
-    if faults:
-        raise InputsError("\n".join([*faults, "Run snakemake again: it computes them anew."]))
-    return found
+            trees.append(load(path))
+        except UnreadableFile as error:
+            unreadable.append((path, str(error)))
+    if unreadable:
+        command = "rm " + " ".join(shlex.quote(str(path)) for path, _ in unreadable)
+        advice = f"Delete what cannot be read and run the same command again, which computes it anew:\n{command}"
+        raise UnreadableFile("\n".join([*(text for _, text in unreadable), advice]))
+    return trees
 
 
 def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
     """Read files as `load_inputs` does, into a mapping by the names of the files, such as those of cases or studies."""
     return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
-
-
-def set_aside(path: Path) -> Path:
-    """Rename a file, so that no reader finds it."""
-    aside = path.with_name(path.name + SET_ASIDE)
-    with contextlib.suppress(FileNotFoundError):  # another job may just have done so
-        os.replace(path, aside)
-    return aside
 
 
 # ----------------------------------------------------------------------------------------------------

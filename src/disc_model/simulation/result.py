@@ -131,8 +131,8 @@ class State:
         ------
         ParameterError
             If the file holds no state.
-        disc_model.data.dataset.DamagedFile
-            If the checksum of the file does not match.
+        disc_model.data.dataset.UnreadableFile
+            If the file is damaged, or no such file.
         """
         from disc_model.data import dataset
 
@@ -256,7 +256,7 @@ class Result:
         }
 
     def save(self, path: str | Path, names: Sequence[str] | None = None) -> None:
-        """Write `to_tree` as netCDF, in one piece and with a checksum; `disc_model.load` reads it.
+        """Write `to_tree` as netCDF, in one piece; `disc_model.load` reads it.
 
         Parameters
         ----------
