@@ -12,6 +12,7 @@ import xarray as xr
 from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Result, Window, simulate
 from disc_model.data.dataset import UnreadableFile, WriteError, load, load_inputs, save
 from disc_model.data.variables import STATUSES, attributes, flag_names
+from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases import merge_cases
@@ -226,6 +227,11 @@ def test_the_umask_says_who_may_read(umask: int, mode: int, path: Path) -> None:
     finally:
         os.umask(before)
     assert path.stat().st_mode & 0o777 == mode
+
+
+def test_a_missing_file_is_an_error_of_the_package(tmp_path: Path) -> None:
+    with pytest.raises(DiscModelError, match=r"run\.nc: there is no such file"):
+        load(tmp_path / "run.nc")
 
 
 def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:

@@ -151,14 +151,16 @@ def load(path: str | Path) -> xr.DataTree:
     ParameterError
         If the name is not allowed for a file.
     disc_model.data.dataset.UnreadableFile
-        If the file is damaged, or no such file.
+        If the file is damaged, or not one of netCDF.
+    disc_model.data.dataset.MissingFile
+        If there is no such file.
     """
     file = _file(path)
     try:
         with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
             return tree.load()
     except FileNotFoundError:
-        raise
+        raise MissingFile(f"{path}: there is no such file") from None
     except (OSError, RuntimeError, ValueError) as error:
         raise UnreadableFile(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from error
 
@@ -193,6 +195,10 @@ NAME_RULE = f"must be the name of a regular file, of at most {LONGEST_NAME} byte
 
 class WriteError(DiscModelError, OSError):
     """A file could not be written."""
+
+
+class MissingFile(DiscModelError, FileNotFoundError):
+    """A file that is to be read does not exist."""
 
 
 class UnreadableFile(DiscModelError):
