@@ -51,7 +51,7 @@ rule measure_work_precision:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=made_of("measure_work_precision"),
+        made_of=made_of("measure_work_precision", "benchmarks.methods"),
         compiled=lambda wildcards: (
             "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
         ),
@@ -70,7 +70,7 @@ rule measure:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=made_of("measure"),
+        made_of=made_of("measure", "benchmarks.methods"),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job measure {wildcards.part} {output} > {log} 2>&1"
 
@@ -86,7 +86,7 @@ rule merge_answers:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("merge_answers"),
+        made_of=made_of("merge_answers", "benchmarks.methods"),
     shell:
         "job merge_answers {output} {input} > {log} 2>&1"
 

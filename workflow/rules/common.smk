@@ -26,7 +26,7 @@ try:
     from disc_model.figures.kinds import OwnFigure
     from disc_model.figures.paper.catalogue import SECTIONS
     from disc_model.kernels import KINDS, kinds_of_case
-    from disc_model.data.provenance import source_hash
+    from disc_model.sources import source_hash
     from disc_model.studies.study import (
         StudyError,
         mapping,
@@ -111,12 +111,12 @@ wildcard_constraints:
 
 
 def made_of(rule, *sources, of=()):
-    """Hash of everything that decides a result: sources of its rule and others, arguments, and origin of its inputs.
+    """Hash of everything that decides a result: sources of its script and others, arguments, and origin of its inputs.
 
     It is a parameter of each rule, by which Snakemake runs again what has changed. By itself Snakemake would overlook
     sources, and inputs that were made anew after the clock had been set back.
     """
-    hashed = source_hash(rule, *sources, files=(Path(SCRIPTS, f"{rule}.py"),))
+    hashed = source_hash(Path(SCRIPTS, f"{rule}.py"), *sources)
     return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
 
 
@@ -249,7 +249,7 @@ LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
 
 def case_made_of(case):
     spec = STUDY.specs[case]
-    chosen = ["modes_by_motion"] if spec.modes else []
+    chosen = ["mode_choice"] if spec.modes else []
     return made_of("simulate_case", *chosen, of=spec.canonical)
 
 

@@ -22,7 +22,7 @@ import llvmlite
 import llvmlite.binding as llvm
 import numba
 
-from disc_model.bytecode import bytecode_of
+from disc_model.sources import code_hash
 
 SHIPPED = Path(__file__).parent / "kernels"
 """Kernels shipped with the package, a folder for each level; its file `VERSIONS` states what compiled them."""
@@ -45,7 +45,7 @@ def source_hash(folder: Path = Path(__file__).parent) -> str:
     """Hash of the engine's code without comments, docstrings and line numbers: 16 hexadecimal digits."""
     digest = hashlib.sha256()
     for path in sorted(folder.glob("*.py")):
-        digest.update(f"{path.name}\0".encode() + bytecode_of(path))
+        digest.update(f"{path.name}\0{code_hash(path)}\0".encode())
     return digest.hexdigest()[:16]
 
 

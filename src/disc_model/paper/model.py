@@ -33,7 +33,7 @@ NOT_TESTABLE = "not testable"
 NOT_COMPUTED = "not computed"
 FOLDER = Path(__file__).parent
 PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N", "Omega")
-PAPER = FOLDER.parent / "config" / "paper.yaml"
+PAPER = FOLDER.parent / "config/paper.yaml"
 
 
 class ClaimError(DiscModelError):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.provenance import git_commit, source_hash, versions
+from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
@@ -45,6 +45,7 @@ from disc_model.simulation.result import (
     take_workspace,
     write_state,
 )
+from disc_model.sources import source_hash
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -463,7 +464,7 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
     if truncation:
         tree.attrs["truncation"] = truncation
     tree.attrs |= {
-        "source_hash": source_hash("case"),
+        "source_hash": source_hash(__name__),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
         "specification": spec.beside,

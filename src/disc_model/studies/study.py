@@ -630,9 +630,9 @@ class GridStudy:
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Names of the sources of its points, beyond the common ones, as in `disc_model.data.sources`."""
+        """Modules by which its points are computed and that are loaded by name, as `disc_model.sources` has them."""
         by_motion = self.asked is not None and self.asked.quantity != FREQUENCIES
-        return self.quantity, *["modes_by_motion"] * by_motion
+        return f"studies.grids.quantities.{self.quantity}", *["mode_choice"] * by_motion
 
     @property
     def grid(self) -> list[dict[str, Any]]:

@@ -168,12 +168,15 @@ def test_what_modes_are_chosen_by_makes_other_batches() -> None:
     assert batches(truncation_quantity="growth", truncation_tolerance="1e-2") == others[1]
 
 
+OUTCOME = "studies.grids.quantities.outcome"
+
+
 def test_only_batches_whose_modes_a_motion_chooses_depend_on_what_chooses() -> None:
     def sources(**base: Any) -> tuple[str, ...]:
         return parse_grid(study(base=base)).sources
 
-    assert sources(n_diameters="auto") == sources(n_diameters=3) == ("outcome",)
-    assert sources(n_diameters="auto", truncation_quantity="growth") == ("outcome", "modes_by_motion")
+    assert sources(n_diameters="auto") == sources(n_diameters=3) == (OUTCOME,)
+    assert sources(n_diameters="auto", truncation_quantity="growth") == (OUTCOME, "mode_choice")
 
 
 def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.MonkeyPatch) -> None:

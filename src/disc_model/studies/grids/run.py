@@ -12,13 +12,14 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
-from disc_model.data.provenance import git_commit, source_hash, versions
+from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes
 from disc_model.parameters import AUTO, case_of
 from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Start
+from disc_model.sources import source_hash
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import Made, Point, Row, failed, tried
 from disc_model.truncation import read_asked
@@ -68,7 +69,7 @@ def run_batch(text: str, quantity: Any = None) -> xr.Dataset:
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
-        "source_hash": source_hash("compute_batch", data["quantity"]),
+        "source_hash": source_hash(__name__, module_of(data["quantity"]).__name__),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }

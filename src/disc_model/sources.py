@@ -1,0 +1,136 @@
+"""The sources on which a result depends: all that its entry points import, at any depth, and the data read beside it.
+
+An entry point is a module or package of `disc_model`, or the script of a job. Quantities and figures, which are loaded
+by their names, are entry points of their own. Deferred imports count, imports for type checkers do not. The data of a
+module are the files beside it with its own name, and what its texts name: files and folders beside it, and paths from
+the package on.
+"""
+
+import ast
+import functools
+import hashlib
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+ASIDE = {
+    "figures.kinds": "a figure's text holds the values of all options",
+    "figures.paper.catalogue": "says what a file may ask for",
+    "mode_choice": "is an entry point, where modes are chosen by the motion",
+    "plausibility": "warns",
+    "progress": "shows progress",
+    "simulation.quicklook": "draws for a reader",
+    "studies.document": "a batch's text holds the values of all options",
+}
+"""Modules that are not followed where they are imported, since they decide no result, with the reason."""
+
+
+@functools.cache
+def source_hash(*entries: str | Path) -> str:
+    """Hash of the sources of a result, 16 hexadecimal digits.
+
+    Comments, docstrings and layout of Python sources do not count, because they change no result.
+
+    Parameters
+    ----------
+    entries : names of modules and packages, with or without ``disc_model.``, and paths of scripts and further files
+    """
+    digest = hashlib.sha256()
+    for path in source_files(*entries):
+        # a script is hashed under its bare name, wherever it is installed
+        name = path.name if path in entries else path.relative_to(PACKAGE).as_posix()
+        digest.update(f"{name}\0{code_hash(path)}\0".encode())
+    return digest.hexdigest()[:16]
+
+
+@functools.cache
+def source_files(*entries: str | Path) -> tuple[Path, ...]:
+    """The files of entry points and of all that they import, sorted."""
+    waiting = {path for entry in entries for path in ([entry] if isinstance(entry, Path) else _modules(entry))}
+    aside = {path for name in ASIDE for path in _modules(name)} - waiting
+    sources: set[Path] = set()
+    while waiting:
+        path = waiting.pop()
+        sources.add(path)
+        if path.suffix == ".py":
+            waiting |= {*_imported(path), *_data(path)} - sources - aside
+    return tuple(sorted(sources))
+
+
+@functools.cache
+def code_hash(path: Path) -> str:
+    """Hash of a file; of Python only what it does, as this version of Python reads it."""
+    if path.suffix != ".py":
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    tree = _parsed(path)
+    for node in [tree, *_statements(tree)]:
+        for name in _BLOCKS:
+            if block := getattr(node, name, None):
+                setattr(node, name, [child for child in block if not _is_text(child)])
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+
+
+_BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
+
+
+def _parsed(path: Path) -> ast.Module:
+    return ast.parse(path.read_bytes(), str(path))
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """All statements within a node, but for those that only type checkers read."""
+    typing = isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+    for name in _BLOCKS[typing:]:
+        for child in getattr(node, name, ()):
+            yield child
+            yield from _statements(child)
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Whether a statement is a docstring, or another text that does nothing."""
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+
+
+def _modules(name: str) -> list[Path]:
+    """The file of a module, or all those of a package; raises ModuleNotFoundError."""
+    path = PACKAGE.joinpath(*name.removeprefix("disc_model.").split("."))
+    if paths := [*path.rglob("*.py")] if path.is_dir() else [*path.parent.glob(f"{path.name}.py")]:
+        return paths
+    raise ModuleNotFoundError(f"No module named 'disc_model.{name}'", name=name)
+
+
+@functools.cache
+def _imported(path: Path) -> frozenset[Path]:
+    """Files of the package's modules that a file imports."""
+    names = set()
+    for node in _statements(_parsed(path)):
+        if isinstance(node, ast.Import):
+            names |= {(alias.name, "") for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            parts = path.relative_to(PACKAGE).parent.parts if node.level else ()
+            before = ["disc_model", *parts[: len(parts) + 1 - node.level]] if node.level else []
+            names |= {(".".join([*before, *filter(None, [node.module])]), alias.name) for alias in node.names}
+    return frozenset(file for module, name in names for file in _file(module, name))
+
+
+def _file(module: str, name: str) -> Iterator[Path]:
+    """The file from which a name is imported, if it lies in the package."""
+    top, *parts = module.split(".")
+    if top == "disc_model":
+        path = PACKAGE.joinpath(*parts)
+        choices = (path / f"{name}.py", path / name / "__init__.py", path.with_suffix(".py"), path / "__init__.py")
+        file = next(choice for choice in choices if choice.is_file())
+        if file.parent == PACKAGE and file.stem == "__init__":
+            raise ImportError(f"{name or module}: must be imported from its own module, so that its sources are known")
+        yield file
+
+
+@functools.cache
+def _data(path: Path) -> frozenset[Path]:
+    """Files of data that a module reads."""
+    texts = re.findall(r'"(\w[\w./-]*)"', path.read_text(encoding="utf-8"))
+    named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
+    files = {*named, *path.parent.glob(f"{path.stem}.*")}
+    files |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
+    return frozenset(file for file in files if file.is_file() and file.suffix not in (".py", ".pyc"))

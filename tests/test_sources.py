@@ -1,0 +1,144 @@
+"""The sources on which results depend: what decides them is in, and what does not is left out."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from disc_model import sources
+from disc_model.sources import ASIDE, PACKAGE, code_hash, source_files, source_hash
+from disc_model.studies.document import QUANTITIES
+
+SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
+BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [
+        ("# a comment\n" + BODY, True),
+        ('"""A docstring."""\n' + BODY, True),
+        (BODY + '"""What f is."""\n', True),
+        (BODY.replace("y=1.0", "\n    y = 1.00,\n"), True),
+        (BODY.replace("    return", '    """What it does."""\n\n    return'), True),
+        (BODY.replace("text", "test"), False),
+        (BODY.replace("+ y", "- y"), False),
+    ],
+)
+def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_path: Path) -> None:
+    paths = [tmp_path / name / "job.py" for name in "ab"]
+    for path, content in zip(paths, (BODY, text), strict=True):
+        path.parent.mkdir()
+        path.write_text(content)
+    assert (source_hash(paths[0]) == source_hash(paths[1])) == same
+
+
+def test_a_script_is_the_same_beside_the_package_and_within_it() -> None:
+    within = PACKAGE / "workflow" / "scripts" / "compute_batch.py"
+    assert source_hash(within) == source_hash(within.resolve())
+
+
+SOLVE = """
+from typing import TYPE_CHECKING
+from . import laws
+if TYPE_CHECKING:
+    from disc_model import unrelated
+else:
+    from ..units import METRE
+    FOLDER = "static"
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A package in the place of ours, of small modules."""
+    files = {
+        "__init__.py": "from disc_model.deep import unrelated",
+        "run.py": "from disc_model.deep.solve import f\ndef later():\n    from . import late, warns",
+        "late.py": 'TABLE = open(\'late.csv\'), open("table.toml"), open("more/far.json")',
+        "late.csv": "1",
+        "table.toml": "",
+        "other.toml": "",
+        "warns.py": "import disc_model.unrelated",
+        "unrelated.py": "",
+        "deep/__init__.py": "",
+        "deep/solve.py": SOLVE,
+        "deep/laws.py": "import numpy",
+        "deep/static/page.js": "",
+        "units.py": "METRE = 1",
+        "more/far.json": "",
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    monkeypatch.setattr(sources, "PACKAGE", tmp_path)
+    monkeypatch.setattr(sources, "ASIDE", {"warns": ""})
+    forget()
+    yield tmp_path
+    forget()
+
+
+def forget() -> None:
+    for function in (source_files, source_hash, code_hash):
+        function.cache_clear()
+
+
+def test_all_that_is_imported_counts_and_the_data_that_it_reads(package: Path) -> None:
+    names = {path.relative_to(package).as_posix() for path in source_files("run")}
+    deep = {"deep/solve.py", "deep/laws.py", "deep/static/page.js", "units.py"}
+    late = {"late.py", "late.csv", "table.toml", "more/far.json"}
+    assert names == {"run.py"} | deep | late
+    both = {path.relative_to(package).as_posix() for path in source_files("disc_model.run", "warns")}
+    assert both == names | {"warns.py", "unrelated.py"}
+    assert len(source_files("deep")) == 5
+    with pytest.raises(ModuleNotFoundError, match="missing"):
+        source_files("missing")
+    (package / "careless.py").write_text("from disc_model import simulate")
+    with pytest.raises(ImportError, match="simulate: must be imported from its own module"):
+        source_files("careless")
+
+
+def test_a_change_of_code_or_data_is_one_of_all_that_depend_on_it(package: Path) -> None:
+    entries = ("run", "deep.solve", "units", "warns")
+    before = [source_hash(name) for name in entries]
+    for path, changed in (("late.csv", "0"), ("deep/laws.py", "01"), ("units.py", "012"), ("warns.py", "3")):
+        text = (package / path).read_text()
+        (package / path).write_text(text + "\nX = 1")
+        forget()
+        after = [source_hash(name) for name in entries]
+        assert "".join(str(i) for i in range(4) if after[i] != before[i]) == changed
+        (package / path).write_text(text)
+
+
+def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
+    def of(*entries: str | Path) -> set[str]:
+        return {path.relative_to(PACKAGE).as_posix() for path in source_files(*entries) if path not in entries}
+
+    for name in QUANTITIES:
+        batch = of(SCRIPTS / "compute_batch.py", f"studies.grids.quantities.{name}")
+        assert {"engine/series.py", "plate.py", "data/variables.py", f"studies/grids/quantities/{name}.py"} <= batch
+        assert not [
+            path for path in batch if path.split("/")[0] in ("figures", "paper", "benchmarks", "cli", "explorer")
+        ]
+        assert "studies/study.py" not in batch
+        assert ("stability/attractor/outcome.py" in batch) == (
+            name not in ("campbell", "floquet", "lyapunov", "ramps", "stability_curves")
+        )
+        # one quantity's code is not another's
+        others = {f"studies/grids/quantities/{other}.py" for other in QUANTITIES} & batch
+        assert others == {f"studies/grids/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
+    case = of(SCRIPTS / "simulate_case.py")
+    assert {"engine/event_loop.py", "simulation/recorder.py"} <= case
+    assert not [path for path in case if path.startswith(("stability", "studies"))]
+    assert {"stability/cycle.py", "truncation.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
+    assert {"config/paper.yaml", "paper/section42.yaml"} <= of(SCRIPTS / "check_claims.py")
+    assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
+    assert {"benchmarks/methods/rk4.py", "benchmarks/rivals.toml", "benchmarks/data/answers.json"} <= of(
+        SCRIPTS / "measure.py", "benchmarks.methods"
+    )
+
+
+def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:
+    for name in ASIDE:
+        assert source_files(name)
+    assert all(script in source_files(script) for script in SCRIPTS.glob("*.py"))
