@@ -36,7 +36,6 @@ WHAT = {
     "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
     "bytecode": "code without comments, to tell changes",
-    "renamed": "names that are gone, and their successors",
 }
 """A few words for each part of a layer."""
 COLOURS = ("#e8f1f8", "#d3e4f2")

@@ -68,9 +68,7 @@ if TYPE_CHECKING:
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
-        from disc_model.renamed import renamed
-
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{renamed(name, _HOMES)}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value

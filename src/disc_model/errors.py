@@ -6,14 +6,11 @@ import difflib
 import enum
 import logging
 import math
-import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
-
-from disc_model.renamed import renamed
 
 # ----------------------------------------------------------------------------------------------------
 # Exceptions
@@ -158,8 +155,6 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         else:
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
-            if kind == "literal_error":
-                rule += renamed(value, re.findall(r"'(\w+)'", context["expected"]))
             of_name = item["loc"][-1:] == ("[key]",)  # a name at fault is the end of the path
             yield Fault(path, "" if of_name else _faulty_as_text(kind, value), rule)
 
@@ -207,8 +202,6 @@ def as_text(value: Any) -> str:
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
     """Text with the most similar known name and the known names; with `all_of_them` false, only one of the two."""
-    if new := renamed(name, known):
-        return new
     folded = {field.lower(): field for field in known}
     close = difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""

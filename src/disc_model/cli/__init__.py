@@ -12,7 +12,6 @@ import typer
 from disc_model import __version__
 from disc_model.cli import numbers, run, studies
 from disc_model.errors import DiscModelError
-from disc_model.renamed import renamed
 
 app = typer.Typer(
     pretty_exceptions_enable=False,
@@ -60,7 +59,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
-        _fail(" ".join(error.format_message().split()).rstrip(".") + (renamed(arguments[0], COMMANDS) or "."))
+        _fail(" ".join(error.format_message().split()).rstrip(".") + ".")
     if code == studies.INTERRUPTED:
         typer.echo("error: interrupted", err=True)
     sys.exit(code if isinstance(code, int) else 0)

@@ -19,7 +19,6 @@ from rich.console import Console
 
 from disc_model.cli.case import table
 from disc_model.errors import DiscModelError, Fault, ParameterError
-from disc_model.renamed import renamed
 
 if TYPE_CHECKING:
     from disc_model.studies.study import GridStudy, Study
@@ -61,7 +60,7 @@ def list_(
 ) -> None:
     """List the grid studies, figures or cases of a study, or what of its results is outdated."""
     if what not in KINDS:
-        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}{renamed(what, KINDS)}"))
+        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
     chosen, grids = _read(files)
     if what == "outdated":
         typer.echo(_outdated(files, directory))
