@@ -1,7 +1,4 @@
-"""Progress displays for the compilation of kernels and for simulations.
-
-A terminal shows a bar, a notebook a line that changes, and other outputs a line before and one after, all on stderr.
-"""
+"""Progress on stderr: for long simulations a bar (a line where there is no terminal), and a line for compilation."""
 
 import sys
 import time
@@ -15,10 +12,6 @@ Progress = Callable[[float], object] | bool | None
 """Argument `progress` of callers: a function that receives the time reached, or False for silence."""
 PATIENCE = 2.0
 """s, after which the progress of a simulation is shown."""
-UNNOTICED = 1.0
-"""s of compilation that are not reported: loading kernels from the cache takes some time as well."""
-WIDTH = 30
-"""Width of a bar in a notebook, in characters."""
 COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 
 
@@ -28,124 +21,55 @@ def simulating(progress: Progress, t_end: float) -> Iterator[Callable[[float], o
     if callable(progress) or progress is False:
         yield progress or (lambda _: None)
         return
-    began, reached, line = time.perf_counter(), 0.0, _Line(f"simulating {t_end:g} s", t_end)
+    began, bar = time.perf_counter(), None
 
     def tell(now: float) -> None:
-        nonlocal reached
-        reached = min(float(now), t_end)
+        nonlocal bar
         if time.perf_counter() - began > PATIENCE:
-            line.show(f"simulating: {reached:.2f} of {t_end:g} s", reached)
+            bar = bar or _open_bar(t_end)
+            bar.update(bar.task_ids[0], completed=min(now, t_end))
 
     try:
         yield tell
     finally:
-        line.stop(f"simulated {reached:g} s in {time.perf_counter() - began:.0f} s")
-        line.close()
+        if bar:
+            bar.stop()
 
 
-_watched = False
+def _open_bar(t_end: float) -> Any:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    text, terminal = f"simulating {t_end:g} s", sys.stderr.isatty()
+    if not terminal:  # a notebook, where rich's bars need further packages, or a file
+        print(text, file=sys.stderr, flush=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TextColumn("left:"))
+    console = Console(stderr=True)
+    bar = Progress(*columns, TimeRemainingColumn(), console=console, transient=True, disable=not terminal)
+    bar.add_task(text, total=t_end)
+    bar.start()
+    return bar
+
+
+class _CompilingLine(event.Listener):
+    """Says once in a process that kernels are compiled."""
+
+    shown = False
+
+    def on_start(self, event: Any) -> None:
+        if not self.shown:
+            print(COMPILING, file=sys.stderr, flush=True)
+        self.shown = True
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+_LINE = _CompilingLine()
 
 
 @contextmanager
 def compiling(report: bool = True) -> Iterator[None]:
-    """Report the compilation of kernels in the block if it takes long; also usable as a decorator.
-
-    A nested use has no effect of its own.
-    """
-    global _watched
-    if _watched:
+    """Say so if the block compiles kernels; also usable as a decorator."""
+    with event.install_listener("numba:compile", _LINE) if report else nullcontext():
         yield
-        return
-    _watched, kernels = True, _Kernels()
-    try:
-        with event.install_listener("numba:compile", kernels) if report else nullcontext():
-            yield
-    finally:
-        _watched = False
-        kernels.line.close()
-
-
-class _Kernels(event.Listener):
-    """Counts the compiled parts of kernels, which are nested, and measures the time."""
-
-    def __init__(self) -> None:
-        self.line = _Line(COMPILING)
-        self.depth, self.count, self.seconds, self.began = 0, 0, 0.0, 0.0
-
-    def on_start(self, found: Any) -> None:
-        self.depth += 1
-        if self.depth == 1:
-            self.began = time.perf_counter()
-        self._show()
-
-    def on_end(self, found: Any) -> None:
-        self.depth -= 1
-        self.count += 1
-        self._show()
-        if self.depth == 0:
-            self.seconds += time.perf_counter() - self.began
-            self.line.stop(f"kernels compiled in {self.seconds:.0f} s")
-
-    def _show(self) -> None:
-        if self.seconds + time.perf_counter() - self.began > UNNOTICED:
-            self.line.show(f"{COMPILING}, {self.count} parts done", self.count)
-
-
-class _Line:
-    """Progress in one line, by `show` and `stop`, which may repeat, and finally `close`; empty before the first `show`.
-
-    Parameters
-    ----------
-    text : initial text
-    total : final count of `show`, if it is known
-    """
-
-    def __init__(self, text: str, total: float | None = None) -> None:
-        self.text, self.total, self.end = text, total, ""
-        self.shown = False
-        self.bar: Any = None
-        self.handle: Any = None
-
-    def _open(self) -> None:
-        from rich.console import Console
-
-        console = Console(stderr=True)
-        if console.is_jupyter:  # here rich's own bars would need ipywidgets
-            from IPython.display import display
-
-            self.handle = display({"text/plain": self.text}, raw=True, display_id=True)
-        elif sys.stderr.isatty():
-            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
-            left = [TextColumn("left:"), TimeRemainingColumn()] if self.total else []
-            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), *left)
-            self.bar = Progress(*columns, console=console, transient=True)
-            self.task = self.bar.add_task(self.text, total=self.total)
-        else:
-            print(self.text, file=sys.stderr, flush=True)
-
-    def show(self, text: str, count: float) -> None:
-        """Start or continue the display, with this text and count."""
-        if not self.shown:
-            self._open()
-            self.shown = True
-        if self.bar is not None:
-            self.bar.start()
-            self.bar.update(self.task, description=text, completed=count)
-        elif self.handle is not None:
-            if self.total:
-                filled = round(WIDTH * count / self.total)
-                text = "█" * filled + "░" * (WIDTH - filled) + " " + text
-            self.handle.update({"text/plain": text}, raw=True)
-
-    def stop(self, text: str) -> None:
-        """Pause or end the display, and show the result in `text`."""
-        self.end = text
-        if self.bar is not None:
-            self.bar.stop()
-        elif self.handle is not None:
-            self.handle.update({"text/plain": text}, raw=True)
-
-    def close(self) -> None:
-        if self.shown and self.bar is None and self.handle is None:
-            print(self.end, file=sys.stderr, flush=True)

@@ -1,8 +1,6 @@
 """A first look at a result."""
 
 import math
-import sys
-from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -28,19 +26,3 @@ def test_quicklook_marks_the_separation_and_draws_bands():
     plt.close(figure)
     with pytest.raises(ParameterError, match=r"record.windows: must have one window or more to be drawn"):
         simulate(P, 1e-3).plot()
-
-
-def test_a_notebook_draws_a_figure_once(monkeypatch):
-    """It was drawn as the value of the cell, and once more at the end of the cell because pyplot had it."""
-    drawn = []
-    shell = SimpleNamespace(display_formatter=SimpleNamespace(formatters={"image/png": lambda figure: b"PNG"}))
-    monkeypatch.setitem(sys.modules, "IPython", SimpleNamespace(get_ipython=lambda: shell))
-    monkeypatch.setitem(sys.modules, "IPython.display", SimpleNamespace(display=lambda data, raw: drawn.append(data)))
-    figure = simulate(P, 0.01, record=Window(rate=1000)).plot()
-    for count in (1, 1):
-        figure._ipython_display_()
-        assert drawn == [{"image/png": b"PNG"}] * count
-    plt.close(figure)
-    for count in (2, 3):
-        figure._ipython_display_()
-        assert len(drawn) == count

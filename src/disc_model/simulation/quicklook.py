@@ -15,21 +15,6 @@ from disc_model.errors import Fault, ParameterError
 PANELS = ("P", "w")
 
 
-class _ShownOnce(Figure):
-    """A pyplot figure that a notebook draws once, although both pyplot and the value of a cell show it."""
-
-    drawn = False
-
-    def _ipython_display_(self) -> None:
-        from IPython import get_ipython
-        from IPython.display import display
-
-        if not self.drawn or not plt.fignum_exists(self.number):
-            forms = get_ipython().display_formatter.formatters.items()
-            display({kind: data for kind, form in forms if (data := form(self)) is not None}, raw=True)
-        self.drawn = True
-
-
 def quicklook(result: Any) -> Figure:
     """Plot contact force (top) and disc displacement under the slider (bottom), one column for each window.
 
@@ -41,7 +26,7 @@ def quicklook(result: Any) -> Figure:
         example = "simulate(p, 20, record=Record(windows=(Window(rate=2000),)))"
         raise ParameterError(Fault(("record", "windows"), "", f"must have one window or more to be drawn: {example}"))
     columns = len(result.samples)
-    how: dict[str, Any] = {"sharex": "col", "squeeze": False, "layout": "constrained", "FigureClass": _ShownOnce}
+    how: dict[str, Any] = {"sharex": "col", "squeeze": False, "layout": "constrained"}
     figure, axes = plt.subplots(len(PANELS), columns, figsize=(4.5 + 3.5 * (columns - 1), 5.0), **how)
     for column, window in enumerate(result.samples):
         for row, name in enumerate(PANELS):
