@@ -18,7 +18,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: compile-times wheel schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
+.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -100,10 +100,6 @@ kernels: env
 # What compiling each kind of kernel costs, from an empty cache.
 compile-times: env
 	$(BIN)/python workflow/scripts/measure_compilation.py
-
-# A wheel with kernels for processors of the levels x86-64-v3 and -v4, in dist/: who installs it compiles nothing.
-wheel: env
-	$(BIN)/python workflow/scripts/build_wheel.py
 
 # The numbers once more, in the instructions that every processor has: no fused multiplication and addition, short vectors.
 # What compiles kernels of its own is left to `make test-long`, which tries all in every set of instructions.

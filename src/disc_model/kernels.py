@@ -29,7 +29,7 @@ WIDTHS: dict[str, dict[str, Any]] = {"": {}, "-wide": {"n_diameters": 5}}
 PAIRS_OF_A_BLOCK = 4
 KINDS = tuple(f"{task}-{law}{width}" for width, law, task in product(WIDTHS, LAWS, TASKS))
 USUAL = tuple(kind for kind in KINDS if ("wide" in kind) + ("ramp" in kind) + ("rigid_vertical" not in kind) < 2)
-"""Kinds that differ from the paper's in at most one respect: they are measured, and shipped with a wheel."""
+"""Kinds that differ from the paper's in at most one respect: compile times are measured for them."""
 DECIDING = frozenset({"contact_compliance", "contact_force", "n_diameters", "n_circles", "disc"})
 """Parameters that determine the kind of a case."""
 _DEFAULTS = {name: Parameters.model_fields[name].default for name in DECIDING}

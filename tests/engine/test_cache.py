@@ -147,7 +147,7 @@ def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Pat
     ids=["comment", "docstring", "constant", "operator"],
 )
 def test_only_a_change_of_code_changes_the_folder(change, same, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
-    shutil.copytree(ENGINE, tmp_path / "engine", ignore=shutil.ignore_patterns("__pycache__", "kernels"))
+    shutil.copytree(ENGINE, tmp_path / "engine", ignore=shutil.ignore_patterns("__pycache__"))
     changed = tmp_path / "engine" / "stepping.py"
     text = changed.read_text()
     assert change(text) != text

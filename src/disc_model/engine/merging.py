@@ -106,18 +106,12 @@ class KernelCache:
 
     def load_overload(self, signature, target):
         """The code compiled for a signature, or None if it is missing or damaged."""
-        found = cache.read(cache.folder() / self._file(signature, cache.processor(target.codegen())))
-        level = cache.shipped_level() if found is None else None
-        if level:
-            place = cache.SHIPPED / level / self._file(signature, level)
-            found = cache.read(place)
-            if found is None and place.exists():
-                cache.warn_once(f"{place}: is damaged; it is compiled, once")
-        return None if found is None else CompileResult._rebuild(target, *found)
+        reduced = cache.read(cache.folder() / self._file(signature, target.codegen().magic_tuple()))
+        return None if reduced is None else CompileResult._rebuild(target, *reduced)
 
     def save_overload(self, signature, compiled):
         """Save compiled code if possible: a full or read-only disk costs time, not the result."""
-        processor, helpers = cache.processor(compiled.codegen), compiled.library.new_helpers()
+        processor, helpers = compiled.codegen.magic_tuple(), compiled.library.new_helpers()
         path = cache.folder() / self._file(signature, processor)
         try:
             cache.write(path, compiled._reduce())
