@@ -35,7 +35,7 @@ WHAT = {
     "plausibility": "implausible values",
     "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
-    "bytecode": "code without comments, to tell changes",
+    "sources": "files on which a result depends",
 }
 """A few words for each part of a layer."""
 COLOURS = ("#e8f1f8", "#d3e4f2")
