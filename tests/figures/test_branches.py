@@ -21,6 +21,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "growth_rate": [[-0.1, -0.1, -0.01, 0.2], [-0.1, -0.1]],
         "sweep_range": np.array([[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2e-2, 3e-2]]),
         "sweep_separation_rate": np.array([[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
+        "sweep_settled": np.full((2, 5), 2),
         "sliding_growth_rate": [0.1, 0.1, -0.1, -0.1, -0.1],
     }
     monkeypatch.setattr(branches, "compute_point", lambda *_, **__: (values, ""))

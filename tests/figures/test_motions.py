@@ -43,12 +43,12 @@ def test_samples_at_switches_are_not_named_after_phases() -> None:
     assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
 
 
-def test_what_is_not_steady_is_grey_and_what_has_not_converged_ringed() -> None:
+def test_what_has_not_settled_is_grey_and_what_has_not_converged_ringed() -> None:
     samples, exponents = made_up_samples()
-    samples["stationary"][:] = [2, 1, 2]  # words of "unknown no yes"
+    samples["settled"][:] = [2, 1, 2]  # words of "undecided changing settled"
     exponents["converged"][:] = [[2], [2], [1]]
     above, _, below = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes
-    assert list(lines(above)["not stationary"].get_xdata()) == [2, 2]
+    assert list(lines(above)["not settled, or undecided"].get_xdata()) == [2, 2]
     assert 2 not in lines(above)["stick"].get_xdata()
     ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
     assert list(ring.get_xdata()) == [3]

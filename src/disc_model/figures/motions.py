@@ -31,7 +31,7 @@ ERRORS = 4
 
 
 def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Bifurcation) -> Figure:
-    """Draw samples against a parameter, coloured by phase, grey where the motion was not steady yet.
+    """Draw samples against a parameter, coloured by phase, grey where it is not shown that the motion has settled.
 
     A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
     events.  Periods are below, and the further study ``lyapunov``, if it is given.
@@ -50,10 +50,10 @@ def draw_bifurcation(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot
     position = np.broadcast_to(along[:, None], values.shape)
     lost = drawing.failed(study).values
     phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
-    steady = (flag_names(study["stationary"]) != "no")[:, None]
-    dots = [("not stationary", ~steady & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
+    settled = (flag_names(study["settled"]) == "settled")[:, None]
+    dots = [("not settled, or undecided", ~settled & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
     for code, (name, color) in enumerate(PHASE_COLOURS.items()):
-        dots.append((names.get(name, name), steady & (phase == code), DOT | {"color": color} | MARKS.get(name, {})))
+        dots.append((names.get(name, name), settled & (phase == code), DOT | {"color": color} | MARKS.get(name, {})))
     for label, there, look in dots:
         if there.any():
             ax.plot(position[there], values[there], linestyle="", label=label, **look)
@@ -122,6 +122,8 @@ THIN = 0.7
 """Width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line."""
 MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
 """Look of the marks of a sweep."""
+UNSETTLED = "#aaaaaa"
+"""Colour of its marks where it is not shown that the motion has settled."""
 
 
 def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Branches) -> Figure:
@@ -137,7 +139,11 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
                 SEPARATED if one["separations"] > 0 else BLACK)  # fmt: skip
     along = study["sweep_value"].values * factor
     for way, mark in enumerate("^v"):
-        _swept(ax, along, 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0, mark)
+        settled = flag_names(study["sweep_settled"])[way] == "settled"
+        _swept(
+            ax, along, 1e3 * study["sweep_range"].values[way],
+            study["sweep_separation_rate"].values[way] > 0, settled, mark,
+        )  # fmt: skip
     unstable = study["sliding_growth_rate"].values > 0
     phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
     _branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
@@ -150,10 +156,13 @@ def draw_branches(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: B
         ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
     ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
     handles, labels = ax.get_legend_handles_labels()
-    (rising, falling), both = (
-        [Line2D([], [], linestyle="", marker=way, color=color, **MARK) for way in "^v"] for color in (BLACK, SEPARATED)
+    (rising, falling), both, pale = (
+        [Line2D([], [], linestyle="", marker=way, color=color, **MARK) for way in "^v"]
+        for color in (BLACK, SEPARATED, UNSETTLED)
     )
     simulated: dict[str, Any] = {"rising": rising, "falling": falling, "separating": tuple(both)}
+    if (flag_names(study["sweep_settled"]) != "settled").any():
+        simulated["not settled, or undecided"] = tuple(pale)
     handles += simulated.values()
     labels += [f"simulated, {text}" for text in simulated]
     figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map={tuple: HandlerTuple(None)})
@@ -171,11 +180,11 @@ def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: s
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
 
 
-def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, mark: str) -> None:
+def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settled: np.ndarray, mark: str) -> None:
     """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
     shown = np.maximum(y, LOWEST)
-    for at, color in ((~separates, BLACK), (separates, SEPARATED)):
-        ax.plot(x[at], shown[at], mark, color=color, clip_on=False, **MARK)
+    for there, color in ((settled & ~separates, BLACK), (settled & separates, SEPARATED), (~settled, UNSETTLED)):
+        ax.plot(x[there], shown[there], mark, color=color, clip_on=False, **MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
     for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(10)):

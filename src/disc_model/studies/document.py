@@ -405,13 +405,15 @@ class HysteresisOptions(Ruled):
     """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
 
     scan : rad/s
-    dwell : s at each speed
+    dwell : s at each speed; it is doubled until the motion has settled
+    max_dwell : s, greatest length of the stay then
     evaluation_time : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
     """
 
     tol: Tolerance = 1e-10
     scan: Annotated[Range, Unit("rad/s")]
     dwell: Seconds
+    max_dwell: Seconds = 480.0
     evaluation_time: Seconds = 5.0
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
@@ -442,7 +444,7 @@ class BifurcationOptions(Ruled):
 
     section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
         motion then shows as many points as its period has events
-    transient : s, left out; at events it is doubled until the motion is known to repeat
+    transient : s, left out; at events it is doubled until the motion has settled
     max_transient : s, greatest length of the transient then
     samples : number of turns or events sampled after it
     theta : rad, the disc's point whose displacement is sampled once a turn
@@ -451,7 +453,7 @@ class BifurcationOptions(Ruled):
     tol: Tolerance = 1e-10
     section: Literal["stroboscopic", "event"] = "stroboscopic"
     transient: Seconds
-    max_transient: Seconds = 240.0
+    max_transient: Seconds = 480.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
@@ -543,7 +545,8 @@ class BranchesOptions(Ruled):
 
     parameter : the one that varies
     scan : its values in the sweep; each cycle found is followed between the first and the last
-    dwell : s at each value
+    dwell : s at each value; it is doubled until the motion has settled
+    max_dwell : s, greatest length of the stay then
     evaluation_time : s, the last stretch of it, over which the range is taken
     releases : greatest number of releases of a cycle that is followed
     max_step : arclength of the longest step along a branch
@@ -554,6 +557,7 @@ class BranchesOptions(Ruled):
     parameter: Free = "Omega"
     scan: Annotated[Range, Unit(of="parameter")]
     dwell: Seconds
+    max_dwell: Seconds = 480.0
     evaluation_time: Seconds = 2.0
     releases: Annotated[Count, Field(ge=1, le=100)] = 4
     max_step: Positive = 0.05

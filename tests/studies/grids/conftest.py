@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.analysis.settling import Settled, Settling
 from disc_model.errors import Status
-from disc_model.stability.attractor import outcome as attractor_outcome
+from disc_model.stability.attractor import classification
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 from disc_model.studies.grids import run
 from disc_model.studies.grids.merge import merge_batches
@@ -68,19 +69,29 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         first_separation = first if first <= horizon else math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
-    def final_segment(p, state, duration, late, tol):
+    def arrival(p, leg, tol):
+        """All have settled."""
+        return classification.Arrival(Settling(Settled.SETTLED))
+
+    def carried_on(p, until, *, tol, initial_state):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
-        assert (duration, late) == (60, 2)
-        apart = p.Omega >= 14 or (state is not None and state and p.Omega >= 13)
+        apart = p.Omega >= 14 or (initial_state is not None and initial_state.apart and p.Omega >= 13)
+        state = SimpleNamespace(time=until, apart=apart)
+        return SimpleNamespace(final_state=state, status=Status.OK, message="")
+
+    def final_segment(p, state, duration, late, tol):
+        assert (duration, late) == (2, 2)
+        apart = state.apart
         share = 0.25 if apart else 0.0
         values = dict.fromkeys(Segment.__dataclass_fields__, 0.0)
         found = Segment(
             **values | {"separation_fraction": share, "slip_fraction": 1 - share, "separation_rate": 40 * share}
         )
-        return SimpleNamespace(final_state=apart, status=Status.OK, message=""), found
+        return SimpleNamespace(final_state=state, status=Status.OK, message=""), found
 
     monkeypatch.setattr(critical_speed, "motion", motion)
-    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
+    for name, fake in (("arrival", arrival), ("simulate", carried_on), ("final_segment", final_segment)):
+        monkeypatch.setattr(classification, name, fake)
 
 
 @pytest.fixture
@@ -125,7 +136,8 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
     attrs = {"base": json.dumps({"normalization": normalization}), "options": json.dumps({"section": "stroboscopic"})}
     known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
     samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
-    samples |= {"stationary": ("N", np.zeros(3, np.int8), known), "period_events": ("N", np.zeros(3, int))}
+    answers = {"flag_meanings": "undecided changing settled"}
+    samples |= {"settled": ("N", np.full(3, 2, np.int8), answers), "period_events": ("N", np.zeros(3, int))}
     samples["kind"] = ("N", np.zeros(3, np.int8), {"flag_meanings": "failed undecided steady_sliding"})
     exponents = {name: (each, np.ones((3, 1))) for name in ("exponent", "exponent_error")}
     exponents["converged"] = (each, np.zeros((3, 1), np.int8), known)

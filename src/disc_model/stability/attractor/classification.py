@@ -7,7 +7,7 @@ the motion might only be passing an unstable one.
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, pairwise
 from typing import NamedTuple
@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from disc_model.analysis.classify import CLOSES, FEWEST, SETTLED, closure, shortest_period
+from disc_model.analysis.settling import Settled, Settling, settling
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays
@@ -38,11 +39,12 @@ from disc_model.stability.attractor.outcome import (
     OutcomeResult,
     Segment,
     at_rest,
+    final_segment,
     segment_of,
 )
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import RETURNED, ReturnMap
+from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
@@ -51,8 +53,7 @@ STEADY = 1e-3
 SAME = 0.05
 """Segments that differ by less belong to one attractor; the extrapolated rest of a drift may reach half of it."""
 SMALLEST = 1e-3
-"""Range, over the static deflection, below which ranges count as equal: the slider's height is constant. It also bounds
-the change over a period of a motion that counts as periodic."""
+"""Range, over the static deflection, below which ranges count as equal: the slider's height is constant."""
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward perturbations of the static start from which attractors are sought, over the static deflection."""
 
@@ -193,11 +194,8 @@ class Basins:
         near = cycle_reached(self.p, leg, LARGEST_PERIOD)
         if near is not None and near.follows_cycle:  # of stable cycles only
             return self._periodic(near, stretch)
-        if near is not None and not near.cycle.stable:
-            # near the cycle the motion hardly moves on the section over a period; on a torus it would move
-            at = near.x + near.distance
-            if near.moved(at, 1).residual <= SMALLEST * self.map.deflection:
-                return None
+        if near is not None and near.lingers:
+            return None
         return Attractor(Outcome.UNDECIDED, stretch)
 
     def _same(self, one: Attractor, other: Attractor) -> bool:
@@ -213,13 +211,51 @@ class Basins:
         return Attractor(near.kind, stretch, cycle.period, cycle.releases, cycle.growth_rate, np.array(points))
 
 
+class Arrival(NamedTuple):
+    """What a motion has come to.
+
+    Attributes
+    ----------
+    settling : whether it has settled
+    calm : `AT_REST` or `STEADY_SLIDING` if that is what it has come to, else None
+    near : the stable cycle that it follows, by its multipliers, else None
+    """
+
+    settling: Settling
+    calm: Outcome | None = None
+    near: NearCycle | None = None
+
+    @property
+    def settled(self) -> bool:
+        return self.settling.answer is Settled.SETTLED
+
+
+def arrival(p: Parameters, leg: Result, tol: float) -> Arrival:
+    """What a motion has come to at the end of a leg, recorded with its events.
+
+    Rest, eigenvalues of steady sliding and multipliers of a stable cycle prove it. Otherwise the record decides,
+    by the angles at releases and at losses of contact.
+    """
+    if (calm := at_rest(p, leg, tol)) is not None:
+        return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
+    near = cycle_reached(p, leg)
+    if near is not None and near.follows_cycle:  # of stable cycles only
+        rate, since = near.cycle.growth_rate, leg.final_state.time
+        return Arrival(Settling(Settled.SETTLED, rate, 0.0, since), near=near)
+    if near is not None and near.lingers:
+        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
+    events = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
+    return Arrival(settling(events["time"], events["psi"]))
+
+
 def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact.
 
-    Periods of up to half the releases of the record are tried, and of up to `most` releases.
+    Periods of up to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases.
     """
-    releases = int((stretch.events["kind"] == "stick_to_slip").sum())
-    if not releases or not may_stick_and_slip(p):
+    last = stretch.events[stretch.events["time"] > stretch.final_state.time - FIRST_LEG]
+    releases = int((last["kind"] == "stick_to_slip").sum())
+    if not releases or not may_stick_and_slip(p) or case_faults(p, "a cycle"):
         return None
     map_ = ReturnMap(p, patient=True)
     code, x = map_.next_release(stretch.final_state)
@@ -229,14 +265,42 @@ def cycle_reached(p: Parameters, stretch: Result, most: int = sys.maxsize) -> Ne
     return cycle_near(map_, x, again, may_separate=True)
 
 
+def sweep(
+    p: Parameters, name: str, values: Sequence[float], dwell: float, longest: float, late: float, tol: float
+) -> Iterator[tuple[tuple[int, int], Result, Segment | None, Arrival]]:
+    """Follow the motion through values of a parameter, up and down again.
+
+    It stays ``dwell`` s at each value, and twice as long until it has settled, up to ``longest`` s; from a stable cycle
+    that it follows it goes on exactly. Yields the direction (0 up, 1 down) and the index of the value, the last run
+    there, its last segment of ``late`` s, and what the motion has come to. If a run ends early, the segment is None and
+    the sweep ends.
+    """
+    state: State | None = None
+    for place in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
+        case = p.replace(**{name: values[place[1]]})
+        begin, stay = 0.0 if state is None else state.time, dwell
+        while True:
+            result = simulate(case, begin + stay, tol=tol, initial_state=state)
+            if not result.status.complete:
+                yield place, result, None, Arrival(Settling())
+                return
+            state, reached = result.final_state, arrival(case, result, tol)
+            if reached.settled or 2 * stay > longest:
+                break
+            stay *= 2
+        if reached.near is not None:
+            state = reached.near.cycle.state
+        result, segment = final_segment(case, state, late, late, tol)
+        yield place, result, segment, reached
+        state = result.final_state
+
+
 class Regularity(NamedTuple):
-    """Kind of a motion; number of events after which it repeats, 0 if that is not shown; closure, s; and a state on
-    its cycle, if that is known."""
+    """Kind of a motion; number of events after which it repeats, 0 if that is not shown; closure, s."""
 
     kind: Outcome
     period: int = 0
     closure: float = math.nan
-    state: State | None = None
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:

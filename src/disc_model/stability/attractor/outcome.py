@@ -5,7 +5,7 @@ Newton's method finds from it.  docs/algorithms.md, Regions, describes the concl
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Self
@@ -381,23 +381,6 @@ def final_segment(
     window = Window(start=stop - late, stop=stop, rate=RATE)
     result = simulate(p, stop, tol=tol, initial_state=state, record=window)
     return result, segment_of(result) if result.status.complete else None
-
-
-def sweep(
-    p: Parameters, name: str, values: Sequence[float], dwell: float, late: float, tol: float
-) -> Iterator[tuple[tuple[int, int], Result, Segment | None]]:
-    """Follow the motion through values of a parameter, up and down again, for ``dwell`` s at each.
-
-    Yields the direction (0 up, 1 down) and the index of the value, the run there, and its last segment of ``late`` s.
-    If a run ends early, the segment is None and the sweep ends.
-    """
-    state: State | None = None
-    for place in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
-        result, stretch = final_segment(p.replace(**{name: values[place[1]]}), state, dwell, late, tol)
-        yield place, result, stretch
-        if stretch is None:
-            return
-        state = result.final_state
 
 
 def segment_of(result: Result) -> Segment:

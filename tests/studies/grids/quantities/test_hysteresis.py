@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor import outcome as attractor_outcome
+from disc_model.stability.attractor import classification
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import Point
 from disc_model.studies.grids.quantities import hysteresis
@@ -45,15 +45,15 @@ def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
     way: int, breaks_at: float, onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On its way up or down."""
-    whole, passed = attractor_outcome.final_segment, []
+    whole, passed = classification.simulate, []
 
-    def final_segment(p, *how):
+    def simulate(p, *how, **more):
         passed.append(p.Omega)
         if passed.count(breaks_at) > way and p.Omega == breaks_at:
-            return SimpleNamespace(status=Status.STALLED, message="why", final_state=None), None
-        return whole(p, *how)
+            return SimpleNamespace(status=Status.STALLED, message="why", final_state=None)
+        return whole(p, *how, **more)
 
-    monkeypatch.setattr(attractor_outcome, "final_segment", final_segment)
+    monkeypatch.setattr(classification, "simulate", simulate)
     options = HysteresisOptions.model_validate({"scan": SCAN, "dwell": 60, "evaluation_time": 2})
     table = compute(hysteresis, [Point(Parameters(N=200, Omega=0))], options)
     found = table.arrays

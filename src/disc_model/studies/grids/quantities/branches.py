@@ -9,13 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from disc_model.analysis.settling import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.simulation.result import State
-from disc_model.stability.attractor.classification import cycle_reached
-from disc_model.stability.attractor.outcome import FIRST_LEG, final_segment, sweep
+from disc_model.stability.attractor.classification import sweep
+from disc_model.stability.attractor.outcome import final_segment
 from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import FloquetResult, find_cycle
@@ -37,6 +36,7 @@ COLUMNS = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
     "sweep_range": Variable("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
     "sweep_separation_rate": Variable("s-1", "separations per second at the end of the stay at a value", dims=_SWEEP),
+    "sweep_settled": ANSWER._replace(dims=_SWEEP),
     "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
 }
 COORDINATES = {
@@ -54,7 +54,7 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
     """Compute the sweep and the branches; the point's own value of the parameter is not used."""
     values, unfollowed = options.scan.values, []
     rows: list[dict[str, Any]] = []
-    swept = {name: np.full((2, len(values)), math.nan) for name, column in COLUMNS.items() if column.dims == _SWEEP}
+    swept = {name: column.empty((2, len(values))) for name, column in COLUMNS.items() if column.dims == _SWEEP}
     message = ""
 
     def follow(cycle: FloquetResult, reached: bool) -> None:
@@ -67,20 +67,19 @@ def compute_point(point: Point, options: BranchesOptions) -> tuple[dict[str, Any
             except NUMERICAL as error:
                 unfollowed.append(str(error))
 
-    for (way, i), result, late in sweep(
-        point.parameters, options.parameter, values, options.dwell, options.evaluation_time, options.tol
+    dwell, longest, evaluated = options.dwell, options.max_dwell, options.evaluation_time
+    for (way, i), result, late, reached in sweep(
+        point.parameters, options.parameter, values, dwell, longest, evaluated, options.tol
     ):
         if late is None:
             message = f"{options.parameter}={values[i]:g}: {result.message}"
             break
-        p, state = result.parameters, result.final_state
         swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
-        if way == 0 and (own := find_cycle(p)).state is not None:
+        swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
+        if way == 0 and (own := find_cycle(result.parameters)).state is not None:
             follow(own, False)
-        leg = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state, record=Record())
-        reached = cycle_reached(p, leg, options.releases) if leg.status.complete else None
-        if reached is not None and reached.follows_cycle and reached.cycle.stable:
-            follow(reached.cycle, True)
+        if reached.near is not None and reached.near.cycle.releases <= options.releases:
+            follow(reached.near.cycle, True)
     sliding = [steady_sliding(point.parameters.replace(**{options.parameter: v})).growth_rate for v in values]
     counts = {"n_branches": len(rows), "n_continuation_failures": len(unfollowed)}
     known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}

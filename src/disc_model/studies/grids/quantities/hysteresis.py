@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from disc_model.analysis.settling import ANSWER
 from disc_model.data.variables import Variable
-from disc_model.stability.attractor.outcome import sweep
+from disc_model.stability.attractor.classification import sweep
 from disc_model.studies.document import HysteresisOptions
 from disc_model.studies.grids.points import DIRECTION, STATUS, STATUSES, Coordinate, Point
 
@@ -14,6 +15,7 @@ _DIMS = ("direction", "sweep_Omega")
 COLUMNS = {
     "status": STATUS,
     "sweep_status": STATUS._replace(dims=_DIMS),
+    "sweep_settled": ANSWER._replace(dims=_DIMS),
     "separation_rate": Variable("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
     "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
     "P_max": Variable("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
@@ -35,12 +37,14 @@ def compute_point(point: Point, options: HysteresisOptions) -> tuple[dict[str, A
     shape = 2, len(speeds)
     values: dict[str, Any] = {name: column.empty(shape) for name, column in COLUMNS.items() if column.dims}
     status, message = "ok", ""
-    for place, result, late in sweep(
-        point.parameters, "Omega", speeds, options.dwell, options.evaluation_time, options.tol
+    dwell, longest, evaluated = options.dwell, options.max_dwell, options.evaluation_time
+    for place, result, late, reached in sweep(
+        point.parameters, "Omega", speeds, dwell, longest, evaluated, options.tol
     ):
         if late is None:
             status, message = result.status.value, f"Omega={speeds[place[1]]:g}: {result.message}"
         values["sweep_status"][place] = STATUSES.index(status)
+        values["sweep_settled"][place] = ANSWER.flags.index(reached.settling.answer)
         for name, number in asdict(late).items() if late else ():
             if name in values:
                 values[name][place] = number
