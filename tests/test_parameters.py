@@ -3,8 +3,6 @@
 import inspect
 import json
 import pickle
-import pydoc
-import re
 from typing import get_args
 
 import numpy as np
@@ -13,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from disc_model import Disc, ParameterError, Parameters, Ramp, Record, Window
+from disc_model import Disc, ParameterError, Parameters
 from disc_model.parameters import RESIDUAL, is_number
 from tests.processes import python
 
@@ -91,16 +89,6 @@ def test_help_says_meaning_unit_range_and_default(name: str) -> None:
     words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str) and word != RESIDUAL)
     phrase = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
     assert f" {name} : {field.description} ({phrase}) " in " ".join(inspect.getdoc(Parameters).split())
-
-
-@pytest.mark.parametrize("kind", [Parameters, Record, Window, Ramp])
-def test_help_has_nothing_of_pydantic_s(kind: type) -> None:
-    """Of 30,000 characters 3,000 were left."""
-    text = pydoc.render_doc(kind, renderer=pydoc.plaintext)
-    assert text.count("pydantic") == 1  # one of its bases
-    assert not {"Annotated", "model_dump"} & {*re.split(r"\W", text)}
-    assert all(f"{name}: " in str(inspect.signature(kind)) for name in kind.model_fields)
-    assert not [name for name in dir(kind) if name.startswith("model_")]
 
 
 def test_import_is_light() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import hashlib
-import inspect
 import json
 import math
 import numbers
@@ -14,16 +13,11 @@ from collections.abc import Callable, Iterator, Mapping, Sized
 from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
 
 from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
-
-if TYPE_CHECKING:
-    from pydantic._internal._model_construction import ModelMetaclass
-else:
-    ModelMetaclass = type(BaseModel)
 
 # ----------------------------------------------------------------------------------------------------
 # Numbers
@@ -286,23 +280,8 @@ def given_values(model: Strict) -> dict[str, Any]:
     return {name: getattr(model, name) for name in type(model).model_fields if name in model.model_fields_set}
 
 
-class _OwnNames(ModelMetaclass):
-    """Metaclass of classes whose `help` and completion show their own names, without pydantic's hundred."""
-
-    def __dir__(cls) -> list[str]:
-        return sorted({name for name in super().__dir__() if not name.startswith("_")} - {*dir(BaseModel)})
-
-
-class Checked(Strict, metaclass=_OwnNames):
-    """Base of models that callers make, with help, completion and changed copies."""
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
-        """A signature of plain types, without the machinery that checks them."""
-        types, named, none = get_type_hints(cls), inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.empty
-        fields = {name: none if field.is_required() else field.default for name, field in cls.model_fields.items()}
-        named_ones = [inspect.Parameter(name, named, default=x, annotation=types[name]) for name, x in fields.items()]
-        cls.__signature__ = inspect.Signature(named_ones)
+class Checked(Strict):
+    """Base of models that callers make, with changed copies."""
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
@@ -320,9 +299,6 @@ class Checked(Strict, metaclass=_OwnNames):
     def __setattr__(self, name: str, value: Any) -> None:
         change = f"{name}={as_text(value)}"
         raise ParameterError(f"{change}: cannot be set in place, replace({change}) returns a changed copy")
-
-    def __dir__(self) -> list[str]:
-        return sorted({*type(self).model_fields, *dir(type(self))})
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
