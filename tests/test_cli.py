@@ -1,4 +1,4 @@
-"""The command line: options, summary, plot. Texts of what is refused are in tests/studies/test_messages.py."""
+"""The command line: options, summary, plot."""
 
 import json
 import re

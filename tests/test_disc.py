@@ -194,7 +194,7 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
 
 
 def test_the_command_line_says_which_column_is_wrong(tmp_path: Path) -> None:
-    """It dropped which one it is. Texts of faults are in tests/studies/messages.json."""
+    """It dropped which one it is."""
     (tmp_path / "disc.csv").write_text("diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,x,3\n")
     faults: list[str] = []
     parameters_of({"N": "1", "Omega": "1", "disc": str(tmp_path / "disc.csv")}, faults)

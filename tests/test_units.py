@@ -1,4 +1,4 @@
-"""Numbers with units: what is accepted, and what it amounts to in SI. Texts of faults are in studies/messages.json."""
+"""Numbers with units: what is accepted, and what it amounts to in SI."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""How simulations end, and what they take. Texts of what they refuse are in tests/studies/messages.json."""
+"""How simulations end, and what they take."""
 
 from fractions import Fraction
 

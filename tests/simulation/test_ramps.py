@@ -45,7 +45,7 @@ def test_until_a_ramp_begins_all_is_as_without():
 
 
 def test_a_section_is_taken_on_ramps_of_the_preload():
-    """On those of Omega it is refused, see tests/studies/messages.json: the drive has no period there."""
+    """On those of Omega it is refused: the drive has no period there."""
     assert simulate(P, 0.01, ramps=RELIEF, record=Record(poincare=Poincare())).poincare is not None
 
 

@@ -104,17 +104,13 @@ def read_file(path: Path) -> tuple[Any, list[str]]:
         raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
 
 
-LARGEST = 100_000
-"""Greatest number of values in a file, repeated ones counted each time."""
-
-
 def _given_twice(root: yaml.Node) -> list[str]:
-    """Keys that are given twice, of which YAML itself would take the last value.
-
-    Raises ValueError if there are too many values: nested aliases can expand to more than fits into memory.
-    """
-    nodes, faults = [root], []
+    """Keys that are given twice, of which YAML itself would take the last value."""
+    nodes, faults, visited = [root], [], set[int]()
     for node in nodes:
+        if id(node) in visited:  # an alias of an earlier node
+            continue
+        visited.add(id(node))
         if isinstance(node, yaml.MappingNode):
             first: dict[Any, int] = {}
             for key, line in ((key.value, key.start_mark.line + 1) for key, _ in node.value):
@@ -124,8 +120,6 @@ def _given_twice(root: yaml.Node) -> list[str]:
             nodes += chain(*node.value)
         elif isinstance(node, yaml.SequenceNode):
             nodes += node.value
-        if len(nodes) > LARGEST:
-            raise ValueError(f"a value contains itself, or more than {LARGEST} values, repeated ones counted each time")
     return faults
 
 

@@ -1,0 +1,269 @@
+"""Typical faults of study files, arguments and command lines: each error names what is wrong, its value and the rule.
+
+Only the words that carry the meaning are checked, so that sentences may change.
+"""
+
+import contextlib
+import io
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+import disc_model as dm
+from disc_model import cli
+from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.lyapunov import lyapunov_exponents
+from disc_model.studies.study import StudyError, parse_study, read_yaml
+from tests.studies.refused import faults_of
+
+ROOT = Path(__file__).parents[2]
+GRID: dict[str, Any] = {"study": "s", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200}}
+GRID |= {"axes": {"Omega": [10, 20], "k": [4e4, 5e4]}}
+SAMPLED = {"quantity": "sensitivity", "base": {"Omega": 15}, "axes": {"N": [200]}}
+WINDOWS = {"windows": {"late": {"rate": 100}}}
+CASE: dict[str, Any] = {"title": "", "t_end": 1, "parameters": {"N": 1, "Omega": 1}, "record": WINDOWS}
+MAP = {"kind": "heat_map", "variable": "outcome", "x": "Omega", "y": "k"}
+
+
+def axes(**others: Any) -> dict[str, Any]:
+    return {"axes": {"Omega": [10, 20], **others}}
+
+
+def sampled(name: str, low: float, high: float) -> dict[str, Any]:
+    distribution = {"distribution": "uniform", "low": low, "high": high, "relative": True}
+    return SAMPLED | {"options": {"distributions": {name: distribution}, "samples": 8}}
+
+
+def figure(**changes: Any) -> dict[str, Any]:
+    return {"figures": {"f": MAP | changes}}
+
+
+GRIDS: list[tuple[dict[str, Any], str]] = [
+    ({"study": "1s"}, "study '1s' letters"),
+    ({"quantity": "flocet"}, "quantity 'flocet' unknown floquet"),
+    ({"axis": {}}, "axis unknown axes"),
+    ({"options": {"horizn": 10}}, "options.horizn unknown horizon"),
+    ({"options": {}}, "options.horizon required"),
+    ({"options": {"horizon": 2, "evaluation_time": 3}}, "options evaluation_time <= horizon"),
+    ({"base": {"N": 200, "rho": -1}}, "base.rho -1 > 0"),
+    ({"base": {"N": "200,5"}}, "base.N '200,5' decimal point"),
+    ({"base": {"N": 200, "E": "150 kg"}}, "base.E '150 kg' Pa"),
+    ({"base": {"N": 200, "k": 5e4}}, "base.k 50000 axis not both"),
+    ({"axes": {"k": [1]}}, "axes.Omega required"),
+    (axes(mus=[1]), "axes.mus mu_s"),
+    (axes(mu_k=[1.0]), "axes.mu_k 1 <= mu_s"),
+    (axes(a=[0.01, 0.06], r_0=[0.05, 0.1]), "axes.a 0.06 r_0 where"),
+    (axes(h=[1e-300]), "axes.h 1e-300 finite"),
+    (axes(c={"start": 0, "stop": 1, "step": 0.3}), "axes.c multiple step"),
+    (axes(c={"start": 0, "stop": 1, "count": 3, "scale": "log"}), "axes.c logarithmic > 0"),
+    (axes(c={"start": 0, "stop": 1, "count": 100_001}), "axes.c 100000 values"),
+    (axes(n_diameters=["auto"]), "axes.n_diameters 'auto' base"),
+    (axes(start=["other"]), "axes.start 'other' static"),
+    (axes(disc=["no.csv"]), "axes.disc 'no.csv' table"),
+    ({"zip": {"c": [1], "c_p": [1, 2]}}, "zip equal length"),
+    ({"where": "__import__('os').system('true') == 0"}, "where compare mu_k <= mu_s"),
+    ({"where": "k < 1"}, "where no point"),
+    ({"batch": {"over": ["c"]}}, "batch.over 'c' Omega k"),
+    (sampled("normalization", 0.9, 1.1), "options.distributions.normalization number"),
+    (sampled("k", -0.1, 1.1), "options.distributions.k -5000 >= 0"),
+    (figure(kind="heat"), "figures.f.kind 'heat' heat_map"),
+    (figure(variable="outcom"), "figures.f.variable 'outcom' outcome"),
+    (figure(y="E"), "figures.f.y 'E' dimension Omega"),
+    ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind 'critical_speed' quantity"),
+    (figure(y="k", x="k"), "figures.f.y 'k' differ"),
+]
+CASES: list[tuple[dict[str, Any], str]] = [
+    ({"cases": {"A": CASE | {"t_end": 0}}}, "cases.A.t_end 0 > 0"),
+    ({"cases": {"A": CASE | {"parameters": {"N": -5, "Omega": 1}}}}, "cases.A.parameters.N -5 >= 0"),
+    ({"cases": {"A": CASE | {"record": {"windows": {"w": {"rat": 1}}}}}}, "cases.A.record.windows.w.rat rate"),
+    ({"cases": {"A": CASE | {"record": {"events": {"start": 2}}}}}, "cases.A.record.events within run"),
+    ({"cases": {"status": CASE}}, "cases.status name"),
+    ({"figures": ["fig99"]}, "figures.0 'fig99' unknown"),
+    ({"figures": {"f": {"kind": "history", "case": "B", "window": "late"}}}, "figures.f.case 'B' A"),
+    ({"figures": {"f": {"kind": "history", "case": "A", "window": "all"}}}, "figures.f.window 'all' late"),
+    ({"cases": 3}, "cases 3 mapping"),
+]
+STUDIES = [(GRID | change, words) for change, words in GRIDS]
+STUDIES += [({"study": "s", "cases": {"A": CASE}, **change}, words) for change, words in CASES]
+BAD_TABLE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,3\n2,-1,3\n"
+
+
+def assert_named(faults: list[str], words: str) -> None:
+    """One of the faults has all the words."""
+    assert any(all(word in fault for word in words.split()) for fault in faults), faults
+
+
+@pytest.mark.parametrize(("raw", "words"), STUDIES, ids=[words for _, words in STUDIES])
+def test_a_fault_of_a_study_is_named(raw: dict[str, Any], words: str) -> None:
+    assert_named(faults_of(lambda: parse_study(raw).grids()), words)
+
+
+def test_the_faults_of_a_study_come_in_one_error() -> None:
+    faults = faults_of(parse_study, GRID | {"base": {"N": -1, "m": "x", "mu": 1}} | figure(kind="heat"))
+    for words in ("base.N -1", "base.m 'x' number", "base.mu mu_s", "figures.f.kind"):
+        assert_named(faults, words)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("a: [", "line 1"),
+        ("a: 1\nb: 2\n c: 3", "line 3"),
+        ("a: !!timestamp x", "tag"),
+        ("{study: s, quantity: floquet, base: {N: 200,5, Omega: 20}, axes: {k: [1]}}", "base.5 decimal point"),
+    ],
+)
+def test_text_that_is_no_study_is_located(text: str, words: str) -> None:
+    assert_named(faults_of(lambda: parse_study(read_yaml(text)[0])), words)
+
+
+def p(**changes: Any) -> dm.Parameters:
+    return dm.Parameters(**{"N": 200, "Omega": 50, "n_diameters": 1} | changes)
+
+
+def disc(**changes: Any) -> dm.Disc:
+    return dm.Disc(
+        **{"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]} | changes
+    )
+
+
+def ramp(**changes: Any) -> dm.Ramp:
+    return dm.Ramp(**{"parameter": "Omega", "to": 20, "start": 0.01, "end": 0.03} | changes)
+
+
+def from_state(**changes: Any) -> None:
+    dm.simulate(p(), 1.0, initial_state=dm.simulate(p(), 0.0371).final_state.replace(**changes))
+
+
+ARGUMENTS: list[tuple[Callable[[], object], str]] = [
+    (lambda: p(N=math.nan), "N=nan finite"),
+    (lambda: p(N=True), "N=True number"),
+    (lambda: p(mu_k=0.5), "mu_k=0.5 <= mu_s=0.4"),
+    (lambda: p(r_0=0.13), "r_0=0.13 <= b=0.12"),
+    (lambda: p(n_circles=1.5), "n_circles=1.5 whole number"),
+    (lambda: p(contact="glued"), "contact='glued' 'separable' 'bonded'"),
+    (lambda: p(omega=3), "omega=3 unknown Omega"),
+    (lambda: p(Omega="3 Hz"), "Omega='3 Hz' rad/s rpm"),
+    (lambda: p(contact_compliance="soft"), "contact_compliance='soft' 'residual'"),
+    (lambda: p(n_diameters="auto"), "n_diameters='auto' choose_modes"),
+    (lambda: p(disc=disc(diameters=[0, 1, 2]), E=2e11), "E=200000000000 disc"),
+    (lambda: disc(circles=[0, 0, 0]), "omega.2=1820 axisymmetric"),
+    (lambda: disc(diameters=[0, 1, 2], omega=[1490.0, 0.0, 1820.0]), "omega.1=0 0.001"),
+    (lambda: dm.Window(rate="fast"), "rate='fast' number"),
+    (lambda: dm.Window(rate=1, start=1, stop=1), "start=1 < stop=1"),
+    (lambda: dm.Window(rate=1, stop=2, last=1), "last=1 stop"),
+    (lambda: dm.Record(poincare={"start": 2, "stop": 1}), "poincare.start=2 < stop=1"),
+    (lambda: ramp(parameter="c"), "parameter='c' 'Omega' 'N'"),
+    (lambda: dm.simulate(p(), 1.0, ramps=(ramp(), ramp(start=0.02))), "ramps.1.start=0.02 0.03"),
+    (lambda: dm.simulate(p(), 1.0, tol=1), "tol=1 within 1e-15"),
+    (lambda: dm.simulate(p(), math.nan), "t_end=nan finite"),
+    (lambda: dm.simulate(p(), 1.0, stop_at="never"), "stop_at='never' 'first_separation'"),
+    (lambda: from_state(phase="flight"), "initial_state.phase='flight' stick slip separation"),
+    (lambda: from_state(phase="stick", f=1.0), "initial_state.f=1 0 stick"),
+    (lambda: dm.snapshots(p(), [0.2, 0.1]), "times=[0.2, 0.1] ascend"),
+    (lambda: dm.deflection(p(), dm.snapshots(p(), 0.1), 0.2, 0.0), "r=0.2 b=0.12"),
+    (lambda: dm.floquet(p(n_diameters=-1)), "n_diameters=-1 modes"),
+    (lambda: dm.floquet(p(), releases=2), "releases=2 whole number"),
+    (lambda: continue_cycle(p(), "nu", (1, 2)), "name='nu' Omega"),
+    (lambda: lyapunov_exponents(p(), 1.0, count=9), "count=9 8"),
+]
+
+
+@pytest.mark.parametrize(("call", "words"), ARGUMENTS, ids=[words for _, words in ARGUMENTS])
+def test_a_wrong_argument_is_named(call: Callable[[], object], words: str) -> None:
+    assert_named(faults_of(call), words)
+
+
+def test_a_fault_of_a_table_names_its_column_and_mode(tmp_path: Path) -> None:
+    (path := tmp_path / "disc.csv").write_text(BAD_TABLE)
+    assert_named(faults_of(dm.read_disc, path), "disc.csv.frequency_Hz '-1' mode 2")
+
+
+RUN = "run --N 385 --Omega 15.1 --t-end 1 "
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("run", "N required Omega t_end"),
+        (RUN + "--mu-k 0.5", "mu_k=0.5 <= mu_s=0.4"),
+        (RUN + "--tol nan", "tol 1e-15"),
+        (RUN + "--window late:last=0,rate=1", "window.late.last=0 > 0"),
+        (RUN + "--window w:start=0,stop=3,rate=1", "window.w stop=3 t_end=1"),
+        (RUN + "--ramp Omega", "ramp='Omega' KEY=VALUE"),
+        (RUN + "--save no/such/r.nc", "save folder"),
+        (RUN + "--plot x.txt", "plot='x.txt' png"),
+        ("run --Omga 3", "--Omga --Omega"),
+        ("floquet --N x --Omega 1 --tol 1", "N='x' tol 1e-06"),
+        ("modes --n-diameters auto --truncation-tolerance x", "truncation_tolerance='x' number"),
+        ("list colours config/paper.yaml", "'colours' studies figures"),
+        ("study no_such.yaml", "no_such.yaml read"),
+        ("rum", "'rum' 'run'"),
+    ],
+)
+def test_a_wrong_command_line_is_named(arguments: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        cli.main(arguments.split())
+    assert ended.value.code == 2
+    assert_named([capsys.readouterr().err], f"error: {words}")
+
+
+# ---- whatever is given, errors are those of the package
+
+HOSTILE = [math.nan, math.inf, -0.0, 10**400, -1, True, None, b"x", [], {}, [1, [2]], {"N": {"N": 1}}, "nan", "\0"]
+VALUES = st.one_of(st.sampled_from(HOSTILE), st.floats(), st.integers(), st.text(max_size=20))
+FILES = [ROOT / "config/test.yaml", *sorted((ROOT / "config/studies").glob("*.yaml"))]
+TEXTS = [path.read_text(encoding="utf-8") for path in FILES]
+OPTIONS = [f"--{name}" for name in dm.Parameters.model_fields]
+WORDS = st.one_of(st.sampled_from(["--t-end", "--help", *OPTIONS]), st.text(max_size=12))
+
+
+def plant(tree: Any, value: Any, data: st.DataObject) -> Any:
+    """The tree with another value somewhere."""
+    keys = list(tree) if isinstance(tree, dict) else list(range(len(tree))) if isinstance(tree, list) else []
+    if not keys or data.draw(st.integers(0, 5)) == 0:
+        return value
+    key = data.draw(st.sampled_from(keys))
+    copy = tree.copy()
+    copy[key] = plant(tree[key], value, data)
+    return copy
+
+
+@given(st.dictionaries(st.sampled_from([*dm.Parameters.model_fields, "n", ""]), VALUES, max_size=8))
+def test_any_parameters(values: dict[str, Any]) -> None:
+    with contextlib.suppress(dm.ParameterError):
+        assert all(math.isfinite(x) for x in dm.Parameters(**values).model_dump().values() if isinstance(x, float))
+
+
+@given(st.data())
+def test_a_study_with_any_value_somewhere(data: st.DataObject) -> None:
+    study = yaml.safe_load(data.draw(st.sampled_from(TEXTS)))
+    with contextlib.suppress(StudyError):
+        parse_study(plant(study, data.draw(VALUES), data))
+
+
+@given(st.sampled_from(TEXTS), st.integers(0, 2000), st.text(max_size=20), st.integers(0, 20))
+def test_any_text_in_a_study_file(text: str, position: int, inserted: str, removed: int) -> None:
+    with contextlib.suppress(StudyError):
+        parse_study(read_yaml(text[:position] + inserted + text[position + removed :])[0])
+
+
+@given(st.lists(WORDS, max_size=6))
+def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None:
+    stderr = io.StringIO()
+    with (
+        contextlib.redirect_stdout(io.StringIO()),
+        contextlib.redirect_stderr(stderr),
+        pytest.raises(SystemExit) as ended,
+    ):
+        cli.main(["run", *arguments, "--t-end", "-1"])  # nothing is computed
+    assert ended.value.code in (0, 2)
+    assert "Traceback" not in stderr.getvalue()
+    assert re.search(r"\S", stderr.getvalue()) or ended.value.code == 0
