@@ -3,10 +3,12 @@
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import xarray as xr
 
 from tests.processes import run
 from tests.test_cli import STUDY
@@ -57,6 +59,31 @@ def test_braces_in_a_title_are_no_wildcards(elsewhere: Path) -> None:
     snakemake(elsewhere, "--report", "report.html", "-s", SNAKEFILE, "--configfile", "mine.yaml")
     assert r"Growth over x and $\\mu_k$: growth" in (elsewhere / "report.html").read_text()
     assert r"Growth over {x} and $\\mu_{k}$" in (elsewhere / "results" / "mine" / "explorer.html").read_text()
+
+
+def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: Path) -> None:
+    """A shell executed parts of the folder's name, and a title that is not ASCII ended the merge."""
+    environment = tmp_path / 'we$ird `touch EXECUTED` "x'
+    environment.symlink_to(sys.prefix)
+    (tmp_path / "mine.yaml").write_text(STUDY.replace("title: Growth", "title: Grüße Ω, growth"), encoding="utf-8")
+    plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    command = (environment / "bin" / "python", "-m", "snakemake", "-s", SNAKEFILE, "--configfile", "mine.yaml")
+    run(*command, "-j2", cwd=tmp_path, timeout=900, **plain)
+    assert not (tmp_path / "EXECUTED").exists()
+    with xr.open_dataset(tmp_path / "results" / "mine" / "mine.nc") as study:
+        assert study.attrs["title"].startswith("Grüße Ω")
+
+
+def test_no_run_idles_at_its_end(elsewhere: Path) -> None:
+    """Timers of Snakemake's limit of jobs a second kept each run for five seconds after its last words."""
+    (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
+    command = [sys.executable, "-m", "snakemake", "-j2", "-s", SNAKEFILE, "--configfile", "mine.yaml"]
+    with subprocess.Popen(command, cwd=elsewhere, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stderr
+        spoken = [(time.monotonic(), line) for line in process.stderr]
+    assert process.returncode == 0
+    assert any("Complete log" in line for _, line in spoken)
+    assert time.monotonic() - spoken[-1][0] < 4.0
 
 
 def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:

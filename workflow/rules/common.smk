@@ -6,7 +6,6 @@ import shlex
 import sys
 from functools import cache
 from importlib.util import find_spec
-from itertools import pairwise
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -26,14 +25,10 @@ try:
     from disc_model.figures.kinds import OwnFigure
     from disc_model.figures.paper.catalogue import SECTIONS
     from disc_model.kernels import KINDS, kinds_of_case
+    from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
-    from disc_model.studies.study import (
-        StudyError,
-        mapping,
-        read_file,
-        read_files,
-        study_from_config,
-    )
+    from disc_model.studies.checks import check_owner, check_targets, closing_lines
+    from disc_model.studies.study import read_file, study_from_config
 except ModuleNotFoundError as error:
     raise WorkflowError(
         f"There is no module {error.name}: install the package disc_model with what it needs"
@@ -57,7 +52,7 @@ if not PAPER.exists():
 if not workflow.configfiles and "study" not in config:
     try:
         read_file(PAPER)  # reports the place of faulty YAML, which Snakemake does not
-    except StudyError as error:
+    except DiscModelError as error:
         raise WorkflowError(str(error)) from None
 
     configfile: PAPER
@@ -73,7 +68,7 @@ try:
             WORKFLOW.parent,
         ]
     )
-except StudyError as error:
+except DiscModelError as error:
     raise WorkflowError(str(error)) from None
 
 if getattr(workflow, "is_main_process", True):
@@ -84,21 +79,27 @@ if getattr(workflow, "is_main_process", True):
 RESULTS = f"results/{STUDY.name}"
 SCRIPTS = str(WORKFLOW / "scripts")
 
-# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
-OWN = f'export PATH="{Path(sys.executable).parent}:$PATH"; '
-FOUND = f"export PYTHONPATH={shlex.quote(str(SOURCES))}${{PYTHONPATH:+:$PYTHONPATH}}; "
 if CONDA and not SOURCES.is_dir():
     raise WorkflowError(
         "With conda the workflow is run from a clone of its repository, where the package's sources are."
     )
+
+
+def put_first(variable, folder):
+    """Let jobs search a folder before the others of a variable of the environment."""
+    os.environ[variable] = os.pathsep.join(
+        filter(None, [str(folder), os.environ.get(variable)])
+    )
+
+
+# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
+if not CONDA:
+    put_first("PATH", Path(sys.executable).parent)
+if CONDA or str(SOURCES) in sys.path:
+    put_first("PYTHONPATH", SOURCES)
+os.environ["PYTHONUTF8"] = "1"  # in any locale
 # Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
-JOB = f'job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
-PREFIX = (
-    "set -euo pipefail; "
-    + ("" if CONDA else OWN)
-    + (FOUND if CONDA or str(SOURCES) in sys.path else "")
-    + JOB
-)
+PREFIX = f'set -euo pipefail; job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
 
@@ -120,58 +121,13 @@ def made_of(rule, *sources, of=()):
     return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
 
 
-FILES = [os.path.relpath(Path(file).resolve()) for file in workflow.configfiles]
-OWNER = Path(RESULTS, "logs", "study_file.txt")
-
-
-def refuse_results_of_another_study():
-    """Stop if other study files of this name have made the results, which these would overwrite.
-
-    The same files with further ones laid over them, or without these, are the same study in other detail.
-    """
-    others = OWNER.read_text().splitlines() if OWNER.exists() else FILES
-    both = min(len(FILES), len(others))
-    there = all(Path(other).is_file() for other in others)
-    if not there or others[:both] == FILES[:both]:
-        return
-    if mapping(read_files(*others)).get("study") == STUDY.name:
-        raise WorkflowError(
-            f"study = {STUDY.name!r}: is also the name of the study in {', '.join(others)}, whose results are in {RESULTS}"
-            " and would be overwritten; give one of them another name, or another folder with --directory"
-        )
-
-
-def refuse_unknown_targets():
-    """Stop if a file is requested by a name that no study, figure or case has, and say which there are.
-
-    Snakemake says no more than that no rule makes it. What is requested is known to it later only.
-    """
-    targets = [word for before, word in pairwise(sys.argv) if before != "--report"]
+def figure_names():
+    """Names of figures, by the study in whose folder they are."""
     figures = {name: [*study.plots] for name, study in GRIDS.items()}
     figures[STUDY.name] = [*figures.get(STUDY.name, ()), *STUDY.drawable]
     if HAS_FIGURE_15:
         figures[STUDY.name] += ["fig15"]
-    for target in targets:
-        match Path(target).parts:
-            case ["results", str(study), str(_), *_] if study not in {
-                *figures,
-                "compiled",
-                "bench",
-            }:
-                known, what = figures, f"study {study}"
-            case ["results", str(study), "figures", str(file)] if study in figures:
-                known, what = figures[study], f"figure {Path(file).stem} in {study}"
-            case ["results", STUDY.name, "cases", str(file)]:
-                known, what = STUDY.specs, f"case {Path(file).stem} in {STUDY.name}"
-            case ["results", str(study), "batches", str(file)] if study in GRIDS:
-                known, what = GRIDS[study].batches, f"batch {Path(file).stem}"
-            case _:
-                continue
-        if what.split()[1] not in known:
-            shown = [*known][:50] + ["..."] * (len(known) > 50)
-            raise WorkflowError(
-                f"{target}: there is no {what} (known: {', '.join(shown) or 'none'})"
-            )
+    return figures
 
 
 @cache
@@ -195,23 +151,6 @@ def refuse_unrecorded(wildcards):
             " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
     return []
-
-
-def closing_lines():
-    """Summary of a run of the whole study: figures, points without a result, and how to examine each point."""
-    figures = [Path(file) for file in PRODUCTS if file.endswith(".png")]
-    folders = {str(figure.parent) for figure in figures}
-    place = folders.pop() if len(folders) == 1 else "results/*/figures"
-    if figures:
-        yield f"{STUDY.name}: {len(figures)} figure{'s' * (len(figures) > 1)} in {place}"
-    if ASKED:
-        lists = [Path(f"results/{name}/{name}.failed.txt") for name in ASKED]
-        failed = {file: file.read_text().count("\n") for file in lists}
-        points = sum(GRIDS[name].n_points for name in ASKED)
-        reasons = ", ".join(str(file) for file, count in failed.items() if count)
-        yield f"{points - sum(failed.values())} of {points} points have a result{f', for others see {reasons}' * bool(reasons)}"
-        yield f"The same command with the target `explorer` makes a page of every point: {RESULTS}/explorer.html"
-        yield "(disc-model study ... --target explorer, or snakemake ... explorer)"
 
 
 def case_file(case):
@@ -241,10 +180,10 @@ def merge_plan(study):
         "grid": GRIDS[study].grid,
         "attrs": GRIDS[study].attrs,
     }
-    return json.dumps(plan, sort_keys=True, ensure_ascii=False)
+    return json.dumps(plan, sort_keys=True)
 
 
-LABELS = json.dumps(STUDY.labels, sort_keys=True, ensure_ascii=False)
+LABELS = json.dumps(STUDY.labels, sort_keys=True)
 
 
 def case_made_of(case):

@@ -23,8 +23,8 @@ rule describe_study:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function, so that braces in a title are no wildcards
-        title=lambda wildcards: STUDY.title or STUDY.name,
+        # a function, so that braces in a title are no wildcards; JSON, which is ASCII
+        title=lambda wildcards: json.dumps(STUDY.title or STUDY.name),
         made_of=made_of("describe_study", of=cases_made_of()),
     shell:
         "job describe_study {params.title:q} {input} {output} > {log} 2>&1"

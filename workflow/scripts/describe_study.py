@@ -55,4 +55,6 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
 def main(title: str, cases: str, output: str) -> None:
     (tree,) = load_inputs([Path(cases)])
     parts = (f"<h2>Sources</h2>{table_html(sources(tree))}", f"<h2>Cases</h2>{table_html(rows(tree))}")
-    Path(output).write_text(page(title or "Provenance", f"<p>{escape(WORDS)}</p>", *parts), encoding="utf-8")
+    Path(output).write_text(
+        page(json.loads(title) or "Provenance", f"<p>{escape(WORDS)}</p>", *parts), encoding="utf-8"
+    )
