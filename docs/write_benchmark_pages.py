@@ -18,12 +18,12 @@ import xarray as xr
 from docs.make_gallery import shrink
 from docs.truncation_passages import TEXTS, as_markdown
 
-from disc_model.benchmarks.answers.measure import points as answered_points
-from disc_model.benchmarks.answers.questions import QUESTIONS
-from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks.answers import in_words
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.questions import QUESTIONS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
-from disc_model.benchmarks.table import DEFAULT, at_default, cost_at, headline, measured_points
 from disc_model.benchmarks.truncation import CONTACTS
+from disc_model.benchmarks.work_precision import DEFAULT, at_default, cost_at, headline, measured_points
 from disc_model.data.dataset import load
 from disc_model.errors import DiscModelError, script
 from docs import truncation_passages
@@ -66,7 +66,7 @@ def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
         "glue": _glue(points[points["solver"] == "heyoka"]),
         "call": _whole_call(points[points["scene"] == JUDGED[0]]),
         "costs": _costs(points),
-        "answers": _answers(answered_points(answers)),
+        "answers": _answers(in_words(answers)),
     }
 
 
@@ -85,7 +85,7 @@ def _whole_call(points: pd.DataFrame) -> Rows:
     heyoka's time is that of its integration alone, at the error of `headline`.
     """
     rival = cost_at(points[points["solver"] == "heyoka"], DEFAULT, "seconds")
-    calls = points["whole_call"].head(1)
+    calls = points["whole_call"].dropna().head(1)
     return [{"ms": 1e3 * call, "times": rival / call} for call in calls if math.isfinite(rival)]
 
 

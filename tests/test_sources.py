@@ -133,7 +133,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert {"stability/cycle.py", "truncation.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
     assert {"config/paper.yaml", "paper/section42.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
-    assert {"benchmarks/methods/rk4.py", "benchmarks/rivals.toml", "benchmarks/data/answers.json"} <= of(
+    assert {"benchmarks/methods/compiled.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods"
     )
 

@@ -2,12 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import registry, scenes, work_precision
-from disc_model.benchmarks.methods import MethodResult, RunStatus
-from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks import answers, figures, scenes, work_precision
+from disc_model.benchmarks.methods import METHODS, SCENES, Method
+from disc_model.benchmarks.methods.base import MethodResult, RunStatus
+from disc_model.benchmarks.questions import AnswerStatus, Reply
 from disc_model.benchmarks.scenes import answer
 
 SET_UP = 1e-4
@@ -31,7 +33,7 @@ class Known:
 
     def solve(self, problem, value, budget):
         self.tried.append(value)
-        name = next(name for name in registry.SCENES if scenes.problem(name).start is problem.start)
+        name = next(name for name in SCENES if scenes.problem(name).start is problem.start)
         times_longer = problem.span / scenes.problem(name).span
         right, off = answer(name), self.error(value)
         kinds = right.kinds if off < 1e-2 else ("slip_reversal",) * len(right.kinds)
@@ -64,3 +66,44 @@ SETTINGS = {
 @pytest.fixture
 def dataset(known: dict[str, Known]) -> xr.Dataset:
     return work_precision.work_precision(SETTINGS, rounds=2)
+
+
+class Late(Method):
+    """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes too long."""
+
+    def solve(self, problem, value, budget=math.inf):
+        times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
+        outcome = RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW
+        seconds = 2.0 if value > 1e-3 else 3.0
+        return MethodResult(np.array(times), ("separation",) * len(times), problem.start, seconds, 1, outcome)
+
+
+@pytest.fixture
+def late(monkeypatch: pytest.MonkeyPatch) -> Method:
+    method = Late(name="late", label="late", function="", settings={})
+    monkeypatch.setitem(METHODS, "late", method)
+    monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
+    return method
+
+
+@pytest.fixture
+def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
+    """Costs of answers: of `Late`, of the cycle itself and of models with other modes, which are all laid down."""
+
+    def ask(model):
+        count = model["n_diameters"]
+        status = AnswerStatus.FOUND if count else AnswerStatus.NONE
+        yield "first_separation", Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)
+
+    def onset(p, tol):
+        return Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND)
+
+    def growth_rate(p, tol):
+        return Reply(math.nan, 1e-4 / tol**0.1, AnswerStatus.NONE, "no cycle")
+
+    for name, function in (("ask", ask), ("onset", onset), ("growth_rate", growth_rate)):
+        monkeypatch.setattr(answers, name, function)
+    monkeypatch.setattr(answers, "_richest", lambda: dict(ask({"n_diameters": 8})))
+    monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
+    parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6), asked=("first_separation",))]
+    return answers.merged([*parts, answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))])

@@ -7,15 +7,11 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import figures, scenes
-from disc_model.benchmarks.answers import measure
-from disc_model.benchmarks.grid import words
-from disc_model.benchmarks.registry import METHODS, SCENES
+from disc_model.benchmarks import answers, figures, scenes
+from disc_model.benchmarks.methods import METHODS, SCENES
+from disc_model.benchmarks.study import words
 from disc_model.figures.drawing import save
-from tests.benchmarks.conftest import dataset, known
 from tests.figures.reading import labels
-
-__all__ = ["dataset", "known"]
 
 
 def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
@@ -27,14 +23,14 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
 
 
 def test_every_method_looks_otherwise_and_every_scene_has_a_title():
-    assert figures.LINES.keys() == METHODS.keys() | measure.LINES.keys()
+    assert figures.LINES.keys() == METHODS.keys() | answers.LINES.keys()
     assert len({(*look.values(),) for look in figures.LINES.values()}) == len(figures.LINES)
     assert set(figures.TITLES) == set(SCENES)
     assert (*figures.WORDS,) == words(scenes.Verdict)
 
 
 @pytest.fixture
-def priced() -> xr.Dataset:
+def two_lines() -> xr.Dataset:
     """One line with a right and a wrong setting, one without answers, and a model of which two points coincide."""
     rows = [
         ("RK4", "step", 1e-4, 1e-3, 0.4, figures.RIGHT),
@@ -50,15 +46,15 @@ def priced() -> xr.Dataset:
     return xr.Dataset.from_dataframe(table).assign_attrs(questions=questions)
 
 
-def test_a_cell_of_prices_names_its_setting_and_holds_no_list(priced: xr.Dataset) -> None:
+def test_a_cell_of_prices_names_its_setting_and_holds_no_list(two_lines: xr.Dataset) -> None:
     """Lists of settings were set in less than 5 points, and what varies was not named."""
-    texts = figures.prices(priced).axes[0].texts
+    texts = figures.prices(two_lines).axes[0].texts
     assert [text.get_text() for text in texts] == ["0.4 s", "step 1e-4 s", "wrong at 1", "no answer"]
     assert min(text.get_fontsize() for text in texts) >= 6
 
 
-def test_answers_name_what_is_drawn_and_no_number_covers_another(priced: xr.Dataset) -> None:
-    figure = figures.answers(priced)
+def test_answers_name_what_is_drawn_and_no_number_covers_another(two_lines: xr.Dataset) -> None:
+    figure = figures.answers(two_lines)
     assert labels(figure) == ["RK4", "rigid"]
     assert [text.get_text() for text in figure.axes[0].texts] == ["8", "1"]
 

@@ -9,11 +9,6 @@ import xarray as xr
 
 from disc_model.errors import DiscModelError
 from docs import write_benchmark_pages as pages
-from tests.benchmarks.conftest import dataset, known
-from tests.benchmarks.test_answers import dataset as answers
-
-__all__ = ["answers", "dataset", "known"]
-
 
 ROOT = Path(__file__).parents[2]
 
@@ -28,8 +23,8 @@ def test_every_number_on_speed_and_modes_is_of_the_one_stored_run() -> None:
     assert named == known.keys()
 
 
-def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
-    run = pages.summary(dataset, dataset, answers)
+def test_what_a_run_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
+    run = pages.summary(dataset, dataset, priced)
     assert run["machine"] == dataset.attrs["machine"]
     # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
     assert run["own"] == [{"letter": "a", "ms": pytest.approx(1.0), "error": pytest.approx(5e-11)}]
@@ -37,12 +32,12 @@ def test_what_a_run_comes_to(dataset: xr.Dataset, answers: xr.Dataset) -> None:
     assert json.loads(json.dumps(run)) == run
 
 
-def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset, answers: xr.Dataset) -> None:
+def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset, priced: xr.Dataset) -> None:
     """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
     heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
     fast = heyoka.copy(deep=True)
     fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
-    run = pages.summary(fast, heyoka, answers)
+    run = pages.summary(fast, heyoka, priced)
     assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
     assert run["own"][0]["ms"] == pytest.approx(0.5)
     assert run["narrow"][0]["ms"] == pytest.approx(1.0)
@@ -57,9 +52,9 @@ def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset,
     assert "only, the package takes 1 ms for (a). heyoka always" in text
 
 
-def test_one_run_is_on_one_machine(dataset: xr.Dataset, answers: xr.Dataset) -> None:
+def test_one_run_is_on_one_machine(dataset: xr.Dataset, priced: xr.Dataset) -> None:
     with pytest.raises(DiscModelError, match="another machine"):
-        pages.summary(dataset, dataset, answers.assign_attrs(machine="another machine"))
+        pages.summary(dataset, dataset, priced.assign_attrs(machine="another machine"))
 
 
 def test_a_page_is_filled_by_name() -> None:

@@ -47,7 +47,7 @@ except ImportError as error:
     assert str(error) == "Result.plot needs matplotlib: pip install 'disc_model[workflow]' brings it"
 else:
     raise AssertionError("it was drawn")
-import disc_model.benchmarks.answers.measure, disc_model.benchmarks.work_precision
+import disc_model.benchmarks.answers, disc_model.benchmarks.maps
 from disc_model.cli import main
 
 def code(*command):

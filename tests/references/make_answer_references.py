@@ -14,11 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.answers import questions, simulated
-from disc_model.benchmarks.answers.questions import Found
-from disc_model.benchmarks.answers.simulated import Solve
+from disc_model.benchmarks import questions
+from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks.questions import Reply, Solve
 from disc_model.benchmarks.scenes import stored
 from disc_model.errors import script
 from disc_model.parameters import Parameters
@@ -49,8 +48,8 @@ def twice(ask: Callable[..., Any], name: str) -> dict[str, Any]:
     return entry(tight, abs(tight.value - loose.value), HEYOKA)
 
 
-def entry(found: Found, error: float, by: str) -> dict[str, Any]:
-    return {"value": found.value, "error": error, "by": by}
+def entry(reply: Reply, error: float, by: str) -> dict[str, Any]:
+    return {"value": reply.value, "error": error, "by": by}
 
 
 def first_separation() -> dict[str, Any]:
@@ -63,11 +62,11 @@ def first_separation() -> dict[str, Any]:
 
 def after_separation() -> dict[str, dict[str, Any]]:
     """Rate and period by heyoka; the range by two methods of short steps."""
-    start = questions.start("settled")
+    start = questions.start_of("settled")
     watched = Problem(questions.SETTLED, start, start.time + questions.SETTLED_SPAN, watched=True)
     steps = [METHODS[name].solve(watched, setting).heights for name, setting in (("RK4", 2e-5), ("RK4", 1e-5))]
     coarse, fine = (high - low for low, high in steps)
-    return {name: twice(simulated.after_separation, name) for name in ("separation_rate", "period")} | {
+    return {name: twice(questions.after_separation, name) for name in ("separation_rate", "period")} | {
         "disc_range": {"value": fine, "error": abs(fine - coarse), "by": "fixed steps of 2e-5 and 1e-5 s (RK4)"}
     }
 
@@ -76,8 +75,10 @@ def region() -> tuple[list[str], dict[str, Any]]:
     """All cells, and the reference of the share judged wrong; its error: what another tolerance judges otherwise."""
     maps = []
     for tol in (TIGHT, TIGHTER):
-        solve, places = by_heyoka(tol), range(questions.SIDE**2)
-        maps.append([simulated.cell(solve, questions.cell(place), np.inf)[0] for place in places])
+        solve = by_heyoka(tol)
+        maps.append(
+            [questions.cell(solve, questions.cell_parameters(index), np.inf)[0] for index in range(questions.SIDE**2)]
+        )
     rows = np.array(maps[1]).reshape(questions.SIDE, questions.SIDE)
     unlike = float(np.mean(np.array(maps[0]) != np.array(maps[1])))
     return ["".join("01"[int(x)] for x in row) for row in rows], {"value": 0.0, "error": unlike, "by": HEYOKA}
@@ -109,10 +110,10 @@ def main(output: str) -> None:
     keep()
     data["references"]["first_separation"] = first_separation()
     data["references"] |= after_separation()
-    data["references"]["growth_rate"] = twice(simulated.growth_rate, "growth_rate")
+    data["references"]["growth_rate"] = twice(questions.growth_rate, "growth_rate")
     keep()
     data["references"]["fold"] = fold()
-    onset = [simulated.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)]
+    onset = [questions.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)]
     data["references"]["onset"] = entry(onset[1], max(0.5 * (o.high - o.low) for o in onset), HEYOKA)
     keep()
     data["region"], data["references"]["region"] = region()

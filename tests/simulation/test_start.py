@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Execution, Record, Window, deflection, floquet
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters

@@ -9,7 +9,7 @@ import pytest
 from disc_model import Record, Window, simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import kernels, taylor_heyoka
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import layout, transitions
 from disc_model.simulation.result import engine_case, read_state, write_state

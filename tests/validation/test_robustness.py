@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy import linalg
 
 from disc_model import Execution, Parameters, Record, Result, State, Status, Window, plate_modes, simulate
+from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.registry import METHODS
 from disc_model.simulation.api import static_start
 from tests.tally import tried
 

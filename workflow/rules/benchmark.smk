@@ -1,6 +1,6 @@
 # Speed against accuracy, where methods fail, how many modes are needed: `snakemake bench`, not part of `all`.
 # Needs the extra `bench` for heyoka and SUNDIALS; without it their lines are left out.
-from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks.methods import METHODS
 
 BENCH = "results/bench"
 MEASURED = [
@@ -27,8 +27,8 @@ BENCH_FIGURES = {
 
 rule bench:
     input:
-        f"{BENCH}/table.csv",
-        f"{BENCH}/table_avx2.csv",
+        f"{BENCH}/work_precision.csv",
+        f"{BENCH}/work_precision_avx2.csv",
         f"{BENCH}/answers.csv",
         collect(
             f"{BENCH}/figures/{{figure}}.{{suffix}}",
@@ -39,40 +39,41 @@ rule bench:
 
 # Timed jobs take the whole machine (Snakemake lowers the threads to the available cores).
 # heyoka has no option for the target processor: in the run for AVX2 it stays native.
-rule measure_work_precision:
+rule measure:
     output:
-        nc=f"{BENCH}/work_precision{{target}}.nc",
-        csv=f"{BENCH}/table{{target}}.csv",
+        f"{BENCH}/{{part}}{{target}}.nc",
     log:
-        f"{BENCH}/logs/measure_work_precision{{target}}.log",
+        f"{BENCH}/logs/measure/{{part}}{{target}}.log",
     wildcard_constraints:
+        part="work_precision|(contact_)?truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
         target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=made_of("measure_work_precision", "benchmarks.methods"),
+        made_of=made_of("measure", "benchmarks.methods"),
         compiled=lambda wildcards: (
             "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
         ),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure_work_precision {output} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure {wildcards.part} {output} > {log} 2>&1"
 
 
-rule measure:
+rule tabulate_work_precision:
+    input:
+        f"{BENCH}/work_precision{{target}}.nc",
     output:
-        f"{BENCH}/{{part}}.nc",
+        f"{BENCH}/work_precision{{target}}.csv",
     log:
-        f"{BENCH}/logs/measure/{{part}}.log",
+        f"{BENCH}/logs/tabulate_work_precision{{target}}.log",
     wildcard_constraints:
-        part="(contact_)?truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
+        target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"
-    threads: 1024
     params:
-        made_of=made_of("measure", "benchmarks.methods"),
+        made_of=made_of("tabulate_work_precision", "benchmarks.methods"),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job measure {wildcards.part} {output} > {log} 2>&1"
+        "job tabulate_work_precision {output} {input} > {log} 2>&1"
 
 
 rule merge_answers:

@@ -1,26 +1,29 @@
-"""Measure a part of the benchmark: truncation, contact_truncation, or answers, answer_maps or failure_maps of a method.
+"""Measure a part of the benchmark.
 
-part : such as truncation, answers/RK4 or failure_maps/RK4_stick_slip
+part : work_precision, truncation or contact_truncation, or a study and what it is of, such as answers/RK4,
+    answer_maps/RK4 or failure_maps/RK4_stick_slip
 """
 
 import xarray as xr
 
-from disc_model.benchmarks.answers.measure import measure
-from disc_model.benchmarks.failure_maps import answer_map, failure_map
+from disc_model.benchmarks.answers import answers
+from disc_model.benchmarks.maps import answer_map, failure_map
 from disc_model.benchmarks.truncation import contact_study, truncation_study
+from disc_model.benchmarks.work_precision import work_precision
 from disc_model.data.dataset import save
 from disc_model.errors import script
 
-PARTS = {
-    "truncation": lambda _: truncation_study(),
-    "contact_truncation": lambda _: contact_study(),
-    "answers": measure,
+STUDIES = {
+    "work_precision": work_precision,
+    "truncation": truncation_study,
+    "contact_truncation": contact_study,
+    "answers": answers,
     "answer_maps": answer_map,
-    "failure_maps": lambda name: failure_map(*name.split("_", 1)),
+    "failure_maps": failure_map,
 }
 
 
 @script
 def main(part: str, output: str) -> None:
-    kind, _, name = part.partition("/")
-    save(xr.DataTree(PARTS[kind](name)), output)
+    study, _, of = part.partition("/")
+    save(xr.DataTree(STUDIES[study](*of.split("_", 1)) if of else STUDIES[study]()), output)

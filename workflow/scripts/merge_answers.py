@@ -4,7 +4,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.benchmarks.answers.measure import merged, points
+from disc_model.benchmarks.answers import in_words, merged
 from disc_model.data.dataset import load_inputs, save
 from disc_model.errors import script
 
@@ -13,4 +13,4 @@ from disc_model.errors import script
 def main(output: str, csv: str, *parts: str) -> None:
     dataset = merged([tree.to_dataset() for tree in load_inputs([Path(part) for part in parts])])
     save(xr.DataTree(dataset), output)
-    points(dataset).to_csv(csv, index=False)
+    in_words(dataset).to_csv(csv, index=False)

@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.result import State

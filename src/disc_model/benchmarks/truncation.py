@@ -10,14 +10,14 @@ The results are in docs/truncation.md.
 import json
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.benchmarks.grid import TABLES, measured, variables
-from disc_model.benchmarks.hardware import machine
+from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_frequencies, mode_arrays
@@ -33,8 +33,7 @@ AFTER = 1.0
 """Time after the first separation over which impacts are counted, s."""
 WINDOW = (5.0, 7.0)
 """Stretch over which the range of the contact force is taken, s."""
-VARIABLES = variables("truncation")
-ABOUT = {"Conventions": "CF-1.11", "band": BAND, "compared_with": json.dumps(RICH)}
+ABOUT: dict[str, Any] = {"Conventions": "CF-1.11", "band": BAND, "compared_with": json.dumps(RICH)}
 """Attributes of both studies."""
 
 
@@ -46,12 +45,12 @@ def truncation_study(
     horizon: float = 120.0,
     growth: bool = True,
 ) -> xr.Dataset:
-    """Measure everything of `VARIABLES` along (normalization, circles, diameters); nan where there is none.
+    """Measure the variables ``truncation`` along (normalization, circles, diameters); nan where there is none.
 
     horizon : s, of the first separation
     """
 
-    def measure(normalization: str, circles: int, diameters: int) -> dict[str, float]:
+    def measure(normalization: str, circles: int, diameters: int) -> Iterator[Row]:
         size: dict[str, Any] = {"n_diameters": diameters, "n_circles": circles, "normalization": normalization}
         cases = {name: Parameters(**case, **size) for name, case in CASES[normalization].items()}
         p, modes = cases["separation"], mode_arrays(cases["separation"])
@@ -61,11 +60,12 @@ def truncation_study(
         row |= {"impact_share": 1.0 / (1.0 + p.m * compliance)} | _contact_range(cases["range"])
         if "separations" in row:
             row["separations"] += 1 / AFTER  # the first one
-        return {name: value for name, value in row.items() if name in VARIABLES}
+        yield row
 
-    study = measured({"normalization": normalizations, "circles": circles, "diameters": diameters}, VARIABLES, measure)
+    axes = {"normalization": normalizations, "circles": circles, "diameters": diameters}
     cases = json.dumps({name: CASES[name] for name in normalizations}, sort_keys=True)
-    return study.assign_attrs(ABOUT, title="What a study needs of the modes", cases=cases)
+    title = "What a study needs of the modes"
+    return run("truncation", _grid(axes), measure, [*axes], cases=cases, title=title, **ABOUT)
 
 
 MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
@@ -78,7 +78,6 @@ TOLERANCES = (1e-10, 1e-12, 1e-13)
 """Tolerances of the motion after the first separation; the next one is used if the last fails to reach the end."""
 MOST_GROWTH = 80
 """Greatest number of real modes for growth rates, which need a column for each of four coordinates of every pair."""
-CONTACT_VARIABLES = variables("contact_truncation")
 
 
 def contact_study(
@@ -87,20 +86,24 @@ def contact_study(
     *,
     horizon: float = 200.0,
 ) -> xr.Dataset:
-    """Measure everything of `CONTACT_VARIABLES` along (case, contact, model); nan where there is none."""
+    """Measure the variables ``contact_truncation`` along (case, contact, model); nan where there is none."""
 
-    def measure(case: str, contact: str, model: str) -> dict[str, float]:
+    def measure(case: str, contact: str, model: str) -> Iterator[Row]:
         diameters, circles = map(int, model.split(","))
         p = Parameters(**cases[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
         few = real_modes(diameters, circles) <= MOST_GROWTH
         row = _of_the_modes(p, p if few else None) | _separating(p, horizon, LATE)
-        return row | {"contact_compliance": contact_compliance(p)}
+        yield row | {"contact_compliance": contact_compliance(p)}
 
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
-    study = measured({"case": [*cases], "contact": [*CONTACTS], "model": sizes}, CONTACT_VARIABLES, measure)
-    about = {"late": json.dumps(LATE), "most_growth": MOST_GROWTH, "horizon": horizon, "machine": machine()}
-    known = json.dumps(dict(cases), sort_keys=True)
-    return study.assign_attrs(ABOUT | about, title="What residual flexibility changes", cases=known)
+    axes = {"case": [*cases], "contact": [*CONTACTS], "model": sizes}
+    about = ABOUT | {"late": json.dumps(LATE), "most_growth": MOST_GROWTH, "horizon": horizon}
+    about |= {"title": "What residual flexibility changes", "cases": json.dumps(dict(cases), sort_keys=True)}
+    return run("contact_truncation", _grid(axes), measure, [*axes], **about)
+
+
+def _grid(axes: Mapping[str, Sequence[Any]]) -> list[Row]:
+    return [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
 
 
 def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]:

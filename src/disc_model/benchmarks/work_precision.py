@@ -1,60 +1,48 @@
-"""Speed against accuracy: every method on every scene, at settings from coarse to fine, in one run on one core.
+"""Speed against accuracy: every method on every scene, at settings from coarse to fine.
 
-Each round measures all points in turn, so that a disturbance of the machine affects all methods alike. The reported
-value is the median over the rounds.  Slow points are measured less often (``repeats`` is the number).
+The reported value of a point is the median over the rounds. Slow points are measured less often, ``repeats`` times.
 """
 
-import logging
 import math
 import time as clock
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.grid import measured, variables
-from disc_model.benchmarks.hardware import machine, one_core
-from disc_model.benchmarks.methods import RunStatus
-from disc_model.benchmarks.registry import METHODS, SCENES
+from disc_model.benchmarks.methods import METHODS, SCENES
+from disc_model.benchmarks.methods.base import RunStatus
 from disc_model.benchmarks.scenes import JUDGED, Verdict
+from disc_model.benchmarks.study import TABLES, Row, run, words
 from disc_model.data.dataset import json_attribute
-from disc_model.data.provenance import versions
+from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
-log = logging.getLogger(__name__)
-
+DEFAULT = 1e-10
+"""The series engine's default tolerance, and the event-time error (s) required of the other methods."""
 BUDGET, RIGID_BUDGET = 12.0, 4.0
 """Budget of a method for a point, s, and on the rigid disc, which methods in Python cannot finish."""
 LONG = 0.5
 """Longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds."""
 FURTHER = 4.0
 """Extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second."""
-FLOOR = 1e-13
+ROUNDING = 1e-13
 """Errors below this (s, or relative) are rounding and are left out of the fit of the order."""
+FLOOR = 1e-15
+"""Errors below this count as equal in costs, zero among them, s."""
+COLUMNS = TABLES["work_precision_table"]
+"""Variables by the column of the table that shows them."""
 Settings = Mapping[str, Mapping[str, Sequence[float]]]
 """Settings from coarse to fine, by scene and method."""
-VARIABLES = variables("work_precision", verdict=Verdict)
-OF_LINES = variables("work_precision_lines")
-"""Variables of methods and scenes."""
 
 
-class Point(NamedTuple):
-    """One method at one setting on one scene."""
-
-    scene: str
-    method: str
-    place: int
-    value: float
-
-
-@one_core()
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
-    """Measure all points, and log each of them; a method that gives up at a coarse setting is not tried at finer ones.
+    """Measure all points; a method that gives up at a coarse setting is not tried at finer ones.
 
     Parameters
     ----------
@@ -63,64 +51,76 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
 
     Returns
     -------
-    Dataset along (scene, solver, point), unused points nan; the variables of `VARIABLES`, and
-    along (scene, solver) the fitted ``order_event`` and ``order_state``, see `fitted_order`.
+    Dataset along (scene, solver, point), unused points nan; along (scene, solver) the fitted ``order_event`` and
+    ``order_state``, see `fitted_order`.
     """
     if settings is None:
         settings = {
             scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
             for scene in SCENES
         }
-    todo = [
-        Point(scene, method, place, value)
+    points = [
+        {"scene": scene, "solver": solver, "point": point, "value": value}
         for scene, by_method in settings.items()
-        for method, values in by_method.items()
-        if not METHODS[method].absent()
-        for place, value in enumerate(values)
+        for solver, values in by_method.items()
+        if not METHODS[solver].absent()
+        for point, value in enumerate(values)
     ]
-    rows, calls = [], []
-    walls: dict[Point, list[float]] = defaultdict(list)
+    times: dict[tuple[str, str, int], list[float]] = defaultdict(list)
     hopeless: set[tuple[str, str]] = set()
-    for turn in range(rounds):
-        for point in todo:
-            if point[:2] in hopeless if not turn else not _again(walls[point], turn):
-                continue
-            problem, limit = scenes.problem(point.scene), RIGID_BUDGET if point.scene == "rigid" else BUDGET
-            result = METHODS[point.method].solve(problem, point.value, limit)
-            if not turn and result.seconds < LONG:  # the first call compiles and warms caches
-                result = METHODS[point.method].solve(problem, point.value, limit)
-            if result.outcome is RunStatus.TOO_SLOW:
-                hopeless.add(point[:2])
-            walls[point].append(result.seconds)
-            followed = point.scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(walls[point])
-            found = scenes.errors(problem, scenes.answer(point.scene), result)
-            row = {
-                "seconds": result.seconds,
-                "cost": result.seconds / problem.span,
-                "marginal_cost": _marginal_cost(point, limit, result.seconds) if followed else math.nan,
-                "glue": result.glue / max(result.seconds, 1e-9),
-                "event_error": found.event_time,
-                "state_error": found.state,
-                "verdict": found.verdict,
-                "work": result.work,
-                "events": len(result.kinds),
-                "separations": result.separations,
-            }
-            rows.append(point._asdict() | row)
-            log.info("%s %s %g: %.4g s", point.scene, point.method, point.value, result.seconds)
-        calls.append(_whole_call())
-    each = pd.DataFrame(rows).groupby(["scene", "method", "place"])
-    spread = each["seconds"].max() - each["seconds"].min()
-    table = each.median().assign(seconds_spread=spread, repeats=each.size())
-    return _dataset(settings, table, float(np.median(calls)))
 
+    def measure(scene: str, solver: str, point: int, value: float) -> Iterator[Row]:
+        before = times[scene, solver, point]
+        if not _again(before) if before else (scene, solver) in hopeless:
+            return
+        problem, budget = scenes.problem(scene), RIGID_BUDGET if scene == "rigid" else BUDGET
+        result = METHODS[solver].solve(problem, value, budget)
+        if not before and result.seconds < LONG:  # the first call compiles and warms caches
+            result = METHODS[solver].solve(problem, value, budget)
+        if result.outcome is RunStatus.TOO_SLOW:
+            hopeless.add((scene, solver))
+        before.append(result.seconds)
+        errors = scenes.errors(problem, scenes.answer(scene), result)
+        further = math.nan
+        if scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(before):
+            longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
+            run_on = METHODS[solver].solve(longer, value, budget)
+            if run_on.outcome is RunStatus.FINISHED:
+                further = (run_on.seconds - result.seconds) / (FURTHER * problem.span)
+        yield {
+            "seconds": result.seconds,
+            "cost": result.seconds / problem.span,
+            "marginal_cost": further,
+            "glue": result.glue / max(result.seconds, 1e-9),
+            "event_error": errors.event_time,
+            "state_error": errors.state,
+            "verdict": errors.verdict,
+            "work": result.work,
+            "events": len(result.kinds),
+            "separations": result.separations,
+            "whole_call": _whole_call() if (scene, solver, value) == (JUDGED[0], "series", DEFAULT) else math.nan,
+        }
 
-def _marginal_cost(point: Point, limit: float, seconds: float) -> float:
-    """Seconds per simulated second beyond the scene's end, by a run that continues; ``seconds``: up to the end."""
-    problem = scenes.problem(point.scene)
-    longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
-    result = METHODS[point.method].solve(longer, point.value, limit)
-    return (result.seconds - seconds) / (FURTHER * problem.span) if result.outcome is RunStatus.FINISHED else math.nan
+    def summarise(groups: Any) -> pd.DataFrame:
+        seconds = groups["seconds"]
+        return pd.DataFrame(groups.median()).assign(seconds_spread=seconds.max() - seconds.min(), repeats=groups.size())
+
+    dataset = run(
+        "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, summarise=summarise,
+        flags={"verdict": Verdict}, unmeasured={"verdict": Verdict.NOT_RUN}, title="Speed against accuracy",
+        Conventions="CF-1.11", **{f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings},
+    )  # fmt: skip
+    solvers = [name for name in METHODS if name in dataset["solver"]]
+    dataset = dataset.drop_vars("point").sel(solver=solvers)
+    lines: dict[str, Any] = {
+        "label": ("solver", [METHODS[name].label for name in solvers]),
+        "order_theory": ("solver", [METHODS[name].order for name in solvers]),
+    }
+    for error in ("event", "state"):
+        orders = [[_line_order(dataset, scene, name, error) for name in solvers] for scene in dataset["scene"].values]
+        lines[f"order_{error}"] = (("scene", "solver"), orders)
+    attributes = {name: Variable(*entry).attributes for name, entry in TABLES["work_precision_lines"].items()}
+    return dataset.assign({name: (*data, attributes[name]) for name, data in lines.items()})
 
 
 def _whole_call() -> float:
@@ -136,45 +136,21 @@ def _whole_call() -> float:
     return float(np.median(seconds))
 
 
-def _quick(walls: Sequence[float]) -> bool:
-    return float(np.median(walls)) < 0.1 * LONG
+def _quick(times: Sequence[float]) -> bool:
+    return float(np.median(times)) < 0.1 * LONG
 
 
-def _again(walls: Sequence[float], turn: int) -> bool:
+def _again(times: Sequence[float]) -> bool:
     """Whether to measure a point in a later round: always if it is quick, else at most twice more."""
-    return bool(walls) and (_quick(walls) or (float(np.median(walls)) < LONG and turn < 3))
+    return _quick(times) or (float(np.median(times)) < LONG and len(times) < 3)
 
 
-def _dataset(settings: Settings, rows: pd.DataFrame, whole_call: float) -> xr.Dataset:
-    methods = [name for name in METHODS if any(name in by_method for by_method in settings.values())]
-    most = max(len(values) for by_method in settings.values() for values in by_method.values())
-    found: dict[Any, Any] = rows.to_dict("index")
-    dataset = measured(
-        {"scene": [*settings], "solver": methods, "point": range(most)},
-        VARIABLES,
-        lambda *place: found.get(place, {"verdict": Verdict.NOT_RUN}),
-    ).drop_vars("point")
-    dataset.attrs |= {"Conventions": "CF-1.11", "machine": machine(), "title": "Speed against accuracy"}
-    dataset.attrs |= {"versions": json_attribute(versions("heyoka", "scikit-sundae"))}
-    dataset.attrs |= {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
-    lines: dict[str, tuple[str | tuple[str, ...], Any]] = {
-        "label": ("solver", [METHODS[name].label for name in methods]),
-        "whole_call": ((), whole_call),
-        "order_theory": ("solver", [METHODS[name].order for name in methods]),
-    }
-    for error in ("event", "state"):
-        orders = [[_line_order(dataset, scene, method, error) for method in methods] for scene in settings]
-        lines[f"order_{error}"] = (("scene", "solver"), orders)
-    return dataset.assign({name: (dims, values, OF_LINES[name].attributes) for name, (dims, values) in lines.items()})
-
-
-def _line_order(dataset: xr.Dataset, scene: str, method: str, error: str) -> float:
+def _line_order(dataset: xr.Dataset, scene: str, solver: str, error: str) -> float:
     """Order against the step; for a method of variable order, the exponent q of error ~ tolerance^q."""
-    line = dataset.sel(scene=scene, solver=method)
+    line, method = dataset.sel(scene=scene, solver=solver), METHODS[solver]
     usable = np.isin(line["verdict"].values, (int(Verdict.CONVERGED), int(Verdict.INACCURATE)))
-    own = METHODS[method]
     # the number of right-hand sides counts the steps of a method of fixed order; other settings stand for themselves
-    n = line["work"].values if own.setting == "tol" and math.isfinite(own.order) else 1.0 / line["value"].values
+    n = line["work"].values if method.setting == "tol" and math.isfinite(method.order) else 1.0 / line["value"].values
     return fitted_order(n[usable], line[f"{error}_error"].values[usable])
 
 
@@ -182,9 +158,9 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left.
 
     n, error : (k,), from coarse to fine; n is the number of steps, or what grows like it.  The asymptotic part: errors
-    above `FLOOR` (rounding) and below a tenth of the largest, or all above the floor if that leaves fewer than three.
+    above `ROUNDING` and below a tenth of the largest, or all above it if that leaves fewer than three.
     """
-    usable = np.isfinite(n) & np.isfinite(error) & (error > FLOOR) & (n > 0)
+    usable = np.isfinite(n) & np.isfinite(error) & (error > ROUNDING) & (n > 0)
     if np.count_nonzero(usable) < 2:
         return math.nan
     below = usable & (error <= 0.1 * np.max(error[usable]))
@@ -194,3 +170,71 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     if np.ptp(x) < math.log(1.5):  # stability or events, not the steps, decide the error
         return math.nan
     return float(-np.polyfit(x, y, 1)[0])
+
+
+# ----------------------------------------------------------------------------------------------------
+# The measured points as a table, and costs at equal error
+
+
+def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
+    """One row for each measured point, with its values and a derived column:
+
+    further : cost of a further simulated second without setting up; where it was not measured, that of the whole run,
+        which was so long that setting up is negligible
+    """
+    frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
+    frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
+    return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
+
+
+def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
+    """Cost with events correct to `DEFAULT` s over that of the series engine at its default, by scene and method.
+
+    Costs are those of a further second, at that error by `cost_at`.  If the series engine's own error is larger, all
+    methods are allowed that error.
+
+    points : `measured_points`
+    """
+    ratios: dict[str, dict[str, float]] = {}
+    for scene in JUDGED:
+        part = points[points["scene"] == scene]
+        for _, series in at_default(part).dropna(subset="event_error").iterrows():
+            error = max(DEFAULT, series["event_error"])
+            costs = {str(name): cost_at(line, error) for name, line in part.groupby("solver", sort=False)}
+            costs["series"] = series["further"]
+            ratios[scene] = {name: cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)}
+    return ratios
+
+
+def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
+    """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no setting is as accurate.
+
+    A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings.
+    """
+    known = line[np.isfinite(line["event_error"])].sort_values(cost)
+    errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
+    best = errors < np.minimum.accumulate(np.concatenate([[np.inf], errors[:-1]])) if len(known) else []
+    errors, costs = errors[best], known[cost].to_numpy()[best]
+    if not len(errors) or not errors[-1] <= max(wanted, FLOOR):
+        return math.nan
+    return float(np.exp(np.interp(-math.log(max(wanted, FLOOR)), -np.log(errors), np.log(costs))))
+
+
+def at_default(points: pd.DataFrame) -> pd.DataFrame:
+    """Points of the series engine at its default."""
+    return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
+
+
+def table(dataset: xr.Dataset) -> pd.DataFrame:
+    """One row per measured point; ``times_series``: its cost over the series engine's at that error, by `cost_at`."""
+    points = measured_points(dataset)
+    series = points[points["solver"] == "series"]
+    wanted = zip(points["scene"], points["event_error"], strict=True)
+    yardsticks = [cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted]
+    derived = points.assign(
+        setting=[f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
+        verdict=[words(Verdict)[verdict] for verdict in points["verdict"]],
+        times_series=points["cost"] / yardsticks,
+    )
+    counts = dict.fromkeys(("events", "separations", "repeats"), int)
+    return derived.astype(counts)[[*COLUMNS.values()]].set_axis([*COLUMNS], axis=1)

@@ -1,12 +1,81 @@
-"""Other methods behind one interface, each as a competent user would write it; see `base` for the contract.
+"""The table of methods, from ``rivals.toml``: the package's engine and its rivals behind one interface.
 
-    >>> from disc_model.benchmarks.registry import METHODS
+    >>> from disc_model.benchmarks.methods import METHODS
     >>> METHODS["RK4"].solve(problem, 1e-5)
 
-They share the physics (`kernels`), not the engine.  heyoka and SUNDIALS come with the extra `bench`; without them their
-`solve` raises `MethodUnavailable`. The methods and their settings are listed in ``benchmarks/rivals.toml``.
+Each is written as a competent user would; `base` states the contract. They share the physics (`kernels`), not the
+engine. heyoka and SUNDIALS come with the extra `bench`; without them their `solve` raises `MethodUnavailable`.
+
+This module imports nothing heavy: the workflow reads it at every start.
 """
 
-from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
+from __future__ import annotations
 
-__all__ = ["MethodResult", "Problem", "RunStatus"]
+import math
+import tomllib
+from importlib.util import find_spec
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING, Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, PositiveFloat
+
+from disc_model.errors import DiscModelError
+
+if TYPE_CHECKING:
+    from disc_model.benchmarks.methods.base import MethodResult, Problem
+
+Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
+SCENES: tuple[str, ...] = get_args(Scene)
+"""Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
+
+
+class MethodUnavailable(DiscModelError, ImportError):
+    """A method whose optional package is not installed."""
+
+
+class Method(BaseModel):
+    """A method that integrates a problem, as the file declares it; the file explains the keys."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    name: str
+    label: str
+    function: str
+    arguments: tuple[str, ...] = ()
+    setting: Literal["tol", "step", "epsilon"] = "tol"
+    order: PositiveFloat = math.nan
+    settings: dict[Scene, tuple[float, ...]]
+    map_values: tuple[float, ...] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
+    map_budget: float = 1.0
+    map_arguments: tuple[str, ...] | None = None
+    maps: tuple[Scene, ...] = ()
+    requires: tuple[str, ...] = ()
+
+    def absent(self) -> list[str]:
+        """Packages that it needs and that are not installed."""
+        return [name for name in self.requires if find_spec(name) is None]
+
+    def economical(self) -> Method:
+        """The variant of the method for maps, where every run has other modes and another setting."""
+        return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
+
+    def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
+
+        Failures on the way are not raised: the status of the result reports them.
+
+        Raises
+        ------
+        MethodUnavailable
+            If the package that the method stands for is not installed.
+        """
+        if missing := ", ".join(self.absent()):
+            reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
+            raise MethodUnavailable(reason)
+        result: MethodResult = resolve_name(f"{__name__}.{self.function}")(problem, value, budget, *self.arguments)
+        return result
+
+
+_DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
+METHODS = {name: Method(name=name, **fields) for name, fields in _DECLARED.items()}
+"""All of them by name."""

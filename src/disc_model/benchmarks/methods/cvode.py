@@ -16,10 +16,9 @@ import numpy as np
 from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem
-from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
-from disc_model.benchmarks.methods.physics import Array
-from disc_model.benchmarks.methods.solve_ivp import absolute_scale
+from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, run_phases
+from disc_model.benchmarks.methods.kernels import Array
+from disc_model.benchmarks.methods.scipy_ivp import absolute_scale
 
 STEPS_PER_LOOK = 5_000
 """Number of steps between two checks of the clock."""

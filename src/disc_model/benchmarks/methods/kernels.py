@@ -1,17 +1,80 @@
-"""The equations of motion, compiled, and the fixed-step Runge-Kutta loop on them.
+"""Constants of a case, states as vectors and the compiled equations of motion, common to all methods but the engine.
 
-All of it is in one file: numba's cache notices changes only in the file of the called function. The state vector is
-that of `physics`; ``c`` holds the scalars in the order of `CONSTANTS`.
+One vector holds the state in every phase (docs: model, Disc in the slider's frame):
+
+    y = (a, b, alpha, beta, psi, f, u, u'),  shape (4 n + 4,), n = number of modes
+
+where u and u' are integrated only in separation; in contact they equal the disc's and are unused. ``c`` holds the
+scalars in the order of `CONSTANTS`. The module shares no code with `disc_model.engine`. All that is compiled is in one
+file: numba's cache notices changes only in the file of the called function.
 """
 
 # mypy: disable-error-code="no-untyped-def"
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
+from numpy.typing import NDArray
 
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.parameters import Parameters
+from disc_model.plate import modal_damping, mode_arrays
+from disc_model.simulation.result import State
+
+Array = NDArray[np.float64]
+
+
+class Physics:
+    """Constants of a case, in SI units; `kernels` has the equations."""
+
+    def __init__(self, p: Parameters) -> None:
+        modes = mode_arrays(p)
+        self.p = p
+        self.n = n = len(modes.omega)
+        self.l = modes.diameters.astype(float)
+        self.shape = modes.psi.copy()  # psi_l, kg^-1/2
+        self.omega = modes.omega.copy()
+        self.stiffness = modes.omega**2
+        self.damping = modal_damping(p)
+        self.slope = self.l * self.shape
+        self.compliance = float(np.sum(self.shape**2))  # S2, 1/kg
+        self.u_0 = -p.N * float(np.sum(self.shape**2 / self.stiffness))
+        self.a, self.b = slice(0, n), slice(n, 2 * n)
+        self.alpha, self.beta = slice(2 * n, 3 * n), slice(3 * n, 4 * n)
+        self.psi, self.f, self.u, self.v = range(4 * n, 4 * n + 4)
+
+    def pack(self, state: State) -> Array:
+        """The vector of a `State`."""
+        tail = (state.psi, state.f, state.u, state.u_velocity)
+        return np.concatenate([state.a, state.b, state.alpha, state.beta, tail])
+
+    def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
+        """The `State` of a vector; in contact u and u' are the disc's."""
+        u, v = (y[self.u], y[self.v]) if phase == "separation" else self.disc_point(y)
+        modal = {name: y[getattr(self, name)].copy() for name in ("a", "b", "alpha", "beta")}
+        return State(time, phase, direction, float(y[self.psi]), float(y[self.f]), float(u), float(v), **modal)
+
+    def disc_point(self, y: Array) -> tuple[float, float]:
+        """w and dw/dt of the disc under the moving slider."""
+        slope = self.slope @ y[self.b]
+        return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
+
+    def distance(self, one: State, other: State) -> float:
+        """Energy norm of the difference of two states divided by that of ``other``; dimensionless.
+
+        The norm includes displacement and velocity of every mode and of the in-plane motion, weighted as in the energy.
+        If either state is separated, it includes those of the slider's height too.
+        """
+        right = self.pack(other)
+        return float(np.sqrt(self._energy(self.pack(one) - right) / self._energy(right)))
+
+    def _energy(self, y: Array) -> float:
+        p, squares = self.p, y**2
+        disc = np.sum(squares[self.alpha] + squares[self.beta] + self.stiffness * (squares[self.a] + squares[self.b]))
+        plane = p.r_0**2 * (p.m * squares[self.f] + p.k_p * squares[self.psi])
+        height = p.m * squares[self.v] + p.k * squares[self.u]
+        return 0.5 * float(disc + plane + height)
+
 
 CONSTANTS = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "compliance", "bonded")
 _N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(len(CONSTANTS))
@@ -259,82 +322,143 @@ def _dip(before, here, after):
     return s if 0.0 < s < 1.0 and here + 0.5 * s * rise < 0.5 * min(here, after) else 0.0
 
 
-@_kernel
-def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kinds, heights):
-    """Take fixed steps ``h`` from local time 0 to an event, which secants locate within its step.
+class Step(NamedTuple):
+    """The start of a step: phase, state, rate and `switch_values`; whether a phase begins there; arrays for trials."""
 
-    A step is searched if an event function changes sign over it or dips within it.  ``stop``: whether to end at the
-    first separation.  Returns (why, time, phase, direction, events, steps). ``y`` is overwritten, ``times`` and
-    ``kinds`` are filled, and ``heights`` receives the least and greatest w at step ends.
+    phase: int
+    direction: int
+    y: np.ndarray
+    rate: np.ndarray
+    values: np.ndarray
+    fresh: bool
+    k: np.ndarray
+    z: np.ndarray
+    trial: np.ndarray
+
+
+@_kernel
+def _probe(modes, c, step, h, out):
+    """Go ``h`` on from a step's start, to ``out``; returns the first violated condition, or -1, and fills ``trial``."""
+    rk4_step(modes, c, step.phase, step.direction, step.y, step.rate, h, out, step.k, step.z)
+    return violated(step.trial, switch_values(modes, c, step.phase, step.direction, out, step.trial))
+
+
+@_part
+def _dips(before, here, after, conditions):
+    """Whether any condition dips within the last of two steps."""
+    least = 0.0
+    for index in range(conditions):
+        least = max(least, _dip(before[index], here[index], after[index]))
+    return least > 0.0
+
+
+@_kernel
+def _probe_dips(modes, c, step, length, before, after, out):
+    """Try the minima of conditions that dip within a step; returns the violated one or -1, its time, and the tries.
+
+    before, after : values a step earlier and later; the latter receive those where a condition is violated
     """
+    tries = 0
+    for index in range(len(after)):
+        s = _dip(before[index], step.values[index], after[index])
+        if s > 0.0:
+            tries += 1
+            cause = _probe(modes, c, step, s * length, out)
+            if cause >= 0:
+                after[:] = step.trial[: len(after)]
+                return cause, s * length, tries
+    return -1, length, tries
+
+
+@_kernel
+def _locate(modes, c, step, cause, high, after, out):
+    """Find by secants where a condition, violated ``high`` after a step's start with values ``after``, falls to 0.
+
+    Returns the condition, which is another if one falls earlier, the time after the start, and the tries; ``out`` is
+    the state there.
+    """
+    precision, lows = 1e-12 * high, step.values.copy()
+    low, at_low, at_high, side, tries, middle = 0.0, lows[cause], after[cause], 0, 0, 0.0
+    while tries < ROOT_TRIES:
+        tries += 1
+        middle = low + (high - low) * at_low / (at_low - at_high)
+        if not low < middle < high or (low == 0.0 and step.fresh):
+            middle = 0.5 * (low + high)
+        other = _probe(modes, c, step, middle, out)
+        # an end that stays twice counts half (Illinois)
+        if other >= 0:
+            if other != cause:
+                cause, at_low, side = other, lows[other], 0
+            at_low *= 0.5 if side == 1 else 1.0
+            moved, high, at_high, side = high - middle, middle, step.trial[cause], 1
+        else:
+            at_high *= 0.5 if side == -1 else 1.0
+            moved, low, at_low, side = middle - low, middle, step.trial[cause], -1
+            lows[:] = step.trial
+        if moved < precision or step.trial[cause] == 0.0:
+            break
+    return cause, middle, tries
+
+
+@_kernel
+def rk4_run(modes, c, phase, direction, y, limits, track):
+    """Take fixed steps from local time 0 to an event, which `_locate` finds within its step, and so on to the end.
+
+    A step is searched if an event function changes sign over it or dips within it.
+
+    Parameters
+    ----------
+    y : state; overwritten by that at the end
+    limits : end and step (s), greatest number of steps, whether to stop at the first separation
+    track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
+
+    Returns
+    -------
+    (why, time, phase, direction, events, steps)
+    """
+    t_end, h, most, stop = limits
+    times, kinds, heights = track
     size, n = len(y), modes.shape[1]
-    k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
-    new, found, first, following_rate = np.empty(2, np.int64), np.empty(size), np.empty(size), np.empty(size)
+    k, z, trial, dip, new = np.empty((3, size)), np.empty(size), np.empty(3), np.empty(size), np.empty(2, np.int64)
+    final, end, first, next_rate = y, np.empty(size), np.empty(size), np.empty(size)
     before, here, after = np.empty(3), np.empty(3), np.empty(3)
-    lows, probe, given = np.empty(3), np.empty(size), y
     why, origin, count, local, events, steps = FINISHED, 0.0, 0, 0.0, 0, 0
     while local < t_end:
-        if steps >= max_steps:
+        if steps >= most:
             why = STEP_LIMIT
             break
         if count == 0:
             rate(modes, c, phase, direction, y, first)
             switch_values(modes, c, phase, direction, y, here)
         # time is event time plus a whole number of steps: summing h would lose digits of the event times
-        following = origin + (count + 1) * h
+        following = min(origin + (count + 1) * h, t_end)
         length = following - local
-        if following >= t_end:
-            following, length = t_end, t_end - local
-        rk4_step(modes, c, phase, direction, y, first, length, found, k, z)
+        rk4_step(modes, c, phase, direction, y, first, length, end, k, z)
+        P, F = rate(modes, c, phase, direction, end, next_rate)
+        w, _ = disc_point(modes, end)
         steps += 1
-        P, F = rate(modes, c, phase, direction, found, following_rate)
-        w, _ = disc_point(modes, found)
         if not abs(w) < HUGE:
             why = NON_FINITE
             break
         heights[0], heights[1] = min(heights[0], w), max(heights[1], w)
-        many = _margins(c, phase, direction, found, n, P, F, w, after)
-        cause, high = violated(after, many), length
-        for place in range(many if cause < 0 < count else 0):
-            s = _dip(before[place], here[place], after[place])
-            if s > 0.0:
-                rk4_step(modes, c, phase, direction, y, first, s * length, probe, k, z)
-                steps += 1
-                switch_values(modes, c, phase, direction, probe, trial)
-                cause = violated(trial, many)
-                if cause >= 0:
-                    high, after[:] = s * length, trial
-                    break
+        conditions = _margins(c, phase, direction, end, n, P, F, w, after)
+        cause, high, middle = violated(after, conditions), length, 0.0
+        if cause >= 0 or (count > 0 and _dips(before, here, after, conditions)):
+            step = Step(phase, direction, y, first, here, count == 0, k, z, trial)
+            if cause < 0:
+                cause, high, tries = _probe_dips(modes, c, step, length, before, after[:conditions], dip)
+                steps += tries
+            if cause >= 0:
+                cause, middle, tries = _locate(modes, c, step, cause, high, after, end)
+                steps += tries
         if cause < 0:
-            y, found = found, y
-            first, following_rate = following_rate, first
+            y, end = end, y
+            first, next_rate = next_rate, first
             before, here, after = here, after, before
             local = following
             count += 1
             continue
-        low, at_low, at_high, side = 0.0, here[cause], after[cause], 0
-        lows[:] = here
-        for _ in range(ROOT_TRIES):
-            middle = low + (high - low) * at_low / (at_low - at_high)
-            if not low < middle < high or (low == 0.0 and count == 0):  # a phase may begin at a root
-                middle = 0.5 * (low + high)
-            rk4_step(modes, c, phase, direction, y, first, middle, found, k, z)
-            steps += 1
-            switch_values(modes, c, phase, direction, found, trial)
-            other = violated(trial, many)
-            # an end that stays twice counts half (Illinois)
-            if other >= 0:
-                if other != cause:
-                    cause, at_low, side = other, lows[other], 0
-                at_low *= 0.5 if side == 1 else 1.0
-                moved, high, at_high, side = high - middle, middle, trial[cause], 1
-            else:
-                at_high *= 0.5 if side == -1 else 1.0
-                moved, low, at_low, side = middle - low, middle, trial[cause], -1
-                lows[:] = trial
-            if moved < 1e-12 * length or trial[cause] == 0.0:
-                break
-        y[:] = found
+        y[:] = end
         local += middle
         origin, count = local, 0
         phase, direction, added = switch(modes, c, phase, cause, y, new)
@@ -346,5 +470,5 @@ def rk4_run(modes, c, phase, direction, y, t_end, h, max_steps, stop, times, kin
         events += added
         if stop and phase == SEPARATION:
             break
-    given[:] = y
+    final[:] = y
     return why, local, phase, direction, events, steps

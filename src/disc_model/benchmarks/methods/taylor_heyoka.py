@@ -18,10 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import GaveUp, Meter, MethodResult, Problem
-from disc_model.benchmarks.methods.kernels import SHIFT
-from disc_model.benchmarks.methods.phases import ENDS, Ended, run_phases
-from disc_model.benchmarks.methods.physics import Array, Physics
+from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, run_phases
+from disc_model.benchmarks.methods.kernels import SHIFT, Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 
@@ -98,7 +96,7 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
 
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
-    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `phases.ENDS`.
+    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `base.ENDS`.
 
     Parameters at run time: N - k u_0, Omega and, in slip, its direction.
     """

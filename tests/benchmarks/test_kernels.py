@@ -1,13 +1,14 @@
-"""Compiled conditions and switches."""
+"""Compiled conditions and switches, and the fixed steps on them."""
 
 import numpy as np
 import pytest
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.phases import ENDS
-from disc_model.benchmarks.methods.physics import Physics
+from disc_model.benchmarks.methods.base import ENDS
+from disc_model.benchmarks.methods.kernels import Physics
+from disc_model.benchmarks.scenes import Verdict
 from disc_model.data.variables import PHASES
-from tests.benchmarks.methods.problems import vector
+from tests.benchmarks.problems import judge, vector
 from tests.references.printed import MOTIONS, P, lively
 
 BONDED = P.replace(contact="bonded")
@@ -87,3 +88,42 @@ def test_contact_that_would_pull_is_lost_at_once():
     assert after == ("separation", 0, [kernels.LOSS_OF_CONTACT])
     assert y[Physics(P).u] == pytest.approx(start.u, rel=1e-12)
     assert y[Physics(P).v] == pytest.approx(start.u_velocity, rel=1e-12)
+
+
+def fixed_steps(y, case, limits, room=4):
+    """What `kernels.rk4_run` returns of a slip forwards, and the times and kinds of events."""
+    track = np.empty(room), np.empty(room, np.int64), np.zeros(2)
+    return kernels.rk4_run(*case, kernels.SLIP, 1, y.copy(), limits, track), track
+
+
+def test_fixed_steps_end_as_they_must():
+    _, y, *case = vector(lively("slip", 1))
+    for limits, room, why in (
+        ((1e-4, 1e-5, 3, False), 4, kernels.STEP_LIMIT),
+        ((1e-4, 1e-5, 99, False), 4, kernels.FINISHED),
+        ((1.0, 0.5, 99, False), 4, kernels.NON_FINITE),
+        ((0.02, 1e-5, 9999, False), 0, kernels.STALLED),
+    ):
+        assert fixed_steps(y, case, limits, room)[0][0] == why
+
+
+def test_a_loss_of_contact_within_a_step_is_seen():
+    """Contact is lost for 25 us: ends of steps of 1e-5 s are within that time, and none of 4e-5 s is."""
+    p = P.replace(N=19.48)
+    _, y, *case = vector(lively("slip", 1, p), p)
+
+    def lost(h):
+        _, (times, kinds, _) = fixed_steps(y, case, (1.5e-3, h, 999, True))
+        assert kinds[0] == kernels.LOSS_OF_CONTACT
+        return times[0]
+
+    # steps of 4e-5 s leave an error of 1.5e-7 s
+    assert lost(4e-5) == pytest.approx(lost(1e-5), abs=3e-7, rel=0)
+
+
+@pytest.mark.compiled
+def test_fixed_steps_see_dips_shorter_than_a_step_and_miss_what_is_far_shorter():
+    """The shortest of the 131 separations takes 34 us: at step ends of 1e-4 s alone, two went unseen."""
+    result, errors = judge("RK4", "separating", 1e-4)
+    assert (result.separations, errors.verdict) == (131, Verdict.CONVERGED)
+    assert judge("RK4", "separating", 4e-4)[1].verdict is Verdict.WRONG_EVENTS

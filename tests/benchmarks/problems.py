@@ -1,10 +1,9 @@
 """Short problems for rival methods, from states in which every term of the equations counts."""
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks.methods import METHODS, kernels
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.physics import Physics
-from disc_model.benchmarks.registry import METHODS
+from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.parameters import Parameters
 from tests.references.printed import P, lively
 

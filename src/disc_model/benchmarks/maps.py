@@ -1,0 +1,154 @@
+"""Maps of where methods fail, over step or tolerance and number of modes.
+
+A failure map judges a method on the scene ``separating`` (or ``stick_slip``) for a short span, with modes dropped or
+added. An answer map judges whether it finds the first separation. What is correct comes from the series engine at
+`REFERENCE_TOL` with the same modes; the stored references confirm it for the base model.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, Method
+from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
+from disc_model.benchmarks.questions import (
+    AnswerStatus,
+    AnswerVerdict,
+    Reply,
+    Solve,
+    first_separation,
+    setting_of,
+    verdict,
+)
+from disc_model.benchmarks.scenes import Answer, Verdict
+from disc_model.benchmarks.study import Flags, Row, run
+from disc_model.parameters import Parameters
+from disc_model.plate import mode_arrays
+from disc_model.truncation import real_modes
+
+SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
+"""s"""
+STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())
+"""Fixed steps of a map, s."""
+REFERENCE_TOL = 1e-14
+CASE = Parameters(N=600.0, Omega=27.0)
+"""Case of the answer maps, which loses contact within `HORIZON`."""
+HORIZON = 25.0
+"""s"""
+BUDGET = 3.0
+"""Budget for a point of an answer map, s; beyond it, finer settings with the same modes are skipped."""
+
+
+def failure_map(
+    method: str,
+    scene: str = "separating",
+    diameters: Sequence[int] = (1, 2, 4, 6, 8),
+    values: Sequence[float] | None = None,
+) -> xr.Dataset:
+    """Verdicts on a method along (diameters, value), with the facts that explain them along diameters."""
+    judged = METHODS[method].economical()
+
+    def measure(diameters: int, value: float) -> Iterator[Row]:
+        problem = short_problem(scene, diameters)
+        result = judged.solve(problem, value, judged.map_budget)
+        errors = scenes.errors(problem, engine_answer(scene, diameters), result)
+        yield {"verdict": errors.verdict, "event_error": errors.event_time, "longest_step": result.longest_step}
+
+    def facts(diameters: int) -> Iterator[Row]:
+        p = short_problem(scene, diameters).parameters
+        top = float(mode_arrays(p).omega.max())
+        yield {
+            "modes": real_modes(diameters, 0),
+            "omega_max": top,
+            "step_limit": STABILITY_LIMIT / top,
+            "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
+            "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
+        }
+
+    values = _settings(judged) if values is None else values
+    about = {"scene": scene, "budget": judged.map_budget, "span": SPANS[scene]}
+    return _map("failure_map", judged, (diameters, values), measure, facts, {"verdict": Verdict}, about)
+
+
+def answer_map(
+    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
+) -> xr.Dataset:
+    """Verdicts on a method's first separation along (diameters, value), from coarse to fine.
+
+    Along diameters: ``modes`` (real modes) and ``right`` (s, nan where contact is not lost).
+    """
+    judged = METHODS[method].economical()
+    reference = setting_of(METHODS["series"], REFERENCE_TOL)
+    right = {count: _separation(reference, math.inf, count).value for count in diameters}
+    late: set[int] = set()
+
+    def measure(diameters: int, value: float) -> Iterator[Row]:
+        reply = Reply(math.nan, math.nan, AnswerStatus.TOO_SLOW)
+        if diameters not in late:
+            reply = _separation(setting_of(judged, value), BUDGET, diameters)
+        if reply.status is AnswerStatus.TOO_SLOW:
+            late.add(diameters)
+        yield {
+            "verdict": verdict("first_separation", reply, right[diameters]),
+            "error": abs(reply.value - right[diameters]),
+            "status": reply.status,
+            "found": reply.value,
+            "seconds": reply.seconds,
+        }
+
+    def facts(diameters: int) -> Iterator[Row]:
+        yield {"modes": real_modes(diameters, 0), "right": right[diameters]}
+
+    if values is None:  # six at most: the first, the last, and some between
+        every = _settings(judged)
+        values = [every[i] for i in np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)]
+    flags = {"verdict": AnswerVerdict, "status": AnswerStatus}
+    about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
+    return _map("answer_map", judged, (diameters, values), measure, facts, flags, about)
+
+
+def _settings(method: Method) -> Sequence[float]:
+    return STEPS if method.setting == "step" else method.map_values
+
+
+def _map(
+    table: str,
+    method: Method,
+    axes: tuple[Sequence[int], Sequence[float]],
+    measure: Callable[..., Iterator[Row]],
+    facts: Callable[..., Iterator[Row]],
+    flags: Flags,
+    about: Mapping[str, Any],
+) -> xr.Dataset:
+    """What a method was measured to do along (diameters, value), with the facts of each row."""
+    rows = run(f"{table}_facts", [{"diameters": count} for count in axes[0]], facts, ["diameters"])
+    points = [{"diameters": count, "value": value} for count in axes[0] for value in axes[1]]
+    study = run(table, points, measure, ["diameters", "value"], flags=flags, **about).assign(rows.data_vars)
+    study["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
+    study["value"].attrs = {"long_name": f"setting: {method.setting}"}
+    return study.assign_attrs(method=method.name, label=method.label, setting=method.setting)
+
+
+@lru_cache(maxsize=64)
+def short_problem(scene: str, diameters: int) -> Problem:
+    """The scene's motion with modes up to ``diameters`` for the span of the maps."""
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=diameters)
+    start = scenes.MOTIONS[scene][1](p)
+    return Problem(p, start, start.time + SPANS[scene])
+
+
+@lru_cache(maxsize=64)
+def engine_answer(scene: str, diameters: int) -> Answer:
+    """The series engine's answer to `short_problem`, at the tightest tolerance."""
+    result = METHODS["series"].solve(short_problem(scene, diameters), REFERENCE_TOL)
+    return Answer(result.times.astype(np.longdouble), result.kinds, result.final, error=REFERENCE_TOL)
+
+
+def _separation(solve: Solve, budget: float, diameters: int) -> Reply:
+    return first_separation(solve, budget, CASE.replace(n_diameters=diameters), HORIZON)["first_separation"]

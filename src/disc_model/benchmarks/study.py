@@ -1,0 +1,108 @@
+"""The runner of all studies of the benchmark: it measures points on one core and makes a dataset of the results.
+
+The variables of the datasets are in ``variables.toml``.
+"""
+
+import enum
+import logging
+import os
+import platform
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from disc_model.data.dataset import json_attribute
+from disc_model.data.provenance import versions
+from disc_model.data.variables import Variable
+
+log = logging.getLogger(__name__)
+
+TABLES = tomllib.loads(Path(__file__).with_name("variables.toml").read_text(encoding="utf-8"))
+Row = Mapping[str, Any]
+Flags = Mapping[str, type[enum.IntEnum]]
+
+
+def words(flags: type[enum.IntEnum]) -> tuple[str, ...]:
+    """Words for the values of a flag."""
+    return tuple(flag.name.lower() for flag in flags)
+
+
+def run(
+    table: str,
+    points: Sequence[Row],
+    measure: Callable[..., Iterable[Row]],
+    dims: Sequence[str] = (),
+    *,
+    rounds: int = 1,
+    summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),
+    flags: Flags | None = None,
+    unmeasured: Mapping[str, int] | None = None,
+    **about: Any,
+) -> xr.Dataset:
+    """Measure points on one core, and log what comes out.
+
+    Parameters
+    ----------
+    table : of the variables in ``variables.toml``
+    points : coordinates and settings by name
+    measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point
+    dims : coordinates that become dimensions; without any, the dataset has a ``row`` for each result
+    rounds : number of times that all points are measured in turn, so that a disturbance affects all alike
+    summarise : of the results grouped by ``dims``: one row a point
+    flags, unmeasured : meanings of flags, and their values where nothing was measured; other variables are nan there
+    about : attributes of the dataset beside machine and versions
+    """
+    flags = flags or {}
+    variables = {
+        name: Variable(units, long_name, words(flags[name]) if name in flags else ())
+        for name, (units, long_name) in TABLES[table].items()
+    }
+    rows = []
+    with one_core():
+        for _ in range(rounds):
+            for point in points:
+                for result in measure(**point):
+                    rows.append({**point, **result})
+                    log.info("%s", " ".join(f"{key}={value}" for key, value in rows[-1].items()))
+    frame = pd.DataFrame(rows, columns=[*dict.fromkeys([*dims, *variables])])
+    frame = frame.astype({name: float for name, variable in variables.items() if variable.units and name not in dims})
+    if dims:
+        axes = {dim: [*dict.fromkeys(point[dim] for point in points)] for dim in dims}
+        dataset = summarise(frame.groupby([*dims])).to_xarray().reindex(axes)
+    else:
+        dataset = frame.rename_axis("row").to_xarray().drop_vars("row")
+    for name, variable in variables.items():
+        if variable.flags:
+            dataset[name] = dataset[name].fillna((unmeasured or {}).get(name)).astype(np.int8)
+        dataset[name].attrs = variable.attributes
+    made_by = {"machine": machine(), "versions": json_attribute(versions("heyoka", "scikit-sundae"))}
+    return dataset.assign_attrs(made_by | about)
+
+
+@contextmanager
+def one_core() -> Iterator[None]:
+    """Restrict this process, and the threads begun meanwhile, to one of its cores; release it afterwards."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(before)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+def machine() -> str:
+    """Processor and number of cores, as reported by the system."""
+    model = platform.processor() or platform.machine()
+    with suppress(OSError, StopIteration):
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        model = next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return f"{model}, {os.cpu_count()} cores, {platform.system()}"

@@ -1,0 +1,377 @@
+"""The studies of the benchmark, and the runner that measures their points."""
+
+import json
+import logging
+import math
+import os
+from functools import lru_cache
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from disc_model.benchmarks import answers, figures, maps, questions, study, work_precision
+from disc_model.benchmarks.methods import METHODS, Method
+from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
+from disc_model.benchmarks.questions import SIDE, AnswerStatus, AnswerVerdict, Reply, verdict
+from disc_model.benchmarks.scenes import Verdict, errors
+from disc_model.benchmarks.truncation import contact_study, truncation_study
+from disc_model.benchmarks.work_precision import cost_at, fitted_order, headline, measured_points, table
+from disc_model.data.variables import flag_names
+from disc_model.figures.drawing import save
+from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
+from disc_model.plate import mode_arrays
+from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
+from tests.references.stored import load
+
+RIGHT, WRONG, SILENT = AnswerVerdict
+
+# ----------------------------------------------------------------------------------------------------
+# The runner
+
+
+def test_points_are_measured_in_turn_on_one_core(monkeypatch: pytest.MonkeyPatch, caplog) -> None:
+    variables = {"size": ["m", "how big"], "state": ["1", "what it is"], "other": ["s", "never measured"]}
+    monkeypatch.setitem(study.TABLES, "made_up", variables)
+    caplog.set_level(logging.INFO, study.log.name)
+    turns, before = [], getattr(os, "sched_getaffinity", lambda _: None)(0)
+
+    def measure(kind: str, count: int):
+        turns.append((kind, count))
+        if before is not None:
+            assert len(os.sched_getaffinity(0)) == 1
+        if kind == "b":
+            yield {"size": float(len(turns)), "state": Verdict.CONVERGED}
+
+    points = [{"kind": kind, "count": count} for kind in "ba" for count in (2, 1)]
+    flags, unmeasured = {"state": Verdict}, {"state": Verdict.NOT_RUN}
+    dataset = study.run("made_up", points, measure, ["kind", "count"], rounds=3, flags=flags, unmeasured=unmeasured)
+    assert turns == [("b", 2), ("b", 1), ("a", 2), ("a", 1)] * 3
+    assert "kind=b count=2 size=1.0 state=0" in caplog.messages
+    assert (dataset["kind"].values.tolist(), dataset["count"].values.tolist()) == (["b", "a"], [2, 1])
+    np.testing.assert_array_equal(dataset["size"], [[5.0, 6.0], [np.nan, np.nan]])  # medians of 1, 5, 9 and 2, 6, 10
+    assert dataset["size"].attrs == {"units": "m", "long_name": "how big"}
+    assert flag_names(dataset["state"]).tolist() == [["converged"] * 2, ["not_run"] * 2]
+    assert np.isnan(dataset["other"]).all()
+    assert "cores" in dataset.attrs["machine"]
+    assert json.loads(dataset.attrs["versions"])["heyoka"]
+    with pytest.raises(ZeroDivisionError):
+        study.run("made_up", points, lambda **_: [1 / 0])
+    assert getattr(os, "sched_getaffinity", lambda _: None)(0) == before
+
+
+# ----------------------------------------------------------------------------------------------------
+# Speed against accuracy
+
+
+def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict[str, Known]) -> None:
+    rk4 = dataset.sel(scene="stick_slip", solver="RK4")
+    assert rk4["order_event"] == pytest.approx(4.0, abs=1e-3)
+    assert rk4["order_theory"] == 4.0
+    np.testing.assert_allclose(rk4["event_error"], [1e8 * h**4 for h in SETTINGS["stick_slip"]["RK4"]], rtol=1e-5)
+    assert flag_names(rk4["verdict"]).tolist() == ["inaccurate", "converged", "converged", "converged"]
+    series = dataset.sel(scene="stick_slip", solver="series")
+    assert series["order_event"] == pytest.approx(1.0, abs=1e-3)  # exponent of the tolerance
+    assert flag_names(series["verdict"])[3] == "not_run"
+    assert (series["repeats"][:3] == 2).all()
+    assert series["cost"][0] == pytest.approx(1e-3 + 6e-5)
+    assert series["marginal_cost"][0] == pytest.approx(1e-3 + 6e-5 - SET_UP)
+    assert np.isfinite(series["whole_call"].values).tolist() == [False, False, True, False]
+    np.testing.assert_allclose(rk4["glue"], 0.25)
+    # too long to be followed further
+    assert np.isnan(rk4["marginal_cost"][3])
+    assert flag_names(dataset.sel(scene="stick_slip", solver="Radau")["verdict"])[0] == "wrong_events"
+    # what gives up at a coarse setting is not tried at a finer one
+    assert known["regularised"].tried == [1.0]
+    words = flag_names(dataset.sel(scene="separating", solver="regularised")["verdict"])
+    assert words[:2].tolist() == ["gave_up", "not_run"]
+
+
+def test_slow_points_are_not_repeated(known: dict[str, Known]) -> None:
+    known["RK4"].cost = lambda h: 5.0
+    dataset = work_precision.work_precision({"stick_slip": SETTINGS["stick_slip"]}, rounds=3)
+    repeats = dataset["repeats"].sel(scene="stick_slip")
+    assert repeats.sel(solver="RK4").values.tolist() == [1] * 4
+    assert repeats.sel(solver="series").values[:3].tolist() == [3] * 3
+
+
+def test_fitted_order():
+    n = np.geomspace(10, 1e4, 7)
+    assert fitted_order(n, np.maximum(3.0 * n**-4, 1e-14)) == pytest.approx(4.0)
+    rough = 3.0 * n**-4
+    rough[:2] = 1e-4  # not yet asymptotic
+    assert fitted_order(n, rough) == pytest.approx(4.0, abs=0.05)
+    assert math.isnan(fitted_order(n[:1], n[:1]))
+    assert math.isnan(fitted_order(n, np.full(7, np.nan)))
+
+
+def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
+    frame = table(dataset).set_index(["scene", "method", "setting"])
+    row = frame.loc["stick_slip", "RK4", "step=0.0001"]
+    # 1e8 h^4 = 1e-8 s: half the tolerance is the series' error, so that it reaches that at 1e-8
+    assert row["event_time_error"] == pytest.approx(1e-8, rel=1e-6)
+    assert row["times_series"] == pytest.approx((1e-5 / 1e-4) / (1e-3 + 8e-5), rel=0.03)
+    coarse = frame.loc["stick_slip", "RK4", "step=0.0004"]
+    assert coarse["times_series"] == pytest.approx((1e-5 / 4e-4) / (1e-3 + 6e-5), rel=1e-6)
+    assert math.isnan(frame.loc["stick_slip", "Radau", "tol=0.001"]["times_series"])
+    assert row["verdict"] == "converged"
+    # at its default the series takes 1 ms a further second; RK4 is right to 1e-10 s between two of its
+    # steps, at 3.16e-5 s, which takes 0.316 s
+    step = (1e-10 / 1e8) ** 0.25
+    expected = {"series": 1.0, "RK4": pytest.approx(1e-5 / step / 1e-3, rel=1e-3)}
+    assert headline(measured_points(dataset)) == {"stick_slip": expected}
+    assert table(dataset.sel(solver=["RK4"]))["times_series"].isna().all()
+
+
+def test_a_cost_at_an_error_is_between_settings() -> None:
+    def line(*points: tuple[float, float]) -> pd.DataFrame:
+        return pd.DataFrame(points, columns=["event_error", "further"])
+
+    coarse, fine = (1e-9, 2.0), (1e-11, 8.0)
+    for points in ((coarse, fine), (fine, (math.nan, 0.1), (1e-8, 3.0), coarse)):  # dearer and worse does not count
+        assert cost_at(line(*points), 1e-10) == pytest.approx(4.0)
+    assert cost_at(line(fine), 1e-10) == pytest.approx(8.0)  # nothing coarser was measured
+    assert math.isnan(cost_at(line(coarse), 1e-10))  # no setting is as accurate
+    assert cost_at(line((0.0, 5.0)), 0.0) == pytest.approx(5.0)
+
+
+def test_the_headline_allows_others_the_engines_own_error() -> None:
+    """Of RK4 only whole runs were measured; of the series also a further second, which is what counts."""
+    rows = [
+        ("series", 0, 1e-10, 5e-4, 4e-4, 2e-12),
+        ("RK4", 0, 1e-4, 1e-3, math.nan, 1e-5),
+        ("RK4", 1, 1e-5, 4e-3, math.nan, 1e-10),
+        ("RK4", 2, 1e-6, 4e-2, math.nan, 1e-13),
+    ]
+    frame = pd.DataFrame(rows, columns=["solver", "point", "value", "cost", "marginal_cost", "event_error"])
+    frame = frame.assign(scene="stick_slip", verdict=int(Verdict.CONVERGED))
+    for own, ratio in ((2e-12, 10.0), (1e-5, 2.5)):
+        frame.loc[0, "event_error"] = own
+        made = frame.set_index(["scene", "solver", "point"]).to_xarray()
+        assert headline(measured_points(made)) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(ratio)}}
+
+
+# ----------------------------------------------------------------------------------------------------
+# Questions
+
+
+def result(problem: Problem, times, kind="separation", outcome=RunStatus.FINISHED, seconds=2.0) -> MethodResult:
+    return MethodResult(np.array(times, float), (kind,) * len(times), problem.start, seconds, 1, outcome)
+
+
+def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
+    for value, status, right, expected in (
+        (54.45, AnswerStatus.FOUND, 54.4, RIGHT),
+        (54.6, AnswerStatus.FOUND, 54.4, WRONG),
+        (54.4, AnswerStatus.FOUND, math.nan, WRONG),
+        (math.nan, AnswerStatus.NONE, 54.4, WRONG),
+        (math.nan, AnswerStatus.NONE, math.nan, RIGHT),
+        (math.nan, AnswerStatus.TOO_SLOW, 54.4, SILENT),
+    ):
+        assert verdict("first_separation", Reply(value, 1.0, status), right) is expected
+
+
+def test_what_is_stored_fits_the_questions() -> None:
+    cells = questions.right_region()
+    assert cells.shape == (SIDE, SIDE)
+    assert 0.1 < cells.mean() < 0.9  # a region that is all one would ask nothing
+    assert questions.reference("first_separation").value == load("first_separation")["time"]
+    for name, question in questions.QUESTIONS.items():
+        assert questions.reference(name).error < 0.2 * question.enough
+    corner = questions.cell_parameters(SIDE * SIDE - 1)
+    assert (corner.N, corner.Omega) == (questions.REGION_LOADS[1], questions.REGION_SPEEDS[1])
+
+
+def test_the_period_is_counted_in_releases() -> None:
+    gaps = np.tile([1.0, 2.0, 1.5], 6)
+    assert questions.period(np.cumsum(gaps)) == 3
+    assert math.isnan(questions.period(np.cumsum(gaps + np.linspace(0, 0.1, 18))))  # never the same again
+    assert math.isnan(questions.period(np.array([1.0])))
+
+
+@pytest.mark.parametrize(("rate", "drift", "accuracy"), [(0.02, 0.0, 1e-3), (-0.3, 0.0, 1e-3), (0.1, 1e-5, 5e-3)])
+def test_growth_is_read_from_releases(rate: float, drift: float, accuracy: float) -> None:
+    """Of a swing beside a steady 15 ms; a drift, which stands highest at the lowest frequencies, is not taken for it.
+
+    The fit is exact but for where in its stretch a gap is taken to stand, and for what a drift leaves in it.
+    """
+    k = np.arange(400)
+    swing = 1e-6 if drift else 1e-5
+    gaps = 0.015 + swing * np.exp(rate * 0.015 * k) * np.cos(0.9 * k) + drift * np.exp(-0.01 * k)
+    assert questions.growth(np.cumsum(gaps)) == pytest.approx(rate, abs=accuracy)
+    assert math.isnan(questions.growth(np.cumsum(gaps)[:10]))
+
+
+def test_the_speed_of_onset_is_bracketed() -> None:
+    def onset_of(threshold: float, outcome: RunStatus = RunStatus.FINISHED, seconds: float = 1.0) -> Reply:
+        def solve(problem: Problem, budget: float) -> MethodResult:
+            if budget < seconds:
+                return result(problem, [], outcome=RunStatus.TOO_SLOW, seconds=budget)
+            times = [50.0] if problem.parameters.Omega > threshold else []
+            return result(problem, times, outcome=outcome, seconds=seconds)
+
+        return questions.onset(solve, 20.0)["onset"]
+
+    reply = onset_of(15.0834)
+    assert reply.low < 15.0834 <= reply.high
+    assert reply.high - reply.low <= questions.ONSET_WITHIN
+    assert reply.value == pytest.approx(15.0834, abs=questions.ONSET_WITHIN)
+    assert reply.seconds == 2 + math.ceil(math.log2(1.0 / questions.ONSET_WITHIN))
+    assert onset_of(16.0)[2:4] == (AnswerStatus.NONE, "no separation at 15.6 rad/s")
+    assert onset_of(14.0)[2:4] == (AnswerStatus.NONE, "a separation already at 14.6 rad/s")
+    assert onset_of(15.08, seconds=6.0).status is AnswerStatus.TOO_SLOW
+    assert onset_of(16.0, outcome=RunStatus.NON_FINITE).status is AnswerStatus.UNSTABLE
+
+
+def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
+    def judged(wrong: int, seconds: float) -> Reply:
+        """``wrong`` of the cells that are looked at first are judged wrong."""
+        right = questions.right_region().ravel()
+        bad = {*questions.drawn()[:wrong].tolist()}
+        judge = lambda index: (bool(right[index]) != (index in bad), seconds)  # noqa: E731
+        return questions.judged(judge, right.__getitem__, 64.0)
+
+    whole = judged(wrong=32, seconds=0.01)
+    assert (whole.value, whole.low, whole.high, whole.cells) == (1 / 32, 1 / 32, 1 / 32, SIDE * SIDE)
+    part = judged(wrong=2, seconds=1.0)
+    assert (part.value, part.cells, part.seconds) == (2 / 64, 64, SIDE * SIDE)
+    # Wilson's interval of 2 in 64, from its formula
+    z, n, share = 1.959964, 64, 2 / 64
+    half = z / (1 + z * z / n) * math.sqrt(share * (1 - share) / n + z * z / (4 * n * n))
+    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
+    assert (part.low, part.high) == pytest.approx((middle - half, middle + half), rel=1e-5)
+    few = judged(wrong=0, seconds=8.0)
+    assert (few.status, few.seconds) == (AnswerStatus.TOO_SLOW, 8.0 * SIDE * SIDE)
+
+
+def test_what_breaks_off_has_a_status_and_a_reason() -> None:
+    for name in questions.ASKED:
+        for reply in questions.ask(lambda problem, _: result(problem, [], outcome=RunStatus.STALLED), name).values():
+            assert (reply.status, reply.message) == (AnswerStatus.STALLED, "stalled")
+
+
+@pytest.mark.compiled
+def test_the_engine_gives_the_right_answers() -> None:
+    """By methods that share no code with it; 1e-9 s and 1e-6 1/s leave room for rounding that grows and for the fit."""
+    solve = questions.setting_of(METHODS["series"], 1e-12)
+    replies = questions.first_separation(solve, 10.0) | questions.after_separation(solve, 6.0)
+    replies |= questions.growth_rate(solve, 6.0)
+    tolerances = {"first_separation": 1e-9, "separation_rate": 1e-9, "period": 0, "growth_rate": 1e-6}
+    for name, tolerance in tolerances.items():
+        assert replies[name].value == pytest.approx(questions.reference(name).value, abs=tolerance)
+    # sampled 20,000 times a second
+    assert replies["disc_range"].value == pytest.approx(questions.reference("disc_range").value, rel=2e-4)
+    # what a deviation of finite size adds to the rate at which an infinitesimal one grows
+    rate = answers.growth_rate(questions.GROWING, 1e-12).value
+    assert rate == pytest.approx(questions.reference("growth_rate").value, abs=2e-5)
+    assert answers.onset(questions.SEPARATING, 1e-12).value == pytest.approx(15.0949, abs=5e-5)
+    no_cycle = answers.onset(questions.SEPARATING.replace(n_diameters=0), 1e-10)
+    assert no_cycle[2:4] == (AnswerStatus.NONE, "no fold from 14.5 to 16 rad/s")
+    # the rule broke off at a tolerance that the search for a cycle refuses
+    assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in (*answers.TOLERANCES, answers.DEFAULT))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Costs of answers, and maps
+
+
+def column(dataset: xr.Dataset, line: str, name: str) -> list:
+    return dataset[name].values[dataset["line"].values == line].tolist()
+
+
+def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_the_stored(priced: xr.Dataset) -> None:
+    np.testing.assert_allclose(column(priced, "rigid", "error"), [math.nan, 0.05, 0.0], atol=1e-12)
+    assert column(priced, "rigid", "verdict") == [WRONG, RIGHT, RIGHT]
+    exact = questions.reference("first_separation").value
+    np.testing.assert_allclose(
+        column(priced, "late", "error"), [math.nan, 54.7 - exact, exact - 54.41, exact - 54.4001, math.nan], atol=1e-9
+    )
+    assert column(priced, "late", "status") == [AnswerStatus.NONE, *[AnswerStatus.FOUND] * 3, AnswerStatus.TOO_SLOW]
+    assert column(priced, "late", "verdict") == [WRONG, WRONG, RIGHT, RIGHT, SILENT]
+    assert "no cycle" in column(priced, "cycle", "message")
+    first, *_, last = answers.in_words(priced)[["line", "at", "verdict", "status", "message"]].values.tolist()
+    assert first == ["late", "tol=1", "wrong", "none", "no separation within 55 s"]
+    assert last == ["rigid", "8 diameters", "right", "found", ""]
+
+
+def test_maps_of_an_answer(late: Method, monkeypatch: pytest.MonkeyPatch) -> None:
+    separation = maps._separation
+
+    def known(solve, budget, diameters):
+        right = Reply(54.42 if diameters < 4 else math.nan, 0.0, AnswerStatus.FOUND)
+        return right if budget == math.inf else separation(solve, budget, diameters)
+
+    monkeypatch.setattr(maps, "_separation", known)
+    drawn = maps.answer_map(late.name, (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
+    assert drawn["verdict"].values.tolist() == [
+        [WRONG, WRONG, RIGHT, SILENT, SILENT],
+        [RIGHT, WRONG, WRONG, SILENT, SILENT],
+    ]
+    assert math.isnan(drawn["seconds"].values[0, 4])  # not tried where a coarser one took too long
+    assert drawn["modes"].values.tolist() == [3, 9]
+    assert figures.answer_maps(drawn, drawn).axes[1].get_title(loc="left") == "(b) late"
+
+
+def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
+    """Of 20 ms of stick-slip and 10 ms of separations."""
+    monkeypatch.setattr(maps, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
+    for name in ("short_problem", "engine_answer"):
+        monkeypatch.setattr(maps, name, lru_cache(getattr(maps, name).__wrapped__))
+    steps = maps.failure_map("RK4", "separating", (1, 2), (1e-3, 2e-5))
+    assert steps["modes"].values.tolist() == [3, 5]
+    assert steps["step_limit"].values == pytest.approx(2 * math.sqrt(2) / steps["omega_max"].values)
+    assert steps["shortest_phase"].values.min() > 0
+    engine = maps.failure_map("series", "separating", (1, 2), (1e-7, 1e-10))
+    assert (engine["verdict"].values == Verdict.CONVERGED).all()
+    adaptive = maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
+    smooth = maps.failure_map("regularised", "separating", (1,), (10.0, 1.0))
+    assert np.isfinite(adaptive["longest_step"]).all()
+    figure = figures.failure_maps(steps, engine, adaptive, smooth, adaptive)
+    titles = [ax.get_title(loc="left") for ax in figure.axes if ax.get_title(loc="left")]
+    assert titles[0] == f"(a) {METHODS['RK4'].label}"
+    assert len(titles) == 5
+    save(figure, tmp_path / "maps.png")
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("diameters", [2, 4])
+def test_observed_stability_limit_is_the_linear_one(diameters):
+    """2 sqrt(2)/omega_max is exact for a linear undamped system; stick-slip and damping shift it by 3 % at most."""
+    problem, right = (find("stick_slip", diameters) for find in (maps.short_problem, maps.engine_answer))
+    limit = STABILITY_LIMIT / float(mode_arrays(problem.parameters).omega.max())
+    results = [METHODS["RK4"].solve(problem, share * limit) for share in (0.97, 1.03)]
+    assert [errors(problem, right, result).verdict is Verdict.UNSTABLE for result in results] == [False, True]
+
+
+# ----------------------------------------------------------------------------------------------------
+# Numbers of modes
+
+
+@pytest.mark.compiled
+def test_what_truncation_does_to_a_study(tmp_path):
+    dataset = truncation_study((4, 6), (0, 1), ("as_published",), horizon=60.0, growth=False)
+    first = dataset["first_separation"].sel(normalization="as_published", circles=0)
+    assert float(first.sel(diameters=4)) == pytest.approx(54.4189, abs=1e-3)
+    assert float(first.sel(diameters=6)) == pytest.approx(53.51, abs=0.01)
+    assert (dataset["impact_share"].diff("diameters") < 0).all()
+    assert np.isnan(dataset["growth_rate"]).all()
+    save(figures.truncation(dataset), tmp_path / "truncation.png")
+
+
+@pytest.mark.compiled
+@pytest.mark.slow  # kernels of one more law of contact
+def test_what_residual_flexibility_changes(tmp_path):
+    case = {"N=800": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"}}
+    dataset = contact_study(((3, 0), (4, 0)), case, horizon=20.0).isel(case=0)
+    rigid, residual = (dataset.sel(contact=contact) for contact in ("rigid", "residual"))
+    assert float(rigid["first_separation"].sel(model="4,0")) == pytest.approx(13.546, abs=1e-3)
+    assert float(residual["first_separation"].sel(model="4,0")) == pytest.approx(18.399, abs=1e-3)
+    assert (residual["frequency_error"] < rigid["frequency_error"]).all()
+    assert (rigid["contact_compliance"] == 0).all()
+    assert np.isfinite(dataset.to_dataarray()).all()
+    assert (dataset["tol_late"] == 1e-10).all()
+    # once apart, a compliant contact is met again and again
+    assert (residual["separations"] > 2 * rigid["separations"]).all()
+    save(figures.contact_truncation(dataset.expand_dims("case")), tmp_path / "truncation.png")
