@@ -17,12 +17,13 @@ def test_stages_before_and_after_the_first_separation() -> None:
     assert list(np.flatnonzero(found.separated)) == [2, 4]
 
 
-def test_stages_without_separation_are_halves() -> None:
-    found = stages(TIME, np.zeros(6, dtype=np.int8), np.nan, 6.0)
+def test_stages_without_separation_tell_what_has_settled() -> None:
+    found = stages(TIME, np.zeros(6, dtype=np.int8), np.nan, 3.0)
     assert not found.divided_by_separation
     assert list(np.flatnonzero(found.early)) == [0, 1, 2]
     assert list(np.flatnonzero(found.later)) == [3, 4, 5]
     assert not found.separated.any()
+    assert stages(TIME, np.zeros(6, dtype=np.int8), np.nan, np.nan).early.all()
 
 
 def around(turns: float, count: int) -> np.ndarray:

@@ -364,7 +364,7 @@ def cases(stories: Mapping[str, Story], scans: Mapping[str, xr.Dataset] | None =
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
-WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes")
+WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes", "settled", "changing")
 
 
 def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, /, **variables: Any) -> xr.Dataset:
@@ -407,9 +407,9 @@ def scans(
     lasts : rad/s, where separation ends in sweeps down, at three preloads; no sweeps if there are none
     """
     published, preloads = {"normalization": ["as_published"]}, [50.0, 200.0, 385.0, 500.0, 510.0]
-    shares, times = np.full((3, 2), 0.25), np.full((3, 2), 100.0)
-    shares[0, 1], times[0, 1] = least, 100.0 if settled else np.nan
-    bonded = {"stick_fraction": shares, "settling_time": times}
+    shares, answers = np.full((3, 2), 0.25), np.full((3, 2), "settled", dtype="<U9")
+    shares[0, 1], answers[0, 1] = least, "settled" if settled else "changing"
+    bonded = {"stick_fraction": shares, "settled": answers}
     speeds = np.array(windows)[:, None]
     kinds = np.where(np.isnan(speeds), "none", ["begins", "ends"])
     crossings = {"critical_speed": [speeds[..., 0]], "crossing": [speeds], "crossing_kind": [kinds]}
@@ -426,7 +426,7 @@ def scans(
             random, {"N": 385}, separating_fraction=[[0.0, others]], separating_fraction_low=[[0.0, others / 2]]
         ),
         "bifurcation_Omega": grid({"Omega": [15.0, 15.25, 15.5, 16.0]}, stick_fraction=[0.31, 0.3, faster, faster]),
-        "bonded": grid({"Omega": [10, 50, 100], "N": [50, 385]}, {"horizon": 800}, **bonded),
+        "bonded": grid({"Omega": [10, 50, 100], "N": [50, 385]}, {"max_transient": 6400}, **bonded),
         "critical_speed": grid(along | {"scan_Omega": [5.0, 24.0]}, status=[["ok"] * len(windows)], **crossings),
         "map_E": grid(
             {"normalization": ["as_published", "orthonormal"], "E": [8e10, 1e11, 1.5e11], "Omega": [10, 50]},

@@ -22,7 +22,7 @@ SAME = 0.01
 class Stages(NamedTuple):
     """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one of them.
 
-    The first separation divides early from later; without a separation, half the run does.
+    The first separation divides early from later; without one, the time from which the motion has settled does.
     """
 
     early: Mask
@@ -31,7 +31,7 @@ class Stages(NamedTuple):
     divided_by_separation: bool
 
 
-def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end: float) -> Stages:
+def stages(time: Array, phase: NDArray[np.int8], first_separation: float, settled_since: float) -> Stages:
     """Divide a run into the stages that the paper distinguishes by colour.
 
     Parameters
@@ -39,10 +39,10 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, t_end:
     time : s, shape (n,)
     phase : shape (n,), index into `disc_model.data.variables.PHASES`
     first_separation : s, nan if there was none
-    t_end : s, length of the run
+    settled_since : s, nan if it is not shown that the motion has settled: then all samples in contact are early
     """
     divided = math.isfinite(first_separation)
-    before = np.asarray(time < (first_separation if divided else t_end / 2))
+    before = np.asarray(~(time >= (first_separation if divided else settled_since)))
     apart = np.asarray(phase == SEPARATION)
     return Stages(before & ~apart, ~before & ~apart, apart, divided)
 

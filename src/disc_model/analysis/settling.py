@@ -62,7 +62,7 @@ class Settling(NamedTuple):
         return f"{self.answer}{rate}, the record shows {self.least:.2g}/s or more"
 
 
-def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST) -> Settling:
+def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still: float = STILL) -> Settling:
     """Decide by the drift of mean, spread and number of samples among windows, over all of a record or its later part.
 
     Parameters
@@ -70,23 +70,25 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST) -> Se
     time : s, shape (n,), ascending: of events, of turns, or of bins
     values : shape (n,), of the motion at these times
     slowest : 1/s, least rate that matters
+    still : least width to which changes are relative, over the mean; 1 for values that are widths themselves
     """
     t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if not t.size or not np.isfinite(x).all():
         return Settling()
+
     starts = np.searchsorted(t, np.linspace(t[0], t[-1], PARTS, endpoint=False))
-    found = [_drift(t[i:], x[i:], slowest) for i in starts]
+    found = [_drift(t[i:], x[i:], slowest, still) for i in starts]
     return next((one for one in found if one.answer is Settled.SETTLED), found[0])
 
 
-def _drift(t: Array, x: Array, slowest: float) -> Settling:
+def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     """The answer of one record."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
     parts = np.split(x, np.searchsorted(t, edges[1:-1]))
     if min(part.size for part in parts) < FEWEST:
         return Settling()
     means, spreads, counts = np.array([(part.mean(), part.std(), part.size) for part in parts]).T
-    width = max(2 * spreads.max(), STILL * float(np.abs(means).max()), np.finfo(float).tiny)
+    width = max(2 * spreads.max(), still * float(np.abs(means).max()), np.finfo(float).tiny)
     moments = np.array([means / width, 2 * spreads / width, counts / counts.mean()])
     middle = (edges[1:] + edges[:-1]) / 2 - (t[0] + t[-1]) / 2
     slopes = moments @ middle / (middle @ middle)

@@ -15,6 +15,7 @@ from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import CLOSES, FEWEST, Motion, motion_of, stick_disappears
+from disc_model.analysis.settling import Settled, Settling, settling
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -27,8 +28,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 STRETCHES, STRETCH = 3, 20.0
-"""A motion is steady if its ranges of contact force and disc hardly change: over the last three stretches of 20 s they
-differ by at most 1 % of the widest. Growth or decay by 3e-4/s or more fails."""
+"""Number and length of the last stretches of a case, s."""
+STEADY = 3e-4
+"""1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.settling`."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
 CHANGED = 1.001
@@ -196,10 +198,20 @@ class CaseView:
         """Widths over the last two quarters of the time after the first separation."""
         return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
 
-    def drift(self) -> float:
-        """Variation of the ranges of contact force and disc among the last stretches, as a fraction of the widest."""
-        found = [self.last_widths(name, STRETCH, STRETCHES) for name in ("P", "w_point")]
-        return max((max(widths) - min(widths)) / max(widths) if max(widths) > 0 else 0.0 for widths in found)
+    def settling(self) -> Settling:
+        """Whether the ranges of contact force and disc have settled, by the history's bins but the last, which is cut.
+
+        The last stretches are looked at once more, since a change that has just begun hardly shows in a long record.
+        """
+        whole = self.history.isel(time=slice(None, -1))
+        late = whole.sel(time=slice(self["time_reached"] - STRETCHES * STRETCH, None))
+        whole_and_late = [
+            settling(part["time"].values, (part[f"{name}_max"] - part[f"{name}_min"]).values, STEADY, still=1.0)
+            for part in (whole, late)
+            for name in ("P", "w_point")
+        ]
+        moving = [each for each in whole_and_late[2:] if each.answer is Settled.CHANGING]
+        return min(moving or whole_and_late[:2], key=lambda each: [*Settled].index(each.answer))
 
     @cached_property
     def history(self) -> xr.Dataset:

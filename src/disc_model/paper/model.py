@@ -18,11 +18,11 @@ import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
 
-from disc_model.analysis.classify import SETTLED
+from disc_model.analysis.settling import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Part, Sentences
 from disc_model.errors import DiscModelError
-from disc_model.paper.measures import STRETCH, Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
+from disc_model.paper.measures import Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
 from disc_model.parameters import Parameters
 
 HOLDS = "holds"
@@ -308,15 +308,11 @@ def _without(missing: Missing) -> Finding:
 
 def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
     """The finding, with the time at which each case became steady, if any; undecided if one did not."""
-    drifts = {f"{case.name} at {case['time_reached']:g} s": case.drift() for case in cases}
-    moving = "; ".join(
-        f"case {at}: ranges of successive {STRETCH:g} s differ by {100 * drift:.2g} %"
-        for at, drift in drifts.items()
-        if not drift <= SETTLED
-    )
+    ends = {f"{case.name} at {case['time_reached']:g} s": case.settling() for case in cases}
+    moving = "; ".join(f"case {end}: {found}" for end, found in ends.items() if found.answer is not Settled.SETTLED)
     if moving:
         return Finding(found.ours, UNDECIDED, f"not yet steady: {moving}")
-    return replace(found, ours=f"{found.ours} (steady: {', '.join(drifts)})") if drifts else found
+    return replace(found, ours=f"{found.ours} (steady: {', '.join(ends)})") if ends else found
 
 
 def _named(cases: Mapping[str, CaseView], names: Names) -> list[CaseView]:

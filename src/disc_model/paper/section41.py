@@ -10,7 +10,7 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import closure, irregularity
 from disc_model.analysis.poincare import distinct_points
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import energy, measures
 from disc_model.paper.measures import Absent, CaseView, is_kind, pairs
 from disc_model.paper.model import Answer
@@ -232,11 +232,11 @@ def slip_condition(*cases: CaseView) -> Answer:
 
 def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
     """Check a grid of preloads and speeds, not only the paper's points."""
-    points = study[["stick_fraction", "settling_time"]].stack(point=("N", "Omega"))
+    points = study[["stick_fraction", "settled"]].stack(point=("N", "Omega"))
     if np.isnan(points["stick_fraction"]).any():
         raise Missing("study bonded has points that failed")
-    moves = np.isnan(points["settling_time"])
-    settled, moving = (points["stick_fraction"].where(at, drop=True) for at in (~moves, moves))
+    still = points["settled"].copy(data=flag_names(points["settled"]) == "settled")
+    settled, moving = (points["stick_fraction"].where(there, drop=True) for there in (still, ~still))
     return Answer(
         None if moving.size else float(settled.min()) > share,
         "moving",

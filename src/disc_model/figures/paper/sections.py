@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.analysis.classify import closure
 from disc_model.analysis.poincare import stages
+from disc_model.analysis.settling import settling
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES
@@ -26,7 +27,7 @@ MARKS: dict[str, dict[str, Any]] = {
 }
 """Symbol by stage: told apart by shape as well as by colour."""
 BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
-BY_HALVES = {"early": "first half", "later": "second half", "separated": "separated"}
+BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separated": "separated"}
 
 
 def sections(case: xr.DataTree, *others: xr.DataTree, window: str = "poincare") -> Figure:
@@ -36,8 +37,9 @@ def sections(case: xr.DataTree, *others: xr.DataTree, window: str = "poincare") 
     """
     figure, [slider, disc] = panels(PAGE, 2.75, 1, 2)
     samples = dataset.samples(case, window, at_least=1)
-    first, end = float(case["first_separation"]), float(case["time_reached"])
-    found = stages(samples["time"].values, samples["phase"].values, first, end)
+    first, time = float(case["first_separation"]), samples["time"].values
+    since = np.max([settling(time, samples[name].values).since for name in ("psi", "w_point")])
+    found = stages(time, samples["phase"].values, first, float(since))
     drawing.letters((slider, disc))
     for ax, name in ((slider, "psi"), (disc, "w_point")):
         room = [samples, *(dataset.samples(other, window, at_least=1) for other in others if ax is slider)]
@@ -51,7 +53,7 @@ def sections(case: xr.DataTree, *others: xr.DataTree, window: str = "poincare") 
             there = getattr(found, stage)
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
             ax.scatter(*(values[there] for values in at), **look)
-    names = BY_SEPARATION if found.divided_by_separation else BY_HALVES
+    names = BY_SEPARATION if found.divided_by_separation else BY_SETTLING
     names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
     handles = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
