@@ -14,7 +14,6 @@ import yaml
 
 import disc_model as dm
 from disc_model import mode_choice, truncation
-from disc_model.cli.case import parameters_of
 from disc_model.disc import disc_table
 from disc_model.flexibility import contact_compliance
 from disc_model.plate import mode_arrays, mode_shapes
@@ -191,23 +190,6 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             dm.simulate(p, 1e-3)
             dm.coupled_natural_frequencies(p)
     assert discs > 10
-
-
-def test_the_command_line_says_which_column_is_wrong(tmp_path: Path) -> None:
-    """It dropped which one it is."""
-    (tmp_path / "disc.csv").write_text("diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,x,3\n")
-    faults: list[str] = []
-    parameters_of({"N": "1", "Omega": "1", "disc": str(tmp_path / "disc.csv")}, faults)
-    assert "frequency_Hz='x': must be a number (mode 1)" in faults[0]
-
-
-def test_a_cell_of_the_last_shape_is_named(tmp_path: Path) -> None:
-    """The search for its place ended behind the table, in an IndexError."""
-    (tmp_path / "disc.csv").write_text(
-        "diameters,frequency_Hz,amplitude_per_sqrt_kg,shape_at_0.05_m,shape_at_0.1_m\n1,500,2,1,x\n"
-    )
-    with pytest.raises(dm.ParameterError, match=r"^disc\.csv\.shape_at_0\.1_m='x': must be a number \(mode 1\)$"):
-        dm.read_disc(tmp_path / "disc.csv")
 
 
 @pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])

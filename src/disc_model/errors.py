@@ -7,7 +7,7 @@ import enum
 import logging
 import math
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
@@ -209,29 +209,13 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
-    """Path of a fault in the input; pydantic's place also has names of a union's branches, which the input lacks."""
-    place: tuple[Any, ...] = item["loc"]
-    value, absent = item["input"], ()
-    if item["type"] == "missing":
-        place, absent = place[:-1], place[-1:]
-    elif place[-1:] == ("[key]",) and place[-2:-1] == (value,):  # the key itself is at fault
-        return tuple(map(str, place[:-1]))
-    found = list(_readings(place, raw))
-    path = next((path for path, end in found if end is value), found[0][0] if found else place)
-    return tuple(map(str, (*path, *absent)))
-
-
-def _readings(place: Sequence[Any], here: Any) -> Iterator[tuple[tuple[Any, ...], Any]]:
-    """Paths through the input along `place`, and the values at their ends; any step may be skipped."""
-    if not place:
-        yield (), here
-        return
-    step, rest = place[0], place[1:]
-    listed = range(len(here)) if isinstance(here, list | tuple) else ()
-    if step in (here if isinstance(here, Mapping) else listed):
-        for path, end in _readings(rest, here[step]):
-            yield (step, *path), end
-    yield from _readings(rest, here)
+    """Path of a fault in the input: the steps of pydantic's path that the input has, so not a union's branches."""
+    path, here = list[str](), raw
+    for step in item["loc"]:
+        if step in (here if isinstance(here, Mapping) else range(len(here)) if isinstance(here, list | tuple) else ()):
+            path.append(str(step))
+            here = here[step]
+    return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
 
 
 # ----------------------------------------------------------------------------------------------------
