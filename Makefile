@@ -130,7 +130,7 @@ lint: env
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/mypy --explicit-package-bases docs/truncation_passages.py docs/write_benchmark_pages.py
+	$(BIN)/mypy --explicit-package-bases docs/write_benchmark_pages.py
 	$(BIN)/lint-imports
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/snakemake --lint

@@ -1,22 +1,22 @@
 """Write what README and docs say about speed and the number of modes, from the datasets of one run of the benchmark.
 
 The numbers of the run are stored as ``docs/benchmark.json`` and ``docs/contact_truncation.json``. All passages are
-written from these files, so that one run refreshes every number, and a test detects outdated pages. What was not
-measured is left as it was.
+written from these files, by ``benchmark_passages.jinja``, so that one run refreshes every number, and a test detects
+outdated pages. What was not measured is left as it was.
 """
 
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+import jinja2
 import numpy as np
 import pandas as pd
 import xarray as xr
 from docs.make_gallery import shrink
-from docs.truncation_passages import TEXTS, as_markdown
 
 from disc_model.benchmarks.answers import in_words
 from disc_model.benchmarks.methods import METHODS
@@ -24,9 +24,8 @@ from disc_model.benchmarks.questions import QUESTIONS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.benchmarks.work_precision import DEFAULT, at_default, cost_at, headline, measured_points
-from disc_model.data.dataset import load
+from disc_model.data.dataset import load, markdown_table
 from disc_model.errors import DiscModelError, script
-from docs import truncation_passages
 
 SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
@@ -43,7 +42,51 @@ Table = dict[str, dict[Any, Any]]
 """Cells by the names of line and column."""
 
 
-def summary(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
+class Column(NamedTuple):
+    """A quantity of the tables.
+
+    title : of a row; costs have none
+    head : of a column
+    tolerance : relative, within which models agree: 1 % or better for the motion in contact, and 10 % for values from
+        ten seconds of an irregular motion
+    scale, digits : for display
+    """
+
+    title: str
+    head: str
+    tolerance: float
+    scale: float
+    digits: int
+
+    def shown(self, value: float) -> str:
+        """A value as text; a dash if missing."""
+        return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
+
+
+ALL = {
+    "lowest_coupled": Column("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
+    "growth_rate": Column("growth rate", "growth, 1/s", 1e-2, 1.0, 3),
+    "first_separation": Column("first separation", "first separation, s", 1e-2, 1.0, 5),
+    "separations": Column("rate of separations", "separations per s", 1e-1, 1.0, 3),
+    "separated_share": Column("time in separation", "time in separation", 1e-1, 1.0, 2),
+    "u_range": Column("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
+    "force_max_separating": Column("largest force", "largest force, N", 1e-1, 1.0, 3),
+    "cost": Column("", "cost in contact, ms/s", math.nan, 1e3, 2),
+    "cost_separating": Column("", "cost after it, ms/s", math.nan, 1e3, 2),
+}
+TABLED = {name: column for name, column in ALL.items() if column.title}
+LATE = ("separations", "separated_share", "u_range", "force_max_separating")
+"""Quantities after the first separation."""
+FEWEST = 3
+"""Number of models that must agree: one, and two larger ones."""
+NOT = "**not**"
+
+
+# ----------------------------------------------------------------------------------------------------
+# Numbers of a run
+
+
+def speed_numbers(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
     """Numbers of a run for the pages; ``as_avx2`` is of kernels compiled for a processor with AVX2 only.
 
     Raises
@@ -122,35 +165,69 @@ def _answers(found: pd.DataFrame) -> Table:
     return table
 
 
+def mode_numbers(study: xr.Dataset) -> dict[str, Any]:
+    """Numbers of a run for the pages: a row for each case, contact and model, None where there is no value."""
+    frame = study[["modes", *ALL]].to_dataframe(dim_order=["case", "contact", "model"])
+    rounded = frame.map(lambda value: float(f"{value:.5g}")).astype(object)
+    return {
+        "machine": study.attrs["machine"],
+        "horizon": float(study.attrs["horizon"]),
+        "most_growth": float(study.attrs["most_growth"]),
+        "late": json.loads(study.attrs["late"]),
+        "values": rounded.where(frame.notna(), None).reset_index().to_dict("split", index=False),
+    }
+
+
+def settled(values: Sequence[float | None], tolerance: float) -> int | None:
+    """The first model from which on all agree with the largest within a relative tolerance, or like it have no value.
+
+    Parameters
+    ----------
+    values : by size of the model, None or nan where a model has no such quantity
+
+    Returns
+    -------
+    int or None
+        Its index in the list; None if it would not have two larger ones.
+    """
+    line = np.array(values, float)
+    off = np.flatnonzero(~np.isclose(line, line[-1], rtol=tolerance, atol=0.0, equal_nan=True))
+    first = int(off[-1]) + 1 if off.size else 0
+    return first if len(line) - first >= FEWEST else None
+
+
 # ----------------------------------------------------------------------------------------------------
 # Passages
 
 
-def passages(run: Mapping[str, Any]) -> dict[str, str]:
-    """Texts by the name that pages refer to."""
-    costs, answers = run["costs"], run["answers"]
-    first = answers["series (this package)"]["first_separation"]
-    cycle = answers["series, from the cycle itself"]["growth_rate"]
-    heads = [*(f"({own['letter']}), times" for own in run["own"]), "(d), ms"]
-    asked = {
-        name: f"{own.title}, to {_within(own.enough, own.units)}"
-        for name, own in QUESTIONS.items()
+def stored_passages(docs: Path) -> dict[str, str]:
+    """All passages of the stored run, by the name that pages refer to."""
+    return passages(*(json.loads((docs / f"{name}.json").read_text(encoding="utf-8")) for name in STORED))
+
+
+def passages(speed: Mapping[str, Any], modes: Mapping[str, Any]) -> dict[str, str]:
+    """Texts by name, from `speed_numbers` and `mode_numbers`."""
+    answers = speed["answers"]
+    heads = [*(f"({row['letter']}), times" for row in speed["own"]), "(d), ms"]
+    titles = {
+        name: f"{question.title}, to {_within(question.enough, question.units)}"
+        for name, question in QUESTIONS.items()
         if any(name in line for line in answers.values())
     }
-    known = {name: run[name] for name in ("machine", "own", "narrow", "narrowly", "glue", "call")}
-    return {
-        "machine": run["machine"],
-        "first_separation": f"{1e3 * first['seconds']:.0f} ms with `{first['at']}`",
-        "cycle": f"{1e3 * cycle['seconds']:.2g} ms",
-        "speed": TEXTS["speed"].fill(**known, errors=run["own"], table=_printed(costs, {head: head for head in heads})),
-        "answers": f"\n\n{_printed(answers, asked)}\n",
+    values = _convergence(modes) | {
+        "speed": speed,
+        "modes": modes,
+        "first": answers["series (this package)"]["first_separation"],
+        "cycle_growth": answers["series, from the cycle itself"]["growth_rate"],
+        "costs_table": _printed(speed["costs"], {head: head for head in heads}),
+        "answers_table": _printed(answers, titles),
     }
-
-
-def stored_passages(docs: Path) -> dict[str, str]:
-    """All passages of the stored run, those on the number of modes among them."""
-    speed, modes = (json.loads((docs / f"{name}.json").read_text(encoding="utf-8")) for name in STORED)
-    return passages(speed) | truncation_passages.passages(modes)
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent), undefined=jinja2.StrictUndefined, autoescape=False
+    )
+    environment.filters["each"] = lambda rows, text, between=" and ": between.join(text.format(**row) for row in rows)
+    template = environment.get_template("benchmark_passages.jinja")
+    return {name: "".join(block(template.new_context(values))) for name, block in template.blocks.items()}
 
 
 def _within(enough: float, units: str) -> str:
@@ -179,6 +256,74 @@ def _cell(found: Any) -> str:
     if "seconds" not in found:
         return wrong or "no answer"
     return f"{plain(found['seconds'])} s ({'; '.join(filter(None, (found['at'], wrong)))})"
+
+
+def _convergence(run: Mapping[str, Any]) -> dict[str, Any]:
+    """Tables on the number of modes: of all models, from which on each quantity is settled, and what is not."""
+    study = pd.DataFrame(**run["values"]).set_index(["case", "contact", "model"]).astype(float)
+    tables = [
+        {"title": _upper(str(case)), "table": _of_all_models(part)} for case, part in study.groupby("case", sort=False)
+    ]
+    rows, open_rows = [], []
+    for (case, contact), models in study.groupby(["case", "contact"], sort=False):
+        row = {"case": case, "contact": contact}
+        for name, column in TABLED.items():
+            line = _known(models, name, run["most_growth"])
+            place, last = settled(line.tolist(), column.tolerance), line[-FEWEST:]
+            row[f"{column.head.split(',')[0]}, to {100 * column.tolerance:g} %"] = _from_where(line, place)
+            if place is None:
+                modes = ", ".join(f"{modes:g}" for modes in last.index)
+                open_rows.append((_upper(str(case)), contact, column.title, ", ".join(map(column.shown, last)), modes))
+        rows.append(row)
+    table = pd.DataFrame(rows)
+    undecided = pd.DataFrame(open_rows, columns=("case", "contact", "quantity", "values", "with so many modes"))
+    found = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
+    counts = [{"contact": contact, "settled": part["sum"], "count": part["size"]} for contact, part in found.iterrows()]
+    return {
+        "tables": tables,
+        "settled_table": as_markdown(table),
+        "open_table": as_markdown(undecided),
+        "most": f"{study['modes'].iloc[-1]:g}",
+        "counts": counts,
+    }
+
+
+def _of_all_models(study: pd.DataFrame) -> str:
+    """The table of a case: a row for each model, with rigid and residual values in each cell."""
+    cells = {column.head: study[name].map(column.shown) for name, column in ALL.items()}
+    table = pd.DataFrame(cells).groupby("model", sort=False).agg(" / ".join)
+    table.insert(0, "modes", study["modes"].groupby("model", sort=False).first().astype(int))
+    table.insert(0, "diameters, circles", table.index.str.replace(",", ", "))
+    return as_markdown(table)
+
+
+def _known(models: pd.DataFrame, name: str, most_growth: float) -> "pd.Series[float]":
+    """A quantity by the number of modes, without models for which it was not looked for.
+
+    These have too many modes for a growth rate, or lose contact and could then not be followed.
+    """
+    line = models.set_index("modes")
+    if name == "growth_rate":
+        return line[name][line.index <= most_growth]
+    return line[name][line[name].notna() | line["first_separation"].isna() | (name not in LATE)]
+
+
+def _from_where(line: "pd.Series[float]", place: int | None) -> str:
+    if place is None:
+        return NOT
+    where = f"from {line.index[place]:g}"
+    if not math.isnan(line.iloc[place]):
+        return where
+    return f"none {where}" if place else "none"
+
+
+def _upper(case: str) -> str:
+    return case[:1].upper() + case[1:]
+
+
+def as_markdown(frame: pd.DataFrame) -> str:
+    """A table in Markdown."""
+    return "\n".join(markdown_table(frame.columns, frame.itertuples(index=False)))
 
 
 def fill(text: str, known: Mapping[str, str]) -> str:
@@ -216,10 +361,10 @@ def main(bench: str = "results/bench", root: str = "") -> None:
         raise DiscModelError(f"{bench} holds no measurements: make bench")
     docs = top / "docs"
     if there.keys() >= SPEED:
-        run = summary(there["work_precision"], there["work_precision_avx2"], there["answers"])
+        run = speed_numbers(there["work_precision"], there["work_precision_avx2"], there["answers"])
         _store(run, docs / "benchmark.json")
     if "contact_truncation" in there:
-        _store(truncation_passages.summary(there["contact_truncation"]), docs / "contact_truncation.json")
+        _store(mode_numbers(there["contact_truncation"]), docs / "contact_truncation.json")
     known = stored_passages(docs)
     for page in (top / name for name in PAGES):
         page.write_text(fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")

@@ -4,6 +4,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -11,6 +12,7 @@ from disc_model.errors import DiscModelError
 from docs import write_benchmark_pages as pages
 
 ROOT = Path(__file__).parents[2]
+SPEED, MODES = (json.loads((ROOT / "docs" / f"{name}.json").read_text(encoding="utf-8")) for name in pages.STORED)
 
 
 def test_every_number_on_speed_and_modes_is_of_the_one_stored_run() -> None:
@@ -23,40 +25,6 @@ def test_every_number_on_speed_and_modes_is_of_the_one_stored_run() -> None:
     assert named == known.keys()
 
 
-def test_what_a_run_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
-    run = pages.summary(dataset, dataset, priced)
-    assert run["machine"] == dataset.attrs["machine"]
-    # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
-    assert run["own"] == [{"letter": "a", "ms": pytest.approx(1.0), "error": pytest.approx(5e-11)}]
-    assert run["answers"]["late"]["first_separation"] == {"seconds": 2.0, "at": "tol=0.01", "wrong": [1.0, 0.3]}
-    assert json.loads(json.dumps(run)) == run
-
-
-def test_heyokas_python_and_the_engine_as_for_avx2_are_told(dataset: xr.Dataset, priced: xr.Dataset) -> None:
-    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
-    heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
-    fast = heyoka.copy(deep=True)
-    fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
-    run = pages.summary(fast, heyoka, priced)
-    assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
-    assert run["own"][0]["ms"] == pytest.approx(0.5)
-    assert run["narrow"][0]["ms"] == pytest.approx(1.0)
-    assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
-    price = {"seconds": 0.018, "at": "tol=1e-4", "wrong": []}
-    run["answers"]["series (this package)"] = {"first_separation": price}
-    run["answers"]["series, from the cycle itself"]["growth_rate"] = price
-    text = "".join(pages.passages(run).values())
-    assert "| heyoka | 630 | - |" in text
-    assert "| series, modes, rigid contact | 4, 8 | - | - |" in text
-    assert "Python restarts heyoka; this accounts for 25 % for" in text
-    assert "only, the package takes 1 ms for (a). heyoka always" in text
-
-
-def test_one_run_is_on_one_machine(dataset: xr.Dataset, priced: xr.Dataset) -> None:
-    with pytest.raises(DiscModelError, match="another machine"):
-        pages.summary(dataset, dataset, priced.assign_attrs(machine="another machine"))
-
-
 def test_a_page_is_filled_by_name() -> None:
     known = {"machine": "this one", "speed": "fast"}
     text = "On <!-- bench machine -->an old one<!-- end -->: <!-- bench speed -->\nslow<!-- end -->."
@@ -65,3 +33,98 @@ def test_a_page_is_filled_by_name() -> None:
     assert pages.fill(filled, known) == filled
     with pytest.raises(DiscModelError, match=r"no passage of the benchmark is called 'price'"):
         pages.fill("<!-- bench price --><!-- end -->", known)
+
+
+def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
+    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
+    heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
+    fast = heyoka.copy(deep=True)
+    fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
+    run = pages.speed_numbers(fast, heyoka, priced)
+    assert json.loads(json.dumps(run)) == run
+    # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
+    assert run["own"] == [{"letter": "a", "ms": pytest.approx(0.5), "error": pytest.approx(5e-11)}]
+    assert run["narrow"][0]["ms"] == pytest.approx(1.0)
+    assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
+    assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
+    assert run["answers"]["late"]["first_separation"] == {"seconds": 2.0, "at": "tol=0.01", "wrong": [1.0, 0.3]}
+    price = {"seconds": 0.018, "at": "tol=1e-4", "wrong": []}
+    run["answers"]["series (this package)"] = {"first_separation": price}
+    run["answers"]["series, from the cycle itself"]["growth_rate"] = price
+    text = "".join(pages.passages(run, MODES).values())
+    assert "| heyoka | 630 | - |" in text
+    assert "| series, modes, rigid contact | 4, 8 | - | - |" in text
+    assert "Python restarts heyoka; this accounts for 25 % for" in text
+    assert "only, the package takes 1 ms for (a). heyoka always" in text
+    with pytest.raises(DiscModelError, match="another machine"):
+        pages.speed_numbers(dataset, dataset, priced.assign_attrs(machine="another machine"))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Numbers of modes
+
+
+@pytest.fixture
+def study() -> xr.Dataset:
+    """A case whose residual values have settled from nine modes on, while rigid ones go on growing."""
+    rigid, residual = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2.0, 2.001, 2.0, 2.0])
+    dims = ("case", "contact", "model")
+    data = {name: (dims, np.array([[rigid, residual]])) for name in pages.ALL}
+    data["modes"] = (dims, np.array([[[1.0, 9.0, 17.0, 34.0, 165.0]] * 2]))
+    data["growth_rate"][1][..., -1] = np.nan  # too many modes
+    return xr.Dataset(
+        data,
+        {"case": ["orthonormal, N=1"], "contact": ["rigid", "residual"], "model": ["0,0", "4,0", "8,0", "8,1", "16,4"]},
+        {"machine": "a machine", "late": "[20.0, 10.0]", "most_growth": 80, "horizon": 200.0},
+    )
+
+
+@pytest.mark.parametrize(
+    ("values", "first"),
+    [
+        ([1.0, 2.0, 2.01, 2.0, 2.0], 1),
+        ([2.0, 2.0, 2.5, 2.0, 2.0], None),  # two that agree are too few
+        ([2.0, 2.5, 2.0, 2.0, 2.0], 2),  # that the first agrees too is chance
+        ([1.0, 2.0, None, None, None], 2),  # settled to none
+        ([2.0, 2.0, 2.0, 2.0, None], None),
+        ([-2.0, -2.0, -2.01], 0),
+    ],
+)
+def test_what_has_settled_agrees_with_two_larger_models(values: list[float | None], first: int | None) -> None:
+    assert pages.settled(values, 0.01) == first
+
+
+def test_a_run_on_modes_comes_to_words(study: xr.Dataset) -> None:
+    run = pages.mode_numbers(study)
+    assert json.loads(json.dumps(run)) == run
+    known = pages.passages(SPEED, run)
+    rigid, residual, _, counted = known["truncation_settled"].strip().splitlines()[2:]
+    assert rigid.startswith("| orthonormal, N=1 | rigid | **not** |")
+    assert residual.count("| from 9 ") == 7
+    counts = "0 of 7 quantities with rigid contact, 7 of 7 quantities with residual contact"
+    assert counted == f"Converged within 165 modes: {counts}."
+    moving = known["truncation_open"]
+    assert "| Orthonormal, N=1 | rigid | lowest coupled frequency | 3, 4, 5 | 17, 34, 165 |" in moving
+    assert "| growth rate | 2, 3, 4 | 9, 17, 34 |" in moving  # with 165 it was not looked for
+    assert "| range of the slider's height | 3000, 4000, 5000 |" in moving  # mm
+    assert "| residual |" not in moving
+    # tables show both contacts in a cell
+    tables = known["truncation_tables"]
+    assert "| 4, 0 | 9 | 2 / 2 | 2 / 2 | 2 / 2 |" in tables
+    assert "| 16, 4 | 165 | 5 / 2 | - / - |" in tables
+    assert "within 200 s" in tables
+    assert "20 to 30 s after the first separation" in tables
+
+
+def test_a_motion_that_could_not_be_followed_says_nothing(study: xr.Dataset) -> None:
+    """It stands as a dash in the tables, and what has settled is judged without it."""
+
+    def moving() -> str:
+        return pages.passages(SPEED, pages.mode_numbers(study))["truncation_open"]
+
+    study["separations"][0, :, 3] = np.nan
+    assert "| rate of separations | 2, 3, 5 | 9, 17, 165 |" in moving()
+    assert "| residual |" not in moving()
+    study["first_separation"][0, :, 3:] = np.nan  # but none is what it is
+    study["separations"][0, :, 3:] = np.nan
+    assert "| rate of separations | 3, -, - | 17, 34, 165 |" in moving()
