@@ -40,6 +40,10 @@ def test_each_method_names_the_function_that_solves() -> None:
     for method in METHODS.values():
         assert callable(pkgutil.resolve_name(f"{methods.__name__}.{method.function}"))
     assert METHODS["heyoka"].economical().arguments == ("compact",)
+    # larger tolerances are computed as 1.25e-7, and a point that repeats another shows nothing
+    series = [method for name, method in METHODS.items() if name.startswith("series")]
+    assert max(max(values) for method in series for values in method.settings.values()) <= 1.25e-7
+    assert max(METHODS["series"].map_values) <= 1.25e-7
     missing = METHODS["CVODE"].model_copy(update={"requires": ("no_such_package",)})
     with pytest.raises(MethodUnavailable, match="no_such_package: install the extra `bench`"):
         missing.solve(problem("stick_slip"), 1e-6)
