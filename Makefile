@@ -18,7 +18,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
+.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -130,7 +130,7 @@ lint: env
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/mypy --explicit-package-bases docs/write_benchmark_pages.py
+	$(BIN)/mypy --explicit-package-bases docs/collect_numbers.py docs/write_benchmark_pages.py
 	$(BIN)/lint-imports
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/snakemake --lint
@@ -147,6 +147,10 @@ $(VENV)/.bench: requirements-bench.lock $(STAMP)
 # Speed against accuracy, where methods fail, truncation: measured here and now, on one core at a time.
 bench: $(VENV)/.bench
 	$(BIN)/snakemake -j1 bench
+
+# The numbers that README, docs and captions take from results (docs/statements.yaml), after `make reproduce`.
+numbers: env
+	$(BIN)/python -m docs.collect_numbers
 
 # What README and docs say about speed, and their pictures of it, from that run: all from one, with its machine's name.
 bench-pages: env

@@ -1,0 +1,415 @@
+"""Numbers in sentences of README, docs and captions that come from results: `make numbers`.
+
+``docs/statements.yaml`` holds the sentences, each with an expression in the place of a number. The values of the
+expressions are stored as ``docs/numbers.json``, so that tests can compare the pages with them where there are no
+results. An expression is made of the methods of `Sources`. This script evaluates all of them and corrects the pages.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+from string import Formatter, Template
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+import yaml
+
+import disc_model as dm
+from disc_model.analysis.sobol import share
+from disc_model.data.dataset import MissingFile, load
+from disc_model.data.variables import flag_names
+from disc_model.errors import script
+from disc_model.plate import mode_arrays
+
+ROOT = Path(__file__).parents[1]
+STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encoding="utf-8"))
+PAGES = ["README.md", "docs/**/*.md", "config/**/*.yaml", "src/disc_model/figures/paper/catalogue.yaml"]
+"""Texts in which statements are looked for."""
+NUMBER = r"[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?"
+COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
+NOISE = 1e-6
+"""Relative difference to which results of two processors agree (docs/accuracy.md)."""
+Value = float | str
+
+
+# ----------------------------------------------------------------------------------------------------
+# Sentences
+
+
+def shown(value: Value, spec: str) -> str:
+    """A value as a page shows it; ``w`` as `spec` stands for a count in words, ``s`` for text."""
+    if isinstance(value, str):
+        return value
+    return COUNTS[round(value)] if spec == "w" else format(value, spec or ".0f").replace("e-0", "e-")
+
+
+def agrees(text: str, value: Value, spec: str) -> bool:
+    """Whether `text` shows the value; where noise decides how the last digit is rounded, both ways are right."""
+    values = [value] if isinstance(value, str) else [value * (1 - NOISE), value * (1 + NOISE)]
+    return text.lower() in {shown(one, spec).lower() for one in values}
+
+
+class Statement(NamedTuple):
+    """A sentence: expressions and formats of its numbers, and the pattern that finds it on a page, links or not."""
+
+    text: str
+    page: str
+    fields: list[tuple[str, str]]
+    pattern: re.Pattern[str]
+
+    @classmethod
+    def parse(cls, text: str, page: str = "") -> Statement:
+        link, fields, pattern = r"(?:\]\([^)]*\))?", [], ""
+        for literal, expression, spec, _ in Formatter().parse(text):
+            for token in re.findall(r"\s+|\w+|[^\s\w]", literal):
+                pattern += rf"{link}\s+\[?" if token.isspace() else link * (not token[0].isalnum()) + re.escape(token)
+            if expression is not None:
+                fields.append((expression, spec or ""))
+                pattern += r"([^|\n]*?)" if spec == "s" else rf"({NUMBER}|\w+)"
+        return cls(text, page, fields, re.compile(pattern))
+
+
+def statements() -> list[Statement]:
+    """All statements; one with `each` stands for as many as its lists have values."""
+    found = []
+    for entry in STATEMENTS["statements"]:
+        entry = {"text": entry} if isinstance(entry, str) else entry
+        each = entry.get("each", {})
+        for row in zip(*each.values(), strict=True) if each else [()]:
+            names = entry.get("with", {}) | dict(zip(each, row, strict=True))
+            found.append(Statement.parse(Template(entry["text"]).substitute(names), entry.get("page", "")))
+    return found
+
+
+@cache
+def pages() -> dict[str, str]:
+    """Texts in which statements are looked for, by path."""
+    paths = [path for pattern in PAGES for path in sorted(ROOT.glob(pattern)) if "_build" not in path.parts]
+    return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
+
+
+class Fault(NamedTuple):
+    """A number of a page that is not that of a statement: where it stands, and what has to stand there."""
+
+    page: str
+    match: re.Match[str]
+    group: int
+    number: str
+
+
+def faults(statement: Statement, texts: dict[str, str], values: dict[str, Value]) -> tuple[int, list[Fault]]:
+    """How often texts say a statement, and what is wrong in them."""
+    matches = [
+        (page, match)
+        for page, text in texts.items()
+        if page.endswith(statement.page)
+        for match in statement.pattern.finditer(text)
+    ]
+    wrong = [
+        Fault(page, match, i, shown(values[expression], spec))
+        for page, match in matches
+        for i, (expression, spec) in enumerate(statement.fields, 1)
+        if not agrees(match[i], values[expression], spec)
+    ]
+    return len(matches), wrong
+
+
+def corrected(texts: dict[str, str], values: dict[str, Value]) -> dict[str, str]:
+    """Texts with the numbers of all statements."""
+    texts = dict(texts)
+    for statement in statements():
+        for page, match, i, number in reversed(faults(statement, texts, values)[1]):
+            texts[page] = texts[page][: match.start(i)] + number + texts[page][match.end(i) :]
+    return texts
+
+
+def stored() -> dict[str, Value]:
+    """Values of the expressions."""
+    values: dict[str, Value] = json.loads((ROOT / "docs" / "numbers.json").read_text(encoding="utf-8"))
+    return values
+
+
+# ----------------------------------------------------------------------------------------------------
+# Numbers
+
+
+class Sources:
+    """What expressions are made of: results below a folder, pages that are written from results, and the package."""
+
+    def __init__(self, results: Path) -> None:
+        self.results = results
+
+    def value(self, expression: str) -> Value:
+        """Value of an expression; raises `MissingFile` if it needs results that are not there."""
+        known = {name: getattr(self, name) for name in dir(self) if name[0] != "_"} | {"np": np, "dm": dm}
+        value = eval(expression, known)
+        return value if isinstance(value, str) else float(f"{float(value):.9g}")
+
+    # ---- cases and verdicts
+
+    def case(self, name: str) -> xr.DataTree:
+        """A case of the paper."""
+        return _load(self.results / "paper" / "cases" / f"{name}.nc")
+
+    def first_separation(self, name: str) -> float:
+        return float(self.case(name)["first_separation"])
+
+    def verdicts(self, verdict: str) -> int:
+        """Number of the paper's statements with a verdict."""
+        ledger = _ledger(self.results)
+        return int(((ledger["apart"] == "") & (ledger["verdict"] == verdict)).sum())
+
+    def claims(self, apart: bool) -> int:
+        """Number of the paper's statements, or of rows of the ledger that are left out of this number."""
+        from disc_model.paper.ledger import CLAIMS
+
+        return sum(bool(claim.apart) == apart for claim in CLAIMS)
+
+    def evidence(self, claim: str, unit: str = "") -> list[float]:
+        """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
+        text = _ledger(self.results).set_index("id")["ours"][claim]
+        return [_numbers(number)[0] for number in re.findall(rf"{NUMBER}(?= {unit})", text)] if unit else _numbers(text)
+
+    # ---- grid studies
+
+    def grid(self, study: str) -> xr.Dataset:
+        """The dataset of a study, without axes of one value."""
+        return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+
+    def quiet_cycle(self) -> tuple[float, float]:
+        """Least speed of the stable quiet cycle at 385 N, and its fold; it is the cycle of least range at 14 rad/s."""
+        grid = self.grid("branches")
+        speed, stable = grid["value"].values, grid["growth_rate"].values < 0
+        ranges = np.where(stable & (abs(speed - 14) < 0.2), grid["range"].values, np.inf)
+        branch, point = np.unravel_index(ranges.argmin(), ranges.shape)
+        unstable = np.flatnonzero(~stable[branch])
+        ends = unstable[unstable < point].max() + 1, unstable[unstable > point].min() - 1
+        return min(speed[branch, ends]), np.nanmax(speed[branch])
+
+    def least_separating_speed(self) -> float:
+        """Least speed with a stable cycle that separates at 385 N."""
+        grid = self.grid("branches")
+        return float(grid["value"].where((grid["growth_rate"] < 0) & (grid["separations"] > 0)).min())
+
+    def critical_speed(self, N: float, horizon: float = 2000) -> float:
+        return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
+
+    def all_critical_speeds(self, horizon: float) -> np.ndarray:
+        """Critical speeds at all preloads, with published and with orthonormal modes."""
+        studies = [self.grid(name)["critical_speed"] for name in ("critical_speed", "critical_speed_orthonormal")]
+        speeds = np.concatenate([np.ravel(study.sel(horizon=horizon)) for study in studies])
+        return speeds[np.isfinite(speeds)]
+
+    def crossings(self, normalization: str, effect: str = "") -> int:
+        """Number of crossings in the Campbell diagram, all or those with an effect on the cycle's growth rate."""
+        names = flag_names(self.grid("campbell").sel(normalization=normalization)["crossing_effect"])
+        return int((names == effect).sum() if effect else (names != "none").sum())
+
+    def critical_energy(self, Omega: float) -> float:
+        return float(self.grid("basins")["critical_energy"].sel(Omega=Omega))
+
+    def basin(self, Omega: float, *classes: str) -> str:
+        """Share of the 40 starts at 385 N that come to attractors of some classes, with its interval unless it is 0."""
+        fraction = self.grid("basins")["basin_fraction"].sel(Omega=Omega, attractor_class=[*classes]).sum()
+        value, low, high = share(round(40 * float(fraction)), 40)
+        return f"{value:.2f} ({low:.2f} to {high:.2f})" if value else "0"
+
+    def bound(self, Omega: float) -> str:
+        """Critical energy, J; a dash if nothing separates."""
+        energy = self.critical_energy(Omega)
+        return f"{energy:.2g}" if np.isfinite(energy) else "-"
+
+    def attractor(self, Omega: float, name: str) -> float:
+        """Value of the separating attractor of most starts at 385 N."""
+        point = self.grid("basins").sel(Omega=Omega)
+        kinds = flag_names(point["attractor_kind"])
+        return float(point[name][list(kinds).index("separating")])
+
+    def ramp(self, name: str, i: int) -> float:
+        return float(self.grid("ramps")[name][i])
+
+    def onset(self, i: int) -> str:
+        speed = self.ramp("onset_speed", i)
+        return f"{speed:.2f}" if np.isfinite(speed) else "none to 23"
+
+    def delay(self, i: int) -> str:
+        """Time from the fold to the onset on a ramp, s."""
+        delay = (self.ramp("onset_speed", i) - self.quiet_cycle()[1]) / self.ramp("rate", i)
+        return f"{delay:.0f}" if np.isfinite(delay) else "-"
+
+    def uncertain(self, study: str, N: float) -> xr.Dataset:
+        """A point of a study of sensitivity."""
+        grid = self.grid(study)
+        return grid.isel(N_Omega=list(grid["N"].values).index(N))
+
+    def chance(self, study: str, N: float, event: str) -> str:
+        """A probability with its interval."""
+        point = self.uncertain(study, N)
+        value, low, high = (float(point[f"probability_{event}{end}"]) for end in ("", "_low", "_high"))
+        return f"{value:.2f} ({low:.2f} to {high:.2f})"
+
+    def largest_indices(self, study: str, N: float) -> str:
+        """The three parameters with the largest total indices of instability."""
+        indices = self.uncertain(study, N)["sobol_total"].sel(output="instability").to_series().round(2)
+        return ", ".join(f"{name} {index:.2f}" for name, index in indices.nlargest(3).items())
+
+    def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
+        """Probability of instability in thirds of a parameter's range."""
+        from disc_model.figures.sensitivity import probabilities
+
+        return probabilities(self.uncertain(study, N), parameter)[1]
+
+    def largest_change(self, study: str, N: float) -> float:
+        """By how much a parameter changes the probability of instability at most."""
+        names = self.uncertain(study, N)["parameter"].values
+        return max(float(np.ptp(self.thirds(study, N, name))) for name in names)
+
+    # ---- docs/model_sensitivity.md, which `make survival` writes, and other pages
+
+    def survival(self, heading: str, model: str) -> list[float]:
+        """Numbers that were found for a model."""
+        return _numbers(_row("model_sensitivity", f"## {heading}", model)[3])
+
+    def all_survival(self, heading: str, i: int) -> list[float]:
+        """The i-th number that was found for each model."""
+        return [self.survival(heading, model)[i] for model in MODELS]
+
+    def others(self) -> list[float]:
+        """Points without a stable cycle that do not separate, by model."""
+        return [n[1] - n[0] - n[5] for n in (self.survival("Onset", model) for model in MODELS)]
+
+    def stick_shares(self) -> list[float]:
+        """Shares of stick after a separation, %, in cases in which stick does not disappear; two models."""
+        cells = [_row("model_sensitivity", "## Stick vanishes", model)[3] for model in MODELS[:2]]
+        shares = [float(share) for cell in cells for share in re.findall(r"([\d.]+) %", cell)]
+        return [share for share in shares if share > 0.1]
+
+    def models(self, conclusion: str, verdict: str) -> int:
+        """Number of models under which a conclusion has a verdict, or that verdict with a remark."""
+        return sum(
+            cell.strip().startswith(verdict) for cell in _row("model_sensitivity", "## At a glance", conclusion)[3:]
+        )
+
+    def verdict(self, conclusion: str, model: int) -> str:
+        return _row("model_sensitivity", "## At a glance", conclusion)[3 + model].strip()
+
+    def ranges(self, model: str) -> np.ndarray:
+        """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2)."""
+        cell = _row("model_sensitivity", "## Smaller vibration", model)[3]
+        return np.array(re.findall(r"([\d.]+) against ([\d.]+) mm", cell), dtype=float)
+
+    def energy(self) -> np.ndarray:
+        """Evidence on energy by case, mJ per cycle in columns 3 to 6: supplied with separation, without it, taken by
+        damping, by impacts."""
+        return np.reshape(self.evidence("F10e"), (3, 9))
+
+    def ratios(self) -> np.ndarray:
+        """How many times smaller they are with separation, under all models."""
+        ranges = np.concatenate([self.ranges(model) for model in MODELS])
+        return ranges[:, 1] / ranges[:, 0]
+
+    def separating(self, column: int) -> int:
+        """Number of cases on docs/normalisation.md that separate: as published (3), with Eq. (17) (4)."""
+        return sum(bool(re.match(r" [\d.]+ s ", row[column])) for row in normalisation_cases())
+
+    def bilateral_cases(self) -> int:
+        return sum(row[3] == " ignored " for row in normalisation_cases())
+
+    def runs(self) -> int:
+        return len(normalisation_cases())
+
+    def line(self, page: str, heading: str, start: str) -> list[float]:
+        """Numbers in the first row of a table of docs/ that begins as stated, below a heading."""
+        return _numbers("|".join(_row(page, heading, start)[2:]))
+
+    def accuracy(self) -> np.ndarray:
+        """Errors of event times divided by the default tolerance, by case."""
+        text = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8").partition("\n## Event times\n")[2]
+        rows = [line.split("|") for line in text.partition("\n## ")[0].splitlines() if line.startswith("|")][2:]
+        return np.array([float(row[5]) for row in rows])
+
+    # ---- the package
+
+    def coupled_frequency(self, **changed: float) -> float:
+        """Lowest natural frequency of the disc with the slider attached, Hz."""
+        return float(dm.coupled_natural_frequencies(_parameters(**changed))[0] / np.pi / 2)
+
+    def frequencies(self, **changed: float) -> np.ndarray:
+        """Natural frequencies of the disc alone, rad/s, by the number of nodal diameters."""
+        return dm.plate_modes(_parameters(**changed))["omega"].to_numpy()
+
+    def moving_load(self) -> float:
+        """Critical speed of a load that moves round the disc, rad/s."""
+        return float(min(self.frequencies()[1:] / np.arange(1, 5)))
+
+    def amplitude(self, normalization: str) -> float:
+        """Modal amplitude under the slider with one nodal diameter, 1/sqrt(kg)."""
+        return float(dm.plate_modes(_parameters(normalization=normalization))["psi"][1])
+
+    def static_deflection(self, normalization: str) -> float:
+        """At 385 N, m."""
+        return 385 * mode_arrays(_parameters(normalization=normalization)).flexibility
+
+    def growth(self, **changed: float) -> float:
+        return dm.floquet(_parameters(**changed)).growth_rate
+
+    def stick_slip_frequency(self) -> float:
+        return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
+
+
+MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal contact force")
+
+
+def _parameters(**changed: Any) -> dm.Parameters:
+    return dm.Parameters(**({"N": 200, "Omega": 20} | changed))
+
+
+@cache
+def _load(path: Path) -> xr.DataTree:
+    return load(path)
+
+
+@cache
+def _ledger(results: Path) -> pd.DataFrame:
+    path = results / "paper" / "claims.csv"
+    if not path.exists():
+        raise MissingFile(f"{path}: there is no such file")
+    return pd.read_csv(path, keep_default_na=False)
+
+
+def _row(page: str, heading: str, start: str) -> list[str]:
+    """Cells of the first row that begins as stated; the first cell is the second entry."""
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8").partition(f"\n{heading}\n")[2]
+    return next(line for line in text.splitlines() if line.startswith(f"| {start}")).split("|")
+
+
+def normalisation_cases() -> list[list[str]]:
+    """Cells of the rows of docs/normalisation.md that compare cases; the first cell is the second entry."""
+    text = (ROOT / "docs" / "normalisation.md").read_text(encoding="utf-8").partition("\n| Case |")[2]
+    return [line.split("|") for line in text.partition("\n\n")[0].splitlines()[2:]]
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(number.replace(",", "")) for number in re.findall(rf"(?<![A-Za-z\d]){NUMBER}", text)]
+
+
+@script
+def main(results: str = "results") -> None:
+    """Evaluate all expressions, and correct the pages; what needs results that are not there stays as it was."""
+    sources, old, values = Sources(ROOT / results), stored(), {}
+    for expression in sorted({expression for statement in statements() for expression, _ in statement.fields}):
+        try:
+            values[expression] = sources.value(expression)
+        except MissingFile:
+            if expression not in old:
+                raise
+            values[expression] = old[expression]
+    text = json.dumps(values, indent=0, ensure_ascii=False) + "\n"
+    (ROOT / "docs" / "numbers.json").write_text(text, encoding="utf-8")
+    for page, text in corrected(pages(), values).items():
+        (ROOT / page).write_text(text, encoding="utf-8")
