@@ -1,8 +1,11 @@
 """The root finder: no root missed, none invented, the first one taken."""
 
+from fractions import Fraction
+from itertools import pairwise
+
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from disc_model.engine import layout
@@ -41,6 +44,98 @@ def test_first_of_well_separated_roots_is_found(roots: list[float], x_end: float
         assert got == pytest.approx(inside[0], abs=1e-6)
     else:
         assert got == NO_ROOT
+
+
+# ------------------------------------------------------------------------------------ against an exact count
+ROUNDING = Fraction(2, 10**15)
+"""Of the sum of the moduli of all terms: what the module promises."""
+
+
+def value(c: list[Fraction], x: Fraction) -> Fraction:
+    return sum((a * x**i for i, a in enumerate(c)), Fraction())
+
+
+def times(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
+    found = [Fraction()] * (len(c) + len(d) - 1)
+    for i, a in enumerate(c):
+        for j, b in enumerate(d):
+            found[i + j] += a * b
+    return found
+
+
+def remainder(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
+    """Of c over d, without leading zeros."""
+    c = c[:]
+    while len(c) >= len(d):
+        factor = c[-1] / d[-1]
+        for i in range(len(d)):
+            c[len(c) - len(d) + i] -= factor * d[i]
+        while c and c[-1] == 0:
+            c.pop()
+    return c
+
+
+def number_of_roots(c: list[Fraction], x: Fraction) -> int:
+    """Different real roots in (0, x], by Sturm's theorem; none of them at 0."""
+    chain = [c, [i * a for i, a in enumerate(c)][1:]]
+    while len(chain[-1]) > 1 and (rest := remainder(chain[-2], chain[-1])):
+        chain.append([-a for a in rest])
+
+    def changes(x: Fraction) -> int:
+        signs = [v > 0 for v in (value(each, x) for each in chain) if v != 0]
+        return sum(one != two for one, two in pairwise(signs))
+
+    return changes(Fraction()) - changes(x)
+
+
+@st.composite
+def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
+    """A polynomial and the end of a step; roots on halving points, other dyadic places, ends, double, nearly double."""
+    x_end = Fraction(draw(st.sampled_from([0.5, 1.0, 2.0, 3.25]) | st.floats(0.1, 8)))
+    k = draw(st.integers(1, 12))
+    roots = [x_end * draw(st.sampled_from([Fraction(1, 2**k), Fraction(draw(st.integers(0, 2**k)), 2**k)]))]
+    for _ in range(draw(st.integers(0, 3))):
+        shift = Fraction(draw(st.sampled_from([0.0, 2.0 ** -draw(st.integers(5, 45))])))
+        others = [
+            roots[0] * (1 + shift),
+            x_end * draw(st.integers(1, 16)) / 16,
+            x_end * Fraction(draw(st.floats(-2, 2))),
+        ]
+        roots.append(draw(st.sampled_from(others)))
+    c = [Fraction(draw(st.sampled_from([-1, 1])))]
+    for root in roots:
+        c = times(c, [-root, Fraction(1)])
+    if draw(st.booleans()):  # a factor without real roots
+        a, b = (x_end * Fraction(draw(st.floats(0.0, 1.0))) for _ in range(2))
+        c = times(c, [a**2 + b**2 + x_end / 64, -2 * a, Fraction(1)])
+    if c[0] < 0:
+        c = [-a for a in c]
+    return [float(a) for a in c], float(x_end)
+
+
+@given(hidden_roots())
+@example(([1.0, 0.0, -1.0], 2.0))
+@example(([1.0, 0.5, -1.5], 2.0))
+@example(([0.0, -1.0, 1.0], 2.0))
+@example(([0.0, 1.0, -1.0], 2.0))
+# an excursion that is over at the end of the step
+@example((from_roots([2.4523032796565007, 4.131641397443826, 6.296469522248217]).tolist(), 4.9046065593130015))
+def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
+    """Roots on halving points were passed over with whole steps: the end of what was searched read as positive."""
+    coefficients, x_end = drawn
+    got = first(coefficients, x_end)
+    c = [Fraction(a) for a in coefficients]
+    while c[0] == 0:
+        c.pop(0)
+    if c[0] < 0:
+        assert got == 0.0
+        return
+    until = Fraction(x_end if got == NO_ROOT else got)
+    rounding = ROUNDING * sum(abs(a) * Fraction(x_end) ** i for i, a in enumerate(c))
+    assert until > 0
+    assert number_of_roots([c[0] + rounding, *c[1:]], until) == 0
+    if got != NO_ROOT:
+        assert value(c, until) <= rounding
 
 
 def test_powers_beyond_the_order_are_zero_and_leave_what_stands_behind_a_series_out() -> None:

@@ -188,7 +188,7 @@ def test_when_contact_is_lost(switch: str) -> None:
     engine = disturbances.run()
     t = engine.tangent
     saltation.rates(engine.model, engine.state, t.before)
-    rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST)
+    rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, False)
     np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), disturbances.expected(numerator), rtol=1e-8)
 
 

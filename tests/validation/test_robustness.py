@@ -12,7 +12,9 @@ from scipy import linalg
 from disc_model import Execution, Parameters, Record, Result, State, Status, Window, plate_modes, simulate
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
+from disc_model.engine.stepping import LONGEST_STEP
 from disc_model.simulation.api import static_start
+from disc_model.simulation.result import engine_case
 from tests.tally import tried
 
 # phase left -> (kind, phase entered): the table of switches
@@ -292,6 +294,62 @@ def test_without_drive_contact_ends_and_not_stick(kick: float) -> None:
     assert result.status is Status.OK
     assert result.final_state.f == 0
     assert set(result.events.kind) == {"separation", "reattachment"}
+
+
+# ------------------------------------------------------------------------------------ where a step or a run ends
+# whose steps, and whose falls, are powers of two
+NO_DISC = Parameters(N=0.5, Omega=0, k=0, k_p=2.0**18, m=0.25, n_diameters=-1)
+
+
+def over_a_rigid_disc(p: Parameters, **values: float | str) -> State:
+    return static_start(p).replace(phase="separation", **values)
+
+
+@pytest.mark.parametrize("halvings", range(1, 9))
+def test_a_fall_that_ends_on_a_halving_point_of_a_step_is_seen(halvings: int) -> None:
+    """A drop by 1 mm was seen after four times its duration, 15 mm below the disc."""
+    step = LONGEST_STEP * engine_case(NO_DISC).model.unit
+    duration = step / 2**halvings
+    start = over_a_rigid_disc(NO_DISC, u=0.5 * NO_DISC.N / NO_DISC.m * duration**2)
+    events = simulate(NO_DISC, step, initial_state=start, tol=1e-14).events
+    assert events.kind[0] == "reattachment"
+    assert events.time[0] == pytest.approx(duration, rel=1e-15)
+
+
+def test_a_slider_on_the_disc_that_moves_down_meets_it_at_once() -> None:
+    p = NO_DISC.replace(N=0, k=5e4)
+    events = simulate(p, 0.02, initial_state=over_a_rigid_disc(p, u=0.0, u_velocity=-0.1)).events
+    assert (events.kind[0], events.time[0]) == ("reattachment", 0.0)
+
+
+def test_a_flight_is_as_long_as_the_slider_s_spring_makes_it() -> None:
+    """Nothing but u' of the slider then asks for short steps."""
+    p = NO_DISC.replace(k=1e6)
+    rate, static = np.sqrt(p.k / p.m), p.N / p.k
+    events = simulate(p, 1e-3, initial_state=over_a_rigid_disc(p, u=1e-3), tol=1e-12).events
+    # m u'' = -N - k u
+    assert events.time[0] == pytest.approx(np.arccos(static / (1e-3 + static)) / rate, abs=1e-12)
+
+
+def test_a_run_may_end_before_the_time_zero() -> None:
+    p = Parameters(N=200, Omega=20)
+    early, usual = (simulate(p, t + 0.1, initial_state=static_start(p).replace(time=t)).events for t in (-2.0, 0.0))
+    assert list(early.kind) == list(usual.kind)
+    # a clock that reads 2 s has 4e-16 s
+    np.testing.assert_allclose(early.time + 2.0, usual.time, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("late", [1e-15, 1e-12, 1e-9])
+def test_a_run_cut_just_after_its_events_has_the_same_events(late: float) -> None:
+    """The gap was closed to within rounding, and a touchdown and a separation were seen at once."""
+    p, state = beginning("a kick throws the slider up twice")
+    whole = simulate(p, 0.05, initial_state=state).events
+    kinds = []
+    for end in [*(np.unique(whole.time) + late), 0.05]:
+        run = simulate(p, end, initial_state=state)
+        kinds += list(run.events.kind)
+        state = run.final_state
+    assert kinds == list(whole.kind)
 
 
 def test_grazing_contact() -> None:

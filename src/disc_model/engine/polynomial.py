@@ -4,6 +4,11 @@ An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` 
 x = 0, divided out.  A bound settles most steps. The others need the Bernstein form, whose sign changes bound the number
 of roots from above: none means no root, one means exactly one. With more the interval is halved, left half first
 (Descartes' rule, de Casteljau's algorithm).
+
+What is promised: with S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before
+the root returned, or before x_end if there is none; and at that root it is not above 2e-15 S.  Less is rounding:
+whether a polynomial that touches zero has a root is open, and one in x_end may be left to the next step, which starts
+there.
 """
 
 import numpy as np
@@ -188,13 +193,17 @@ def _sum_of(d, n):
 
 @helper
 def _search(c, low, n, x_end, powers, work):
+    while c[low] == 0.0:  # exactly zero at the start: the first other coefficient says which way it leaves
+        low += 1
+        if low > n:
+            return NO_ROOT
+    if c[low] < 0.0:
+        return 0.0
     degree = n - low
     d = work[0]
     for j in range(0, degree + 1, WIDTH):
         store(d, j, mul(load(c, low + j), load(powers, j)))
     end = _sum_of(d, degree)
-    if d[0] <= 0.0:
-        return 0.0 if d[0] < 0.0 or end < 0.0 else NO_ROOT
     # a left half with a non-positive end holds the first root: far cheaper than halving the Bernstein form
     for _ in range(_MOST_HALVINGS):
         for j in range(0, degree + 1, WIDTH):
@@ -210,7 +219,11 @@ def _search(c, low, n, x_end, powers, work):
         return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end)) if end <= 0.0 else NO_ROOT
     _to_bernstein(d, degree, work[1], work[2])
     root = _leftmost(d, degree, work)
-    return NO_ROOT if root == NO_ROOT else x_end * root
+    if root == NO_ROOT:
+        # an end that is not positive has a root before it: here to within rounding in the end itself, as the last
+        # Bernstein coefficient, the same number summed in another order, is not negative
+        return x_end if end <= 0.0 else NO_ROOT
+    return x_end * root
 
 
 @helper

@@ -14,6 +14,10 @@ from .simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import disc_point, event_function, instant
 
+# An event function passed its root before the phase began if it did so earlier than this, in radians of the fastest
+# motion: less is rounding of the time at which a motion was cut.
+PASSED = 1e-9
+
 
 @kernel
 def rates(model, state, out):
@@ -132,12 +136,19 @@ def event_change(model, state, t, x, c, changes):
 
 
 @helper
-def event_times(model, state, t, cause):
-    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate."""
+def event_times(model, state, t, cause, at_once):
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate.
+
+    at_once: the phase had no duration.  If its event function was negative from the start, it ends at that time in
+    neighbouring motions, too.
+    """
     event_gradient(model, state, t, cause)
     rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
+    i, _ = instant(model, state)
+    value = abs(event_function(model, i, cause, state.x[PHASE] == SLIP))
+    by_rate = 0.0 if at_once and value > PASSED * model.unit * abs(rate) else -1.0 / rate
     for c in range(0, t.columns, WIDTH):
-        store(t.tau, c, mul(splat(-1.0 / rate), event_change(model, state, t, t.now, c, c >= t.plain)))
+        store(t.tau, c, mul(splat(by_rate), event_change(model, state, t, t.now, c, c >= t.plain)))
     return rate
 
 

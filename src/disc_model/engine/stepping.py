@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from . import layout, series, transitions
-from .compile import inlined
+from .compile import helper, inlined
 from .dense_output import load_state
 from .polynomial import NO_ROOT, first_root, set_powers
 from .simd import WIDTH, absolute, largest, load, maximum, splat
@@ -137,6 +137,21 @@ def _sooner(s, c, known, n, x_end, cause, later):
     return x, cause
 
 
+@helper
+def _touchdown(model, s, state, order, x_end, x):
+    """Place and cause of a flight's end that was found at ``x``: there, unless rounding of a gap that opens made it.
+
+    A run that was cut just after a separation knows no root there, but the gap, and its rates, are still rounding.
+    """
+    rounding, known = transitions.gap_rounding(model, state), 0
+    while known < 3 and abs(s.switch[known]) <= rounding:
+        known += 1
+    if known == 0:
+        return x, transitions.GAP_CLOSED
+    set_powers(s.powers, x_end, order)
+    return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
+
+
 @inlined
 def first_event(model, s, state, order, x_end):
     """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
@@ -145,7 +160,10 @@ def first_event(model, s, state, order, x_end):
         known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
-        return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
+        x, cause = _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
+        if cause == transitions.GAP_CLOSED and known == 0:
+            return _touchdown(model, s, state, order, x_end, x)
+        return x, cause
     if phase == layout.SLIP:
         x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:

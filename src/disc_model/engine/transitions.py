@@ -87,7 +87,7 @@ def inplane_force_per_radius(model, state):
 
 @inlined
 def _deflection_size(model, state):
-    """Size of w - u on a compliant contact: of the modes' parts of w, which may nearly cancel."""
+    """Size of w - u where both are states: of the modes' parts of w, which may nearly cancel."""
     sizes = splat(0.0)
     for b in range(0, len(model.mode_amplitude), WIDTH):
         sizes = add(sizes, absolute(mul(load(model.mode_amplitude, b), load(state.z, b))))
@@ -95,6 +95,12 @@ def _deflection_size(model, state):
     for j in range(len(model.mode_amplitude0)):
         size += abs(model.mode_amplitude0[j] * state.y[j])
     return size
+
+
+@inlined
+def gap_rounding(model, state):
+    """Rounding error of the gap u - w, and of its rates per radian of the fastest motion."""
+    return ROUNDING * _deflection_size(model, state)
 
 
 @inlined

@@ -108,7 +108,7 @@ def _integrate(model, s, state, t, course):
             x[SPEED] = 0.0
         if tangent:
             rates(model, state, t.before)
-            event_times(model, state, t, cause)
+            event_times(model, state, t, cause, x_end == 0.0)
             shift(t, t.before, 1.0)
             if cause == transitions.GAP_CLOSED and not model.compliant:
                 impact_change(model, state, t)

@@ -82,7 +82,7 @@ def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
 
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the last one unbounded; ramps to the present value do not count."""
-    steady = Piece(0.0, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
+    steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
     if not ramps:
         return (steady,)
     lines = {name: _line(p, ramps, name) for name in RAMPED}

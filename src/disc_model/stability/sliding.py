@@ -46,7 +46,7 @@ class SlidingStatus(StatusBase):
     OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
     NO_CONTACT = "no_contact", "The equilibrium would need a contact force that is not positive: lower Omega."
     AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
-    NO_SPRING = "no_spring", "Without the spring in the plane (k_p = 0) nothing balances friction."
+    NO_SPRING = "no_spring", "Without the spring in the plane (k_p = 0) nothing balances friction on a slider at rest."
     PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
 
 
