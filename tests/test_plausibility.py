@@ -21,6 +21,11 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
 
 
+def test_a_stiff_spring_is_said_to_cost_accuracy() -> None:
+    assert plausibility.doubts(Parameters(**BASE, k=1e8))["k"].endswith("less accurate than tol says")
+    assert plausibility.doubts(Parameters(**BASE, k=1.0))["k"].endswith("of Table 1")
+
+
 def test_a_study_tells_of_how_many_points() -> None:
     axes = {"h": {"start": 0.001, "stop": 0.02, "count": 20}, "Omega": [10, 20, 30]}
     raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": {"N": 200}, "axes": axes}

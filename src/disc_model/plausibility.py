@@ -50,7 +50,8 @@ def _far(name: str, usual: float, p: Parameters) -> str:
     if usual / 100 <= value <= usual * 100 or value == 0:
         return ""
     how = "more than a hundred times" if value > usual else "less than a hundredth of"
-    return f"{_value(p, name)} is {how} the {usual:g} of Table 1"
+    exceeded = ", and event times are less accurate than tol says" if name == "k" and value > usual else ""
+    return f"{_value(p, name)} is {how} the {usual:g} of Table 1{exceeded}"
 
 
 def _thick(p: Parameters) -> str:

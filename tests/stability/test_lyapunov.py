@@ -27,6 +27,17 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
     assert found.final_state.time == pytest.approx(0.2)
 
 
+def test_a_slip_that_begins_at_once_shifts_no_time():
+    """Friction cannot hold from the start, and the limit's rate is zero: columns were divided by it."""
+    p = Parameters(N=385, Omega=60, k_p=0, c_p=50, n_diameters=1)
+    found = lyapunov_exponents(p, 0.05, count=4)
+    assert found.status is Status.OK
+    later = lyapunov_exponents(p, 0.05, count=4, initial_state=simulate(p, 1e-3).final_state)
+    assert np.isfinite(found.exponents).all()
+    # 1 ms of 100: another 1 % of the rates of 50/s and less
+    np.testing.assert_allclose(found.exponents, later.exponents, atol=1.0)
+
+
 @pytest.mark.filterwarnings("error")
 def test_exponents_that_do_not_exist_were_zero_and_converged():
     """In stick f is 0, and u and u' are the disc's: of six coordinates of the state three are left."""

@@ -323,12 +323,14 @@ def test_a_slider_on_the_disc_that_moves_down_meets_it_at_once() -> None:
 
 
 def test_a_flight_is_as_long_as_the_slider_s_spring_makes_it() -> None:
-    """Nothing but u' of the slider then asks for short steps."""
-    p = NO_DISC.replace(k=1e6)
-    rate, static = np.sqrt(p.k / p.m), p.N / p.k
-    events = simulate(p, 1e-3, initial_state=over_a_rigid_disc(p, u=1e-3), tol=1e-12).events
-    # m u'' = -N - k u
-    assert events.time[0] == pytest.approx(np.arccos(static / (1e-3 + static)) / rate, abs=1e-12)
+    """Over a disc at rest nothing but u' of the slider asks for steps so short."""
+    p = Parameters(N=10, Omega=0, k=1e8, n_diameters=0)
+    rest = static_start(p)
+    level = rest.u - p.N / p.k  # of the spring's force and N together
+    start = rest.replace(phase="separation", a=0 * rest.a, u=1e-3, u_velocity=0.0)
+    events = simulate(p, 1e-3, initial_state=start, tol=1e-12).events
+    # m u'' = -k (u - level)
+    assert events.time[0] == pytest.approx(np.arccos(-level / (1e-3 - level)) / np.sqrt(p.k / p.m), abs=1e-12)
 
 
 def test_a_run_may_end_before_the_time_zero() -> None:

@@ -28,7 +28,10 @@ PLOT_RATE = 2000.0
 ZOOM = 0.25
 """Length of the second column of a plot, the end of the run, s."""
 T_END_HELP = r"time at which the run ends (s) \[required]"
-TOLERANCE_HELP = f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}"
+TOLERANCE_HELP = (
+    f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}; above 1.25e-7 it is "
+    "computed and recorded as 1.25e-7 (2e-6 on a compliant contact)"
+)
 STOPS = ("first_separation",)
 WINDOW_HELP = (
     "samples to keep, such as late:last=3,rate=4000 or whole:rate=2000,envelope=1000; keys start, stop, last (s), "

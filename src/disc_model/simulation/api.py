@@ -43,6 +43,7 @@ from disc_model.simulation.result import (
     series_order,
     series_tolerance,
     take_workspace,
+    used_tolerance,
     write_state,
 )
 from disc_model.sources import source_hash
@@ -106,7 +107,8 @@ def simulate(
     ----------
     p : the case
     t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
-    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md)
+    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md). A value above
+        1.25e-7 (2e-6 on a compliant contact) is computed as that, and recorded as that in the result
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
     record : quantities to keep, or a single window; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
@@ -274,7 +276,7 @@ class _Run:
         return Result(
             parameters=asked.p,
             t_end=asked.t_end,
-            tol=asked.tol,
+            tol=used_tolerance(asked.tol, compliant=asked.p.contact_compliance != 0),
             record=asked.record,
             status=status,
             message=_message(status, self.state, self.model),

@@ -567,6 +567,11 @@ LOCAL_COMPLIANT = LOCAL / 16
 LOOSEST = 1e-5
 
 
+def used_tolerance(tol: float, compliant: bool = False) -> float:
+    """The tolerance with which a run is computed: larger ones count as 1.25e-7, or 2e-6 on a compliant contact."""
+    return min(tol, LOOSEST / (LOCAL_COMPLIANT if compliant else LOCAL))
+
+
 def series_tolerance(tol: float, compliant: bool = False) -> float:
     """Size of the last terms of a step, relative to the state's scale."""
     return min((LOCAL_COMPLIANT if compliant else LOCAL) * tol, LOOSEST)
