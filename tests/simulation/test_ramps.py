@@ -52,7 +52,7 @@ def test_a_section_is_taken_on_ramps_of_the_preload():
 # ------------------------------------------------------------------------ pieces
 def test_pieces_of_overlapping_ramps():
     found = pieces(P, (RELIEF, BRAKE))
-    assert [piece.begin for piece in found] == [0.0, 0.01, 0.02, 0.03, 0.04]
+    assert [piece.begin for piece in found] == [-math.inf, 0.01, 0.02, 0.03, 0.04]
     assert [piece.end for piece in found] == [0.01, 0.02, 0.03, 0.04, math.inf]
     assert [piece.Omega for piece in found] == pytest.approx([50, 50, 35, 20, 20])
     assert [piece.N for piece in found] == pytest.approx([200, 200, 200, 175, 150])
