@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import disc_model as dm
@@ -255,6 +255,7 @@ def test_any_text_in_a_study_file(text: str, position: int, inserted: str, remov
         parse_study(read_yaml(text[:position] + inserted + text[position + removed :])[0])
 
 
+@settings(max_examples=settings().max_examples // 5)  # each builds the parser anew
 @given(st.lists(WORDS, max_size=6))
 def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None:
     stderr = io.StringIO()
