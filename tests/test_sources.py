@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from disc_model import sources
-from disc_model.sources import ASIDE, PACKAGE, code_hash, source_files, source_hash
+from disc_model.sources import ASIDE, PACKAGE, source_files, source_hash
 from disc_model.studies.document import QUANTITIES
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
@@ -79,7 +79,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def forget() -> None:
-    for function in (source_files, source_hash, code_hash):
+    for function in (source_files, source_hash, sources._read):
         function.cache_clear()
 
 

@@ -58,24 +58,28 @@ def source_files(*entries: str | Path) -> tuple[Path, ...]:
     return tuple(sorted(sources))
 
 
-@functools.cache
 def code_hash(path: Path) -> str:
     """Hash of a file; of Python only what it does, as this version of Python reads it."""
-    if path.suffix != ".py":
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    tree = _parsed(path)
+    return _read(path)[0] if path.suffix == ".py" else hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@functools.cache
+def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]]]:
+    """Hash of a Python source without comments, docstrings and layout; levels, modules and names of its imports."""
+    tree = ast.parse(path.read_bytes(), str(path))
+    imports = set()
     for node in [tree, *_statements(tree)]:
+        if isinstance(node, ast.Import):
+            imports |= {(0, alias.name, "") for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            imports |= {(node.level, node.module or "", alias.name) for alias in node.names}
         for name in _BLOCKS:
             if block := getattr(node, name, None):
                 setattr(node, name, [child for child in block if not _is_text(child)])
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), frozenset(imports)
 
 
 _BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-
-
-def _parsed(path: Path) -> ast.Module:
-    return ast.parse(path.read_bytes(), str(path))
 
 
 def _statements(node: ast.AST) -> Iterator[ast.AST]:
@@ -103,15 +107,13 @@ def _modules(name: str) -> list[Path]:
 @functools.cache
 def _imported(path: Path) -> frozenset[Path]:
     """Files of the package's modules that a file imports."""
-    names = set()
-    for node in _statements(_parsed(path)):
-        if isinstance(node, ast.Import):
-            names |= {(alias.name, "") for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            parts = path.relative_to(PACKAGE).parent.parts if node.level else ()
-            before = ["disc_model", *parts[: len(parts) + 1 - node.level]] if node.level else []
-            names |= {(".".join([*before, *filter(None, [node.module])]), alias.name) for alias in node.names}
-    return frozenset(file for module, name in names for file in _file(module, name))
+    files: set[Path] = set()
+    for level, module, name in _read(path)[1]:
+        if level:
+            parts = path.relative_to(PACKAGE).parent.parts
+            module = ".".join(filter(None, ["disc_model", *parts[: len(parts) + 1 - level], module]))
+        files.update(_file(module, name))
+    return frozenset(files)
 
 
 def _file(module: str, name: str) -> Iterator[Path]:
