@@ -20,7 +20,7 @@ from tests.processes import python
         # what varies, and an N or Omega of 0, which stands for one that the quantity varies by itself
         ({"N": 200.0, "Omega": 0.0, "k": 3.0}, "N = 200 N"),
         ({"N": 200.0, "normalization": "orthonormal"}, "N = 200 N, orthonormal modes"),
-        ({"N": 200.0, "contact": "bonded"}, "N = 200 N, bonded contact"),
+        ({"N": 200.0, "contact": "bonded"}, "N = 200 N, bilateral contact"),
     ],
 )
 def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: str) -> None:

@@ -151,7 +151,7 @@ MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes
 """Title of a panel by normalization; "given" stands for modes from a table."""
 WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
 """Words of parameters in panel titles, those of the paper first."""
-MODELS = {"normal": WORDS["normal"], "bonded": "bonded contact", "residual": "residual flexibility"}
+MODELS = {"normal": WORDS["normal"], "bonded": "bilateral contact", "residual": "residual flexibility"}
 """Words for models other than the paper's."""
 
 

@@ -30,7 +30,7 @@ def history(case: xr.DataTree, *, window: str, variables: Sequence[str], until: 
 
 
 def with_and_without(separating: xr.DataTree, bonded: xr.DataTree) -> Figure:
-    """Figure 10: range of the disc at r_0 and a fixed angle over the run, with bonded contact and with separation."""
+    """Figure 10: range of the disc at r_0 and a fixed angle over the run, bilateral and with separation."""
     figure, [ax] = panels(COLUMN, 2.4)
     ignored, followed = drawing.history(bonded), drawing.history(separating)
     drawing.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
