@@ -258,6 +258,11 @@ class Sources:
         indices = self.uncertain(study, N)["sobol_total"].sel(output="instability").to_series().round(2)
         return ", ".join(f"{name} {index:.2f}" for name, index in indices.nlargest(3).items())
 
+    def largest_sum(self) -> float:
+        """Largest sum of the first-order indices of instability at a point."""
+        grids = [self.grid(study)["sobol_first"].sel(output="instability") for study in STUDIES]
+        return max(float(grid.sum("parameter").max()) for grid in grids)
+
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
         """Probability of instability in thirds of a parameter's range."""
         from disc_model.figures.sensitivity import probabilities
@@ -362,6 +367,7 @@ class Sources:
         return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
 
 
+STUDIES = ("sensitivity", "sensitivity_orthonormal")
 MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal contact force")
 
 
