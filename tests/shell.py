@@ -16,8 +16,8 @@ CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[=>]|\r|\x07")
 class Shell:
     """An interactive shell on a pseudo-terminal of its own."""
 
-    def __init__(self, terminal: int) -> None:
-        self.terminal = terminal
+    def __init__(self, process: int, terminal: int) -> None:
+        self.process, self.terminal = process, terminal
         self.screen = ""
 
     def type(self, text: str) -> None:
@@ -38,6 +38,13 @@ class Shell:
         before, _, self.screen = self.screen.partition(text)
         return before
 
+    def wait_for_program(self, seconds: float = 60.0) -> None:
+        """Wait until the shell has given the terminal to a program: a Ctrl-C before that reaches the shell alone."""
+        end = time.monotonic() + seconds
+        while os.tcgetpgrp(self.terminal) == self.process:
+            assert time.monotonic() < end, self.screen
+            time.sleep(0.001)
+
 
 @contextmanager
 def shell(command: Sequence[str], folder: Path, **variables: str) -> Iterator[Shell]:
@@ -48,7 +55,7 @@ def shell(command: Sequence[str], folder: Path, **variables: str) -> Iterator[Sh
         os.chdir(folder)
         os.execvpe(command[0], command, environment)
     try:
-        yield Shell(terminal)
+        yield Shell(process, terminal)
     finally:
         os.kill(process, signal.SIGHUP)
         os.waitpid(process, 0)

@@ -51,6 +51,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
         assert "Error" not in terminal.wait_for(PROMPT, 600)  # as its closing lines asked for what was not made
         for _ in range(20):
             terminal.type("disc-model study mine.yaml -j2\n")
+            terminal.wait_for_program()
             terminal.wait_for(moments.choice(["study mine.yaml", "rule compute_batch:"]))
             terminal.read(moments.uniform(0.0, 4.0))
             terminal.type("\x03")
