@@ -20,8 +20,8 @@ from disc_model.figures.drawing import COLUMN, PAGE, save
 from disc_model.figures.kinds import CASE_PLOTS, OwnFigure
 from disc_model.figures.paper.catalogue import CATALOGUE, caption, label, number_of
 from disc_model.figures.paper.disc import film, motion_of
+from tests.damages import DAMAGES, EACH_DAMAGE, damaged
 from tests.figures.reading import labels
-from tests.paper.made_up import DAMAGES, EACH_DAMAGE, damaged
 
 SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
 RECORDED = {

@@ -16,23 +16,21 @@ from typing import Any, Self
 
 import numpy as np
 import pandas as pd
-import pytest
 import xarray as xr
 import yaml
 
 from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.paper.energy import Powers
-from disc_model.paper.ledger import views
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.plate import coupled_natural_frequencies
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.studies.study import load_study
+from tests.damages import Damage
 
 SPECS = load_study(Path(__file__).parents[2] / "config" / "paper.yaml").specs
 STICK, SLIP, SEPARATION = range(len(PHASES))
-Groups = dict[str, xr.Dataset]
 Signal = Callable[[Parameters, float, np.ndarray], np.ndarray]
 """What the disc's point does, by the case, the stick-slip rate in Hz, and times in s."""
 
@@ -156,44 +154,27 @@ def course_to_the_contrary(p: Parameters, until: float) -> tuple[Powers, ...]:
 
 @dataclasses.dataclass(frozen=True)
 class Story:
-    """What a case did.
+    """What a case did."""
 
-    Attributes
-    ----------
-    first : s, the first loss of contact; nan for none
-    early, late : range of the contact force over the preload, at first and in the end
-    disc_early, disc_late : m, range of the disc's displacement
-    grows_on : 1/s, rate at which that grows after the first separation
-    sharp : 1/s, rate at which that grows in the last ten seconds before the first separation
-    rate : Hz, stick releases
-    wanders : how much the intervals between releases vary, quasi-periodically unless `chaotic`
-    stick, stick_before : share of time in stick, in the end and in the whole run
-    signal : what the disc's point does
-    second : share of the slider's swing at the second frequency that `cycle_as_told` brings
-    misprinted : slip ends where Eq. (24) as printed is false
-    repels : m, deviation of the height at the first release, which doubles every hundred releases
-    swing : rad, how far the slider's swing is past its highest point where contact is lost
-    contrary : the disc moves downwards when contact is lost, separations last half a cycle and are no true ones, and
-        the slider's orbit stays what it was
-    """
-
-    first: float = math.nan
-    early: float = 0.02
-    late: float = 0.02
-    disc_early: float = 1e-3
-    disc_late: float = 1e-3
-    sharp: float = 0.0
-    grows_on: float = 0.0
-    rate: float = 67.63
-    wanders: float = 0.0
-    chaotic: bool = False
-    stick: float = 0.3
-    stick_before: float = 0.3
-    signal: Signal = combinations
-    second: float = 0.0
-    misprinted: bool = False
-    repels: float = 0.0
-    swing: float = 0.0
+    first: float = math.nan  # s, the first loss of contact; nan for none
+    early: float = 0.02  # range of the contact force over the preload, at first
+    late: float = 0.02  # and in the end
+    disc_early: float = 1e-3  # m, range of the disc's displacement at first
+    disc_late: float = 1e-3  # and in the end
+    sharp: float = 0.0  # 1/s, rate at which that grows in the last ten seconds before the first separation
+    grows_on: float = 0.0  # 1/s, rate at which that grows after the first separation
+    rate: float = 67.63  # Hz, stick releases
+    wanders: float = 0.0  # how much the intervals between releases vary, quasi-periodically
+    chaotic: bool = False  # or chaotically
+    stick: float = 0.3  # share of time in stick in the end
+    stick_before: float = 0.3  # and in the whole run
+    signal: Signal = combinations  # what the disc's point does
+    second: float = 0.0  # share of the slider's swing at the second frequency that `cycle_as_told` brings
+    misprinted: bool = False  # slip ends where Eq. (24) as printed is false
+    repels: float = 0.0  # m, deviation of the height at the first release, which doubles every hundred releases
+    swing: float = 0.0  # rad, how far the slider's swing is past its highest point where contact is lost
+    # the disc moves downwards when contact is lost, separations last half a cycle and are no true ones, and the orbit
+    # of the slider stays what it was
     contrary: bool = False
 
     @property
@@ -360,14 +341,16 @@ def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
 
 def cases(stories: Mapping[str, Story], scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
     """Cases and grid studies for checks."""
-    return views(xr.DataTree(), scans) | {name: CaseView(name, case(name, story)) for name, story in stories.items()}
+    nodes = {name: case(name, story) for name, story in stories.items()}
+    nodes |= {name: xr.DataTree(scan) for name, scan in (scans or {}).items()}
+    return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
 WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes", "settled", "changing")
 
 
-def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, /, **variables: Any) -> xr.Dataset:
+def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **variables: Any) -> xr.Dataset:
     """A grid study: each variable along the first axes, as many as it has dimensions, its words as flags.
 
     stated : what it states, as its base and as its options alike
@@ -381,73 +364,28 @@ def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, /, **
     return found
 
 
-def scans(
-    least: float = 0.2,
-    settled: bool = True,
-    discs: Sequence[str] = ("growing", "quiet", "separation"),
-    windows: Sequence[tuple[float, float]] = ((20, np.nan), (10, np.nan), (15, np.nan)),
-    damped: str = "separation",
-    strong: str = "",
-    reach: int = 5,
-    soft: Sequence[str] = ("separation",) * 3,
-    faster: float = 0.3,
-    others: float = 0.9,
-    lasts: Sequence[float] = (),
-) -> dict[str, xr.Dataset]:
-    """Grid studies: stick without separation, and what becomes of the static start on softer and stiffer discs.
+def scans(windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+    """Grid studies as stories.yaml has them, by name, some of them with other values.
 
-    least, settled : share of stick where it is least, and whether the motion there has settled
-    discs : outcome on the softest, a softer and the usual one
     windows : rad/s, where separation begins and ends, at three preloads or more
-    damped, strong : outcome at large preloads with in-plane damping, and with more of it; growth falls if they separate
-    reach : number of preloads, from the least on, at which damping acts
-    soft : outcome with the softest spring at 10, 11.25 and 20 rad/s
-    faster : share of stick beyond 15.25 rad/s
-    others : share of random starts that separate at 385 N, 15 rad/s, where the static one does not
-    lasts : rad/s, where separation ends in sweeps down, at three preloads; no sweeps if there are none
     """
-    published, preloads = {"normalization": ["as_published"]}, [50.0, 200.0, 385.0, 500.0, 510.0]
-    shares, answers = np.full((3, 2), 0.25), np.full((3, 2), "settled", dtype="<U9")
-    shares[0, 1], answers[0, 1] = least, "settled" if settled else "changing"
-    bonded = {"stick_fraction": shares, "settled": answers}
-    speeds = np.array(windows)[:, None]
-    kinds = np.where(np.isnan(speeds), "none", ["begins", "ends"])
-    crossings = {"critical_speed": [speeds[..., 0]], "crossing": [speeds], "crossing_kind": [kinds]}
-    along = published | {"N": preloads[: len(windows)], "horizon": [1000.0], "crossing_number": [0, 1]}
-    on_discs = [np.stack([("quiet",) * 3, discs], axis=1), np.full((3, 2), "quiet")]
-    springs = [(kind, "separation", "quiet") for kind in soft]
-    dampers = [0, 0.5, *([0.75] if strong else [])]
-    pulled = np.full((5, len(dampers)), "quiet", dtype="<U12")
-    pulled[2:reach, 1], pulled[1, 0], pulled[2:reach, 2:] = damped, damped, strong or damped
-    falls = np.linspace(0.02, 0.01 if damped == "separation" else 0.03, len(dampers))
-    random = published | {"Omega": [10.0, 15.0], "energy": [0.01, 3.0], "start": range(10)}
-    found = {
-        "basins": grid(
-            random, {"N": 385}, separating_fraction=[[0.0, others]], separating_fraction_low=[[0.0, others / 2]]
-        ),
-        "bifurcation_Omega": grid({"Omega": [15.0, 15.25, 15.5, 16.0]}, stick_fraction=[0.31, 0.3, faster, faster]),
-        "bonded": grid({"Omega": [10, 50, 100], "N": [50, 385]}, {"max_transient": 6400}, **bonded),
-        "critical_speed": grid(along | {"scan_Omega": [5.0, 24.0]}, status=[["ok"] * len(windows)], **crossings),
-        "map_E": grid(
-            {"normalization": ["as_published", "orthonormal"], "E": [8e10, 1e11, 1.5e11], "Omega": [10, 50]},
-            {"N": 200, "horizon": 1000},
-            outcome=on_discs,
-        ),
-        "map_c_p": grid(
-            published | {"N": [50.0, 200.0, 385.0, 500.0, 600.0], "c_p": dampers},
-            {"Omega": 15, "horizon": 1000},
-            outcome=[pulled],
-            growth_rate=[np.tile(falls, (5, 1))],
-        ),
-        "map_k": grid(
-            published | {"Omega": [10.0, 11.25, 20.0], "k": [1e4, 2e4, 1e5]},
-            {"N": 200, "horizon": 1000},
-            outcome=[springs],
-        ),
-    }
-    if lasts:
-        found["hysteresis"] = grid(published | {"N": preloads[:3]}, {"dwell": 60}, offset_speed=[lasts])
+    texts = TEXTS["scans"]
+    found = {name: grid(**texts.get(name, {}) | changes.get(name, {})) for name in texts | changes}
+    speeds, preloads = np.array(windows)[:, None], [50.0, 200.0, 385.0, 500.0, 510.0]
+    axes = {"normalization": ["as_published"], "N": preloads[: len(windows)], "horizon": [1000.0]}
+    found["critical_speed"] = grid(
+        axes | {"crossing_number": [0, 1], "scan_Omega": [5.0, 24.0]},
+        status=[["ok"] * len(windows)],
+        critical_speed=[speeds[..., 0]],
+        crossing=[speeds],
+        crossing_kind=[np.where(np.isnan(speeds), "none", ["begins", "ends"])],
+    )
     return found
+
+
+def root_with(**values: float) -> Damage:
+    """Other values of what a case says of its whole run."""
+    return lambda groups: groups | {"": groups[""].assign(values)}
 
 
 def orthonormal(tree: xr.DataTree) -> xr.DataTree:
@@ -457,89 +395,3 @@ def orthonormal(tree: xr.DataTree) -> xr.DataTree:
         p = Parameters.model_validate_json(case.attrs["parameters"]).replace(normalization="orthonormal")
         case.attrs = case.attrs | {"parameters": p.canonical_json}
     return found.assign({"X30": found["F02"]})
-
-
-# ----------------------------------------------------------------------------------------------------
-# Cases that hold less than the study of the paper asks for: what the schema lets through, or a failure
-
-
-def damaged(case: xr.DataTree, damage: Callable[[Groups], Groups]) -> xr.DataTree:
-    """A copy of a case, changed."""
-    groups = {"": case.to_dataset()} | {str(n): node.to_dataset(inherit=False) for n, node in case.children.items()}
-    return xr.DataTree.from_dict({f"/{name}": found for name, found in damage(groups).items()})
-
-
-def root_with(**values: float) -> Callable[[Groups], Groups]:
-    """Other values of what a case says of its whole run."""
-    return lambda groups: groups | {"": groups[""].assign(values)}
-
-
-def _failed(groups: Groups) -> Groups:
-    p = Parameters.model_validate_json(groups[""].attrs["parameters"])
-    return {"": scalars_dataset(p, {"t_end": 100.0, "tol": 1e-10}, "failed", "NonFinite: overflow")}
-
-
-def _events_cut(count: int) -> Callable[[Groups], Groups]:
-    def cut(groups: Groups) -> Groups:
-        if "events" not in groups:
-            return groups
-        events = groups["events"].isel(event=slice(count))
-        return groups | {"events": events if count else events.drop_attrs(deep=False)}
-
-    return cut
-
-
-def _is_range(group: xr.Dataset) -> bool:
-    return any(str(key).endswith("_min") for key in group)
-
-
-def _as_samples(group: xr.Dataset) -> xr.Dataset:
-    return group.rename({key: str(key)[:-4] for key in group if str(key).endswith("_min")})
-
-
-def _as_ranges(group: xr.Dataset) -> xr.Dataset:
-    if _is_range(group):
-        return group
-    plain = group.drop_vars("phase", errors="ignore")
-    return xr.Dataset({f"{key}_{end}": plain[key] for key in plain for end in ("min", "max")}, attrs=group.attrs)
-
-
-def _each(change: Callable[[xr.Dataset], xr.Dataset], *but: str) -> Callable[[Groups], Groups]:
-    return lambda groups: {
-        name: group if name in ("", "events", *but) else change(group) for name, group in groups.items()
-    }
-
-
-def _separates_at(share: float) -> Callable[[Groups], Groups]:
-    return lambda groups: root_with(first_separation=share * groups[""]["time_reached"], n_separations=((), 1))(groups)
-
-
-def growing_in_the_end(groups: Groups) -> Groups:
-    """Ranges of the last 20 s a twentieth wider: no motion that has come to rest in a steady state."""
-    if "history" not in groups or not _is_range(groups["history"]):
-        return groups
-    history = groups["history"]
-    last = 0.05 * (history["time"] > float(history["time"][-1]) - 20)
-    wider = {
-        f"{x}_max": history[f"{x}_max"] + last * (history[f"{x}_max"] - history[f"{x}_min"]) for x in ("P", "w_point")
-    }
-    return groups | {"history": history.assign(wider)}
-
-
-DAMAGES: Mapping[str, Callable[[Groups], Groups]] = {
-    "failed": _failed,
-    "nothing recorded": lambda groups: {"": groups[""]},
-    "no events": _events_cut(0),
-    "three events": _events_cut(3),
-    "no envelopes": _each(_as_samples),
-    "only envelopes": _each(_as_ranges, "poincare"),
-    "empty windows": _each(lambda group: group.isel(time=slice(0))),
-    "single samples": _each(lambda group: group.isel(time=slice(1))),
-    "two samples": _each(lambda group: group.isel(time=slice(2))),
-    "separates at once": _separates_at(1e-3),
-    "separates in the end": _separates_at(1.0),
-    "nothing moves": _each(lambda group: group.map(xr.zeros_like, keep_attrs=True)),
-}
-QUICK = {"no events", "no envelopes", "only envelopes", "two samples", "nothing moves"}
-EACH_DAMAGE = [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow) for one in DAMAGES]
-"""A few of them in the quick tests."""

@@ -3,16 +3,18 @@
 from pathlib import Path
 
 from disc_model.data.dataset import load_cases
+from disc_model.data.texts import write_page
 from disc_model.errors import script
-from disc_model.paper.ledger import check_claims
-from disc_model.paper.pages import ledger, to_markdown
+from disc_model.paper.ledger import check_claims, verdict_counts
+from disc_model.paper.measures import views
 
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
-    scans = load_cases([*map(Path, inputs)])
-    cases = scans.pop("cases")
-    table = check_claims(cases, {name: scan.to_dataset() for name, scan in scans.items()})
+    table = check_claims(views(load_cases([*map(Path, inputs)])))
+    counts = verdict_counts(table)
     table.to_csv(csv, index=False)
-    Path(md).write_text(to_markdown(table), encoding="utf-8")
-    Path(html).write_text(ledger(table), encoding="utf-8")
+    named = table.rename(columns=lambda name: name.replace("_", " ").replace("ours", "computed"))
+    write_page(md, "The paper's claims", ("", f"{len(table)} claims; {counts}.", named))
+    summary = f"{len(table)} statements; {counts}."
+    write_page(html, "The paper's claims, checked", ("", summary, table), template="paper/ledger")

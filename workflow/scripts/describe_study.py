@@ -1,16 +1,15 @@
 """Write the page that lists a study's cases, and the sources and versions they come from."""
 
 import json
-from html import escape
 from pathlib import Path
 
 import pandas as pd
 import xarray as xr
 
 from disc_model.data.dataset import load_inputs
+from disc_model.data.texts import write_page
 from disc_model.data.variables import STATUSES, values_text
 from disc_model.errors import script
-from disc_model.paper.pages import page, table_html
 from disc_model.parameters import Parameters
 
 WORDS = (
@@ -54,7 +53,5 @@ def rows(tree: xr.DataTree) -> pd.DataFrame:
 @script
 def main(title: str, cases: str, output: str) -> None:
     (tree,) = load_inputs([Path(cases)])
-    parts = (f"<h2>Sources</h2>{table_html(sources(tree))}", f"<h2>Cases</h2>{table_html(rows(tree))}")
-    Path(output).write_text(
-        page(json.loads(title) or "Provenance", f"<p>{escape(WORDS)}</p>", *parts), encoding="utf-8"
-    )
+    sections = (("Sources", WORDS, sources(tree)), ("Cases", "", rows(tree)))
+    write_page(output, json.loads(title) or "Provenance", *sections)

@@ -1,58 +1,70 @@
-"""Sentences with placeholders, stored as data, and their completion with numbers."""
+"""Sentences and pages: jinja2 templates that are stored as data, and completed with numbers.
 
-import string
-from collections.abc import Mapping, Sequence
+In a template ``{{ width|as('.1f mm') }}`` is a number in a format, and in a unit if that names one; of a list it is
+each of the numbers, or "none".
+"""
+
+import math
+from functools import cache
+from pathlib import Path
 from typing import Any
 
+import jinja2
 import numpy as np
-from pydantic import BaseModel, ConfigDict, model_validator
+import pandas as pd
 
-
-class Part(BaseModel):
-    """Templates for a value that is a list of rows: ``each`` for every row, ``around`` for all if there are any.
-
-    A plain text is that for every row.
-    """
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    each: str
-    between: str = "; "
-    around: str = "{}"
-    empty: str = ""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _of_every_row(cls, raw: Any) -> Any:
-        return {"each": raw} if isinstance(raw, str) else raw
-
+from disc_model.data.dataset import markdown_table
 
 UNITS = {"%": 100, "mm": 1e3, "ms": 1e3, "GPa": 1e-9}
-"""Units that a format may name after a space, ``{width:.1f mm}``, by how many of them are one of the number's own."""
+"""Units that a format may name after a space, by how many of them are one of the number's own."""
+Section = tuple[str, str, pd.DataFrame]
+"""Part of a page: its heading, or "", a text and a table."""
 
 
-class Sentences(string.Formatter):
-    """`str.format` that also takes units, see `UNITS`, and lists.
+def number_text(value: Any, form: str) -> Any:
+    """A number in a format such as ``.1f`` or ``.1f mm``."""
+    if isinstance(value, list | np.ndarray):
+        return [number_text(each, form) for each in value]
+    digits, _, unit = form.partition(" ")
+    return f"{UNITS[unit] * value:{digits}} {unit}" if unit else format(value, form)
 
-    Lists of numbers are formatted as one, ``{values:.2f}``, or as "none", and lists of rows by the part of their name.
+
+def _listed(value: Any) -> Any:
+    return (", ".join(map(str, value)) or "none") if isinstance(value, list) else value
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:g}"
+    return str(value)
+
+
+_TEMPLATES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parents[1]),
+    autoescape=jinja2.select_autoescape(["html"], default_for_string=False),
+    undefined=jinja2.StrictUndefined,
+    finalize=_listed,
+    trim_blocks=True,
+    keep_trailing_newline=True,
+)
+_TEMPLATES.filters |= {
+    "as": number_text,
+    "cell": _cell,
+    "markdown": lambda table: "\n".join(markdown_table(table.columns, table.map(_cell).itertuples(index=False))),
+}
+_template_of = cache(_TEMPLATES.from_string)
+
+
+def fill(template: str, **values: Any) -> str:
+    """A template filled with values; raises `jinja2.UndefinedError` if one is missing."""
+    return _template_of(template).render(values)
+
+
+def write_page(path: str | Path, title: str, *sections: Section, template: str = "data/texts") -> None:
+    """Write a page as Markdown or as self-contained HTML, by the ending of the file.
+
+    template : of the package, without its ending
     """
-
-    def __init__(self, parts: Mapping[str, Part], values: Mapping[str, Any]) -> None:
-        self.parts, self.values = parts, values
-
-    def fill(self, template: str) -> str:
-        """The template filled with the values; raises KeyError for a missing value."""
-        return self.vformat(template, (), self.values)
-
-    def get_value(self, key: int | str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> Any:
-        value = kwargs[str(key)]
-        if key not in self.parts:
-            return value
-        part, rows = self.parts[str(key)], value if isinstance(value, list) else [value]
-        phrase = part.between.join(self.vformat(part.each, (), {**kwargs, **row}) for row in rows)
-        return part.around.format(phrase) if rows else part.empty
-
-    def format_field(self, value: Any, spec: str) -> str:
-        if isinstance(value, list | np.ndarray):
-            return ", ".join(self.format_field(each, spec) for each in value) or "none"
-        own, _, unit = spec.rpartition(" ")
-        return f"{format(UNITS[unit] * value, own)} {unit}" if unit in UNITS else format(value, spec)
+    path = Path(path)
+    page = _TEMPLATES.get_template(f"{template}{path.suffix}").render(title=title, sections=sections)
+    path.write_text(page.rstrip() + "\n", encoding="utf-8")

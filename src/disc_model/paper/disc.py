@@ -46,7 +46,10 @@ def truncation(*evidence: Any, seconds: float, share: float) -> Answer:
         None if soon and more and circles[1] and jump else soon and more and all(circles),
         "jump",
         first=first,
-        later=[{"rate": x, "apart": 100 * y, "stick": 100 * z} for x, y, z in (nine, *others[1:])],
+        later=[
+            f"{x:.0f} separations/s, {100 * y:.1f} % of the time in separation, {100 * z:.1f} % sticking"
+            for x, y, z in (nine, *others[1:])
+        ],
         coupled=coupled,
         changes=["" if alike else "not " for alike in (more, *circles)],
         jump=jump,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -88,6 +88,11 @@ class CaseView:
         return self["n_separations"] > 0
 
     @property
+    def is_grid(self) -> bool:
+        """Whether it is a grid study and no case."""
+        return "parameters" not in self.node.attrs
+
+    @property
     def bonded(self) -> bool:
         """Whether separation is ignored."""
         return self.parameters.contact == "bonded"
@@ -108,20 +113,10 @@ class CaseView:
         return self["Omega"] / (2 * np.pi)
 
     @property
-    def first(self) -> str:
-        """Time of the first separation, in words."""
-        return self.first_separation()
-
-    @property
     def growth(self) -> str:
         """Growth rate of small disturbances of its cycle, in words."""
         rate = self.growth_rate
         return "no stick-slip cycle" if math.isnan(rate) else f"growth {rate_text(rate)}/s"
-
-    @property
-    def onset(self) -> str:
-        """Time of the first separation and growth rate of small disturbances, in words."""
-        return f"{self.first}, {self.growth}"
 
     @property
     def motion(self) -> str:
@@ -371,6 +366,12 @@ class Signal:
             raise Absent(f"case {self.case}: {error} in w_point") from None
 
 
+def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
+    """Views of the merged cases, which bear the name ``cases``, and of grid studies, by name."""
+    nodes = {**trees["cases"].children, **trees}
+    return {name: CaseView(name, node) for name, node in nodes.items() if name != "cases"}
+
+
 def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
     """One row for each case, under the key ``case`` for sentences."""
     return [{"case": case} for case in cases]
@@ -397,9 +398,9 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]
     later = [i for i in also_last if i > first]
     steps = np.sign(np.diff(known))
     turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
-    rows = [{"N": loads[i], "speed": or_none(speeds[i], ".1f")} for i in turns]
+    texts = [f"{loads[i]:g} N: {or_none(speeds[i], '.1f')}" for i in turns]
     top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
-    return bool(dips.size), {"speeds": rows, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
+    return bool(dips.size), {"speeds": texts, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -461,10 +462,10 @@ def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
     return found
 
 
-def nearby(motion: Motion, other: Motion) -> list[dict[str, str]]:
+def nearby(motion: Motion, other: Motion) -> list[str]:
     """Change of a periodic motion where a spring is 0.1 % stiffer; empty if its period stays."""
     text = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
-    return [{"with": text}] if motion.period not in (0, other.period) else []
+    return [text] if motion.period not in (0, other.period) else []
 
 
 def counted(count: int, name: str) -> str:

@@ -79,7 +79,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     return Answer(
         None if some and not holds else holds,
         "wait",
-        speeds=[{"Omega": speed, "time": measures.or_none(scan[speed], ".0f", " s")} for speed in sorted(scan)],
+        speeds=[f"{speed:g}: {measures.or_none(scan[speed], '.0f', ' s')}" for speed in sorted(scan)],
         latest=min(apart, default=math.nan),
         lower=[{"horizon": horizon, "least": min(lower)}] if lower else [],
         exactly=[{"low": scan[printed], "high": first}] if some else [],
@@ -92,9 +92,7 @@ def damping_stabilises(case: CaseView, **damper: float) -> Answer:
     effects = [_effect_of(case, name, little, little + value) for little in (0.0, value)]
     growing, lowered = (sum(effect[key] for effect in effects) for key in ("growing", "lowered_growing"))
     raised = [place for effect in effects for place in effect["places"]]
-    return Answer(
-        growing == lowered > 0, growing=growing, lowered=lowered, raised=[{"where": raised}] if raised else []
-    )
+    return Answer(growing == lowered > 0, growing=growing, lowered=lowered, raised=raised)
 
 
 def _stays_calm(case: CaseView, factor: float = GREW) -> bool:
@@ -116,7 +114,7 @@ def only_between(
     """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
     *stable, largest_stable = [_stays_calm(case, factor) for case in (small, middle, large, largest)]
     first = again[0].first_separation(*again[1:])
-    beyond = [{"case": again[0], "first": first}, {"case": largest, "first": largest.first}]
+    beyond = [{"case": again[0], "first": first}, {"case": largest, "first": largest.first_separation()}]
     holds, decides = stable == [True, False, True], largest_stable and not again[0].separates
     shown = measures.rows((small, middle, large))
     return Answer(None if holds and not decides else holds, "beyond", loads=shown, beyond=beyond)
@@ -199,7 +197,8 @@ def stiff_enough(case: CaseView) -> Answer:
         stable=len(points) - len(others),
         points=len(points),
         others=[
-            {"N": N, "Omega": ", ".join(f"{p.Omega:g}" for p in there)} for N, there in groupby(others, lambda p: p.N)
+            f"{N:g} N and {', '.join(f'{p.Omega:g}' for p in group)} rad/s"
+            for N, group in groupby(others, lambda p: p.N)
         ],
     )
 
@@ -366,14 +365,14 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     some = apart.any(axis=1)
     quiet = int(np.argmin(some))  # the softest disc without separation, if some separate
     mixed = some.any() and not some.all()
-    softer = [{"GPa": E[i], "Omega": Omega[apart[i]].min()} for i in range(quiet)] if mixed else []
+    softer = [f"{E[i]:.4g} GPa from {Omega[apart[i]].min():.3g} rad/s up" for i in range(quiet)] if mixed else []
     return Answer(
         mixed if some.any() and not softer else None,
         "enough" if softer else "nowhere",
         E=measures.extent(E),
-        none_for=[{"quiet": list(E[~some])}] if mixed else [],
-        base_too=[{"slow": slow}] if at.any() and not apart[E <= BASE.E / 1e9][:, at].any() else [],
-        alike=[] if mixed else [{"all": "every" if some.any() else "no"}],
+        quiet=[*E[~some]] if mixed else [],
+        every=some.any(),
+        base_too=at.any() and not apart[E <= BASE.E / 1e9][:, at].any(),
         softer=softer,
     )
 
@@ -441,15 +440,13 @@ def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[
     rate = np.array([_growth(p.replace(c_p=much)) for p in points]) if damper == "c_p" else damped
     grows, lower, higher = without > 0, rate < without, ~gone & (rate > without)
     counts = {"lowered": lower, "growing": grows & ~gone, "lowered_growing": grows & (damped < without)}
-    remarks = {"slides": gone & lower, "ended": gone & (without < 0) & ~lower, "raised": higher}
+    counts |= {"slides": gone & lower, "ended": gone & (without < 0) & ~lower, "raised": higher}
     places = [
         f"{measures.place(points[i].N, points[i].Omega)}: {without[i]:+.4f} to {rate[i]:+.4f}/s"
         for i in np.flatnonzero(higher)
     ]
-    found: dict[str, Any] = {name: int(at.sum()) for name, at in counts.items()}
-    for name, at in remarks.items():  # a row if there are any
-        found[name] = [{"count": at.sum(), "where": "; ".join(places)}] if at.any() else []
-    return found | {"points": len(points), "value": much, "places": places}
+    numbers = {name: int(at.sum()) for name, at in counts.items()}
+    return {**numbers, "points": len(points), "value": much, "places": places}
 
 
 def _stiffened(p: Parameters, name: str, *speeds: float) -> list[dict[str, Any]]:

@@ -37,7 +37,8 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         lines=[f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples()],
         rate=stick_slip_rate(case),
         chance=max(chance, 1e-99),
-        some=[] if named == len(found) else [{"named": named, "count": len(found)}],
+        named=named,
+        count=len(found),
         others=others,
     )
 
@@ -49,8 +50,9 @@ def drive(case: CaseView, *, level: float) -> Answer:
     near = all(abs(line.frequency - n * case.drive) < 0.05 for n, line in zip(orders, found, strict=True))
     strongest = every.amplitude <= found[0].amplitude * (1 + 1e-9)
     loud = min(line.amplitude for line in found) > level * found[0].amplitude
-    rows = [{"line": line, "dB": 20 * np.log10(line.amplitude / found[0].amplitude)} for line in found]
-    return Answer(near and strongest and loud, lines=rows)
+    levels = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
+    texts = [f"{line.frequency:.2f} Hz at {level:.0f} dB" for line, level in zip(found, levels, strict=True)]
+    return Answer(near and strongest and loud, lines=texts)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:

@@ -7,8 +7,7 @@ and grids of config/survival.yaml: undecided if the evidence does not decide, no
 import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,80 +16,49 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.data.dataset import Missing
+from disc_model.data.texts import Section, fill
 from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.paper import measures, section42
 from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
-from disc_model.paper.model import Answer, claims
-from disc_model.paper.pages import TEXTS, Comparison
+from disc_model.paper.model import Answer, claims, judge, read_texts
 
-# ----------------------------------------------------------------------------------------------------
-# The models and the data of each
-
-
-class Model(NamedTuple):
-    """Values that identify cases and points of a model; compliant: whether the contact has a flexibility."""
-
-    name: str
-    normalization: str
-    compliant: bool
-    contact_force: str
+MODELS = {
+    "as published": ("as_published", False, "vertical"),
+    "orthonormal": ("orthonormal", False, "vertical"),
+    "+ residual flexibility": ("orthonormal", True, "vertical"),
+    "+ normal contact force": ("orthonormal", True, "normal"),
+}
+"""The models by name: normalization, whether the contact has a flexibility, contact_force."""
 
 
-MODELS = (
-    Model("as published", "as_published", False, "vertical"),
-    Model("orthonormal", "orthonormal", False, "vertical"),
-    Model("+ residual flexibility", "orthonormal", True, "vertical"),
-    Model("+ normal contact force", "orthonormal", True, "normal"),
-)
+def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
+    """The cases and grid studies of each model; of the grid studies the points that belong to it."""
+    models: dict[str, dict[str, CaseView]] = {name: {} for name in MODELS}
+    for name, case in cases.items():
+        study = case.node.to_dataset()
+        if case.is_grid:
+            (dim,) = study["normalization"].dims
+            varied: list[Any] = [
+                study[name].values for name in ("normalization", "contact_compliance", "contact_force")
+            ]
+        else:
+            p = case.parameters
+            varied = [[p.normalization], [p.contact_compliance], [p.contact_force]]
+        points = [(normalization, give != 0, force) for normalization, give, force in zip(*varied, strict=True)]
+        for model, values in MODELS.items():
+            if case.is_grid and points.count(values) == 1:
+                models[model][name] = CaseView(name, xr.DataTree(study.isel({dim: points.index(values)})))
+            elif points == [values]:
+                models[model][name] = case
+    return models
 
-
-@dataclass(frozen=True)
-class Evidence:
-    """Evidence under one model: cases, and grid studies by name, without the dimension of models."""
-
-    cases: tuple[CaseView, ...]
-    grids: Mapping[str, xr.Dataset]
-
-    def grid(self, name: str) -> xr.Dataset:
-        """A grid study; raises `Missing` if there is none."""
-        if name not in self.grids:
-            raise Missing(f"study {name} has nothing of this model")
-        return self.grids[name]
-
-    def separating(self) -> list[CaseView]:
-        """Cases that lose contact; raises `Missing` if one did not reach its end."""
-        for case in self.cases:
-            if case.status != "ok":
-                raise Missing(f"{case.status} (case {case.name})")
-        return [case for case in self.cases if not case.bonded and case.separates]
-
-
-def evidence(model: Model, cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> Evidence:
-    """Evidence on a model from merged cases and grid studies."""
-    views = [CaseView(name, node) for name, node in cases.children.items()]
-    found = {name: one for name, grid in grids.items() if (one := _of_model(grid, model)) is not None}
-    own = [(p.normalization, p.contact_compliance != 0, p.contact_force) for p in (view.parameters for view in views)]
-    return Evidence(tuple(view for view, values in zip(views, own, strict=True) if values == model[1:]), found)
-
-
-def _of_model(grid: xr.Dataset, model: Model) -> xr.Dataset | None:
-    """The part of a grid study that belongs to a model."""
-    (dim,) = grid["normalization"].dims
-    varied = [grid[name].values for name in ("normalization", "contact_compliance", "contact_force")]
-    models = [(normalization, give != 0, force) for normalization, give, force in zip(*varied, strict=True)]
-    return grid.isel({dim: models.index(model[1:])}) if models.count(model[1:]) == 1 else None
-
-
-# ----------------------------------------------------------------------------------------------------
-# Conclusions
 
 SLOW = 1e-3
 """Growth rate below which a cycle counts as neither stable nor unstable, 1/s."""
 
 
-def onset(found: Evidence, *, beside: float) -> Answer:
-    points = found.grid("survival_outcome")
-    outcome, growth = _beside(points, found.grid("survival_growth"))
+def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: float) -> Answer:
+    outcome, growth = _beside(points, rates)
     if (outcome == "failed").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
@@ -98,9 +66,8 @@ def onset(found: Evidence, *, beside: float) -> Answer:
     counts = {kind: int((apart & where).sum()) for kind, where in cycles.items()}
     stable = cycles["stable"]
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
-    folds = found.grid("survival_curves")
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
-    soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(folds, load)) for load, speed in early)
+    soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(curves, load)) for load, speed in early)
     compared = counts["unstable"] > 0 and bool(stable.any())
     return Answer(
         soon if compared or not soon else None,
@@ -115,39 +82,29 @@ def onset(found: Evidence, *, beside: float) -> Answer:
 
 def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], Array]:
     """Outcomes, and growth rates at the same points, 1/s: both (N, Omega)."""
-    try:
-        there = growth.sel(N=outcome["N"], Omega=outcome["Omega"])
-    except KeyError as error:
-        raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
-    words = outcome["outcome"].transpose("N", "Omega")
-    return flag_names(words), there["growth_rate"].transpose("N", "Omega").values
+    rates = growth["growth_rate"].sel(N=outcome["N"], Omega=outcome["Omega"])
+    return flag_names(outcome["outcome"].transpose("N", "Omega")), rates.transpose("N", "Omega").values
 
 
-def fold(found: Evidence, *, load: float, within: float) -> Answer:
-    folds = np.array(sorted(_folds_at(found.grid("survival_curves"), load)))
-    highs, width = _beginnings(found.grid("survival_speed"), load)
+def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
+    folds = np.array(sorted(_folds_at(curves, load)))
+    highs, width = _beginnings(speed, load)
     speeds = {"folds": folds, "begins": highs}
     if not highs.size:
         return Answer(None, "no_speed", growth=[], **speeds)
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
     if min(off) <= within:
         return Answer(True, growth=[], **speeds)
-    beside = [_growth_beside(found.grid("survival_growth").sel(N=load), high - width, high) for high in highs]
-    rows = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
-    missed = int(found.grid("survival_curves")["n_continuation_failures"])
-    goes_on = all(rate > SLOW for rates in beside for rate in rates)
-    return Answer(
-        None if missed and not goes_on else False, "missed", missed=missed, growth=[{"rates": rows}], **speeds
-    )
-
-
-def _growth_beside(growth: xr.Dataset, low: float, high: float) -> tuple[float, float]:
-    """Growth rates at the map's nearest speeds below and above an interval, 1/s; nan without a cycle."""
-    rate = growth["growth_rate"]
-    try:
-        return float(rate.sel(Omega=low, method="pad")), float(rate.sel(Omega=high, method="backfill"))
-    except KeyError:
-        raise Missing("study survival_growth does not reach as far as survival_speed") from None
+    # at the map's nearest speeds below and above each interval; nan without a cycle
+    at_load = rates["growth_rate"].sel(N=load)
+    beside = [
+        (float(at_load.sel(Omega=high - width, method="pad")), float(at_load.sel(Omega=high, method="backfill")))
+        for high in highs
+    ]
+    growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
+    missed = int(curves["n_continuation_failures"])
+    goes_on = all(rate > SLOW for pair in beside for rate in pair)
+    return Answer(None if missed and not goes_on else False, "missed", missed=missed, growth=growth, **speeds)
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -157,9 +114,9 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
         one = curves.isel(curve=int(i))
         x, y = one["x"].values, one["y"].values
         border = flag_names(one["adjoins_stable_cycle"]) == "yes"
-        for j in np.flatnonzero((y[:-1] - load) * (y[1:] - load) <= 0):
-            if y[j] != y[j + 1] and border[j] and border[j + 1]:
-                yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
+        crosses = ((y[:-1] - load) * (y[1:] - load) <= 0) & (y[:-1] != y[1:])
+        for j in np.flatnonzero(crosses & border[:-1] & border[1:]):
+            yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
 
 
 def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
@@ -175,24 +132,31 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
         raise Missing(f"study {name} has points that failed")
 
 
-def below_critical(found: Evidence, *, share: float) -> Answer:
-    cases = found.separating()
-    return section42.far_below(*cases, share=share) if cases else Answer(None, "none", lower=[], critical=math.nan)
+def below_critical(*cases: CaseView, share: float) -> Answer:
+    apart = _separating(cases)
+    return section42.far_below(*apart, share=share) if apart else Answer(None, "none", lower=[], critical=math.nan)
 
 
-def falls_then_rises(found: Evidence, *, depth: float) -> Answer:
-    study = found.grid("survival_speed").isel(horizon=0)
+def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
+    """Cases that lose contact; raises `Missing` if one did not reach its end."""
+    for case in cases:
+        if case.status != "ok":
+            raise Missing(f"{case.status} (case {case.name})")
+    return [case for case in cases if not case.bonded and case.separates]
+
+
+def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
+    study = speed.isel(horizon=0)
     _require_ok(study, "survival_speed")
     falls, values = measures.lowest_speeds(study, depth)
     few = np.isfinite(study["critical_speed"].values).sum() < 3
     return Answer(None if few or values["again"] else falls, "few" if few else "again", **values)
 
 
-def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
+def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
     smaller: list[bool | None] = []
     rows = []
-    ignored = [case for case in found.cases if case.bonded]
-    for free, bonded in measures.pairs([*found.separating(), *ignored]):
+    for free, bonded in measures.pairs([*_separating(cases), *(case for case in cases if case.bonded)]):
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
         settled = fourth <= (1 + wider) * third
@@ -203,23 +167,23 @@ def smaller_vibration(found: Evidence, *, wider: float) -> Answer:
     return Answer(*_all_cases(smaller), cases=rows)
 
 
-def stick_vanishes(found: Evidence, *, share: float) -> Answer:
-    cases = found.separating()
-    stays = [case.place for case in cases if not stick_disappears(case.stick_in_all, case.stick, share)]
-    return Answer(len(stays) < len(cases) if cases else None, "none", cases=measures.rows(cases), stays=stays)
+def stick_vanishes(*cases: CaseView, share: float) -> Answer:
+    apart = _separating(cases)
+    stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
+    return Answer(len(stays) < len(apart) if apart else None, "none", cases=measures.rows(apart), stays=stays)
 
 
-def normal_damping(found: Evidence) -> Answer:
-    without, with_damper, _ = _damped(found, "c")
+def normal_damping(study: xr.Dataset) -> Answer:
+    without, with_damper, _ = _damped(study, "c")
     compared = (without > SLOW) & np.isfinite(with_damper)
     lower, stable = compared & (with_damper < without), compared & (with_damper < 0)
     lowered, count = int(lower.sum()), int(compared.sum())
     return Answer(lowered == count if count else None, "none", lower=lowered, count=count, stable=int(stable.sum()))
 
 
-def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
-    without, damped, status = _damped(found, "c_p")
-    heavy = (found.grid("survival_damping")["N"].values >= large)[:, None]
+def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
+    without, damped, status = _damped(study, "c_p")
+    heavy = (study["N"].values >= large)[:, None]
     both = np.isfinite(without) & np.isfinite(damped)
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
@@ -235,9 +199,8 @@ def inplane_damping(found: Evidence, *, large: float, fewest: float) -> Answer:
     )
 
 
-def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
+def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
     """Growth rates without and with one damper, 1/s, and the result with it: each (N, Omega)."""
-    study = found.grid("survival_damping")
     (dim,) = study["c"].dims
     on = list(zip(study["c"].values != 0, study["c_p"].values != 0, strict=True))
     wanted = [(False, False), (name == "c", name == "c_p")]
@@ -247,10 +210,10 @@ def _damped(found: Evidence, name: str) -> tuple[Array, Array, NDArray[np.str_]]
     return one["growth_rate"].values, two["growth_rate"].values, flag_names(two["status"])
 
 
-def not_periodic(found: Evidence) -> Answer:
-    cases = found.separating()
-    repeats = [_repeats(case) for case in cases]
-    rows = [{"case": case, "motion": told} for case, (_, told) in zip(cases, repeats, strict=True)]
+def not_periodic(*cases: CaseView) -> Answer:
+    apart = _separating(cases)
+    repeats = [_repeats(case) for case in apart]
+    rows = [{"case": case, "motion": told} for case, (_, told) in zip(apart, repeats, strict=True)]
     holds = [
         None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
         for kind, _ in repeats
@@ -280,34 +243,21 @@ def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
 
 CONCLUSIONS = claims(sys.modules[__name__])
 
-# ----------------------------------------------------------------------------------------------------
-# The page
+TEXTS: dict[str, str] = read_texts("pages.yaml")["survival"]
 
 
-def judge(cases: xr.DataTree, grids: Mapping[str, xr.Dataset]) -> pd.DataFrame:
-    """Judge every conclusion under every model: one row each, columns conclusion, model, verdict, ours, remark."""
-    rows = []
-    for model in MODELS:
-        found = evidence(model, cases, grids)
-        for one in CONCLUSIONS:
-            judged, _ = one.settle(lambda claim, found=found: claim.judge(found))
-            rows.append((one.id, model.name, judged.verdict, judged.ours, judged.remark))
-    return pd.DataFrame(rows, columns=["conclusion", "model", "verdict", "ours", "remark"])
-
-
-def page_of(table: pd.DataFrame) -> Comparison:
-    """Results of `judge` as a page: all verdicts at a glance, then their evidence."""
-    texts = TEXTS["survival"]
-    verdicts = table.pivot(index="conclusion", columns="model", values="verdict").loc[[one.id for one in CONCLUSIONS]]
-    first = pd.DataFrame([(one.claim, one.location) for one in CONCLUSIONS], columns=["Conclusion", "Place"])
-    for model in MODELS:
-        first[model.name[0].upper() + model.name[1:]] = verdicts[model.name].to_numpy()
-    sections = [("At a glance", texts["introduction"], first)]
+def page_of(cases: Mapping[str, CaseView]) -> list[Section]:
+    """Every conclusion under every model, as sections of a page: all verdicts at a glance, then their evidence."""
+    table = judge(CONCLUSIONS, by_model(cases))
+    verdicts = table.pivot(index="id", columns="model", values="verdict")
+    rows = [(one.claim, one.location, *verdicts.loc[one.id, [*MODELS]]) for one in CONCLUSIONS]
+    names = [name[0].upper() + name[1:] for name in MODELS]
+    sections = [("At a glance", TEXTS["introduction"], pd.DataFrame(rows, columns=["Conclusion", "Place", *names]))]
+    columns = {"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"}
     for one in CONCLUSIONS:
-        rows = table[table["conclusion"] == one.id].drop(columns="conclusion")
-        shown = rows.rename(columns={"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"})
-        if not rows["remark"].any():
-            shown = shown.drop(columns="Remark")
-        rule = texts["rule"].format(text=one.claim, tolerance=one.fill(one.tolerance), reason=one.reason)
-        sections.append((one.id, rule, shown))
-    return Comparison(texts["title"], tuple(sections))
+        evidence = table.loc[table["id"] == one.id, [*columns]].rename(columns=columns)
+        if not evidence["Remark"].any():
+            evidence = evidence.drop(columns="Remark")
+        rule = fill(TEXTS["rule"], text=one.claim, tolerance=one.fill(one.tolerance), reason=one.reason)
+        sections.append((one.id, rule, evidence))
+    return sections
