@@ -1,7 +1,7 @@
-# The paper's claims against the computed results.
+# The paper's claims and tables against the computed results, with the modes normalised otherwise, and under other models.
 
 
-from disc_model.paper import SCANS
+from disc_model.paper import SCANS, SURVIVAL_GRIDS
 
 SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 
@@ -68,3 +68,58 @@ rule make_table:
         made_of=lambda wildcards: made_of("make_table", of=case_made_of("F13")),
     shell:
         "job make_table {wildcards.table} {output} {input} > {log} 2>&1"
+
+
+rule compare_normalisations:
+    # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
+    input:
+        compiled(["floquet-rigid_vertical"]),
+        published="results/paper/cases.nc",
+        orthonormal="results/paper_orthonormal/cases.nc",
+    output:
+        md="results/paper/normalisation.md",
+        html=report(
+            "results/paper/normalisation.html",
+            caption="../report/normalisation.rst",
+            category="Normalisation of the modes",
+            labels={"page": "What changes with Eq. (17)"},
+        ),
+    log:
+        "results/paper/logs/compare_normalisations.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        made_of=made_of("compare_normalisations"),
+    shell:
+        "job compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
+
+
+rule judge_survival:
+    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and runs this.
+    input:
+        cases="results/survival/cases.nc",
+        grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
+        png="results/survival_growth/figures/survival_growth.png",
+    output:
+        md="results/paper/survival.md",
+        html=report(
+            "results/paper/survival.html",
+            caption="../report/survival.rst",
+            category="Model sensitivity",
+            labels={"page": "The paper's conclusions under four models"},
+        ),
+        png=report(
+            "results/paper/survival_growth.png",
+            caption="../report/survival.rst",
+            category="Model sensitivity",
+            labels={"page": "Growth rate over speed and preload under each"},
+        ),
+    log:
+        "results/paper/logs/judge_survival.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        made_of=made_of("judge_survival"),
+    shell:
+        "(job judge_survival {output.md} {output.html} {input.cases} {input.grids}"
+        " && cp {input.png} {output.png}) > {log} 2>&1"
