@@ -347,6 +347,15 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
     assert basins.reached(static_start(basins.p)).outcome is Outcome.UNDECIDED
 
 
+@pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])
+@pytest.mark.parametrize("early", [True, False])
+def test_steady_sliding_that_has_arrived_is_known_at_any_tolerance(tol: float, early: bool) -> None:
+    """At 1e-8 the errors of the simulation were larger than what counted as arrived: undecided, after the horizon."""
+    found = find_outcome(Parameters(N=100, Omega=20, D_star=1e-3, c_p=5), 40, tol=tol, early=early)
+    assert found.outcome is Outcome.STEADY_SLIDING
+    assert found.simulated == (5 if early else 40)
+
+
 @pytest.mark.compiled
 def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
     p = Parameters(N=50, Omega=15, c_p=0.5)

@@ -271,7 +271,7 @@ def sweep(
     """Follow the motion through values of a parameter, up and down again.
 
     It stays ``dwell`` s at each value, and twice as long until it has settled, up to ``longest`` s; from a stable cycle
-    that it follows it goes on exactly. Yields the direction (0 up, 1 down) and the index of the value, the last run
+    that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of the value, the last run
     there, its last segment of ``late`` s, and what the motion has come to. If a run ends early, the segment is None and
     the sweep ends.
     """

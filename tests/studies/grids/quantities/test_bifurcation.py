@@ -9,7 +9,7 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
+from disc_model.simulation.api import make_initial_state, simulate
 from disc_model.simulation.case import Poincare, Record, Start
 from disc_model.studies.document import BifurcationOptions
 from disc_model.studies.grids.points import Point
@@ -139,3 +139,22 @@ def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
     """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
     values = at_switches(22.25, transient=30, max_transient=30)
     assert (values["period_events"], values["settled"]) == (40, "settled")
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+@pytest.mark.parametrize("N", np.random.default_rng(55).choice(np.linspace(100, 600, 201), 10, False).tolist())
+def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settled(N: float) -> None:
+    """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of 5 s hid."""
+    p, start = Parameters(N=N, Omega=15.1), Start(prerun=APART)
+    options = BifurcationOptions(section="event", transient=15, max_transient=1920, samples=200)
+    values, _ = bifurcation.compute_point(Point(p, start), options)
+    if values["settled"] != "settled":
+        return
+    later = simulate(p, values["transient_time"] + 2000, initial_state=make_initial_state(p, start, 1e-10)).final_state
+    events = simulate(p, later.time + 5, initial_state=later).events
+    kind = {"separation": "separation", "stick": "stick_to_slip"}[values["phase"][0]]
+    psi = events["psi"][events["kind"] == kind].to_numpy()[-200:]
+    ends = [(angles.min(), angles.max()) for angles in (psi, values["psi"])]
+    # settled: the width changes by less than 5 % in 1000 s, or is below a thousandth of the angle
+    assert ends[0] == pytest.approx(ends[1], abs=max(0.1 * np.ptp(values["psi"]), 1e-3 * psi.max()))
