@@ -42,8 +42,8 @@ FIRST_LEG = 5.0
 LONGEST_LEG = 160.0
 """s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
 CERTAIN = 0.02
-"""Distance from a cycle, over the static deflection, from which a departure is simulated for critical speeds, and where
-it came to a stable cycle: farther away, its phase may decide between that cycle and separation."""
+"""Distance from a cycle, over the static deflection, from which a departure that came to a stable cycle is simulated:
+farther away, its phase may decide between that cycle and separation."""
 RATE = 4000.0
 """Sampling rate of segments, Hz: above twice the highest modal frequency."""
 
