@@ -11,7 +11,7 @@ file: numba's cache notices changes only in the file of the called function.
 
 # mypy: disable-error-code="no-untyped-def"
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numba
 import numpy as np
@@ -258,9 +258,9 @@ def switch_values(modes, c, phase, direction, y, out):
 @_kernel
 def violated(values, count):
     """Index of the first of ``count`` values that is negative, or -1."""
-    for place in range(count):
-        if values[place] < 0.0:
-            return place
+    for index in range(count):
+        if values[index] < 0.0:
+            return index
     return -1
 
 
@@ -322,87 +322,9 @@ def _dip(before, here, after):
     return s if 0.0 < s < 1.0 and here + 0.5 * s * rise < 0.5 * min(here, after) else 0.0
 
 
-class Step(NamedTuple):
-    """The start of a step: phase, state, rate and `switch_values`; whether a phase begins there; arrays for trials."""
-
-    phase: int
-    direction: int
-    y: np.ndarray
-    rate: np.ndarray
-    values: np.ndarray
-    fresh: bool
-    k: np.ndarray
-    z: np.ndarray
-    trial: np.ndarray
-
-
-@_kernel
-def _probe(modes, c, step, h, out):
-    """Go ``h`` on from a step's start, to ``out``; returns the first violated condition, or -1, and fills ``trial``."""
-    rk4_step(modes, c, step.phase, step.direction, step.y, step.rate, h, out, step.k, step.z)
-    return violated(step.trial, switch_values(modes, c, step.phase, step.direction, out, step.trial))
-
-
-@_part
-def _dips(before, here, after, conditions):
-    """Whether any condition dips within the last of two steps."""
-    least = 0.0
-    for index in range(conditions):
-        least = max(least, _dip(before[index], here[index], after[index]))
-    return least > 0.0
-
-
-@_kernel
-def _probe_dips(modes, c, step, length, before, after, out):
-    """Try the minima of conditions that dip within a step; returns the violated one or -1, its time, and the tries.
-
-    before, after : values a step earlier and later; the latter receive those where a condition is violated
-    """
-    tries = 0
-    for index in range(len(after)):
-        s = _dip(before[index], step.values[index], after[index])
-        if s > 0.0:
-            tries += 1
-            cause = _probe(modes, c, step, s * length, out)
-            if cause >= 0:
-                after[:] = step.trial[: len(after)]
-                return cause, s * length, tries
-    return -1, length, tries
-
-
-@_kernel
-def _locate(modes, c, step, cause, high, after, out):
-    """Find by secants where a condition, violated ``high`` after a step's start with values ``after``, falls to 0.
-
-    Returns the condition, which is another if one falls earlier, the time after the start, and the tries; ``out`` is
-    the state there.
-    """
-    precision, lows = 1e-12 * high, step.values.copy()
-    low, at_low, at_high, side, tries, middle = 0.0, lows[cause], after[cause], 0, 0, 0.0
-    while tries < ROOT_TRIES:
-        tries += 1
-        middle = low + (high - low) * at_low / (at_low - at_high)
-        if not low < middle < high or (low == 0.0 and step.fresh):
-            middle = 0.5 * (low + high)
-        other = _probe(modes, c, step, middle, out)
-        # an end that stays twice counts half (Illinois)
-        if other >= 0:
-            if other != cause:
-                cause, at_low, side = other, lows[other], 0
-            at_low *= 0.5 if side == 1 else 1.0
-            moved, high, at_high, side = high - middle, middle, step.trial[cause], 1
-        else:
-            at_high *= 0.5 if side == -1 else 1.0
-            moved, low, at_low, side = middle - low, middle, step.trial[cause], -1
-            lows[:] = step.trial
-        if moved < precision or step.trial[cause] == 0.0:
-            break
-    return cause, middle, tries
-
-
 @_kernel
 def rk4_run(modes, c, phase, direction, y, limits, track):
-    """Take fixed steps from local time 0 to an event, which `_locate` finds within its step, and so on to the end.
+    """Take fixed steps from local time 0 to an event, which secants locate within its step, and so on to the end.
 
     A step is searched if an event function changes sign over it or dips within it.
 
@@ -416,48 +338,75 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     -------
     (why, time, phase, direction, events, steps)
     """
-    t_end, h, most, stop = limits
+    t_end, h, max_steps, stop = limits
     times, kinds, heights = track
     size, n = len(y), modes.shape[1]
-    k, z, trial, dip, new = np.empty((3, size)), np.empty(size), np.empty(3), np.empty(size), np.empty(2, np.int64)
-    final, end, first, next_rate = y, np.empty(size), np.empty(size), np.empty(size)
+    k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
+    new, end, first, following_rate = np.empty(2, np.int64), np.empty(size), np.empty(size), np.empty(size)
     before, here, after = np.empty(3), np.empty(3), np.empty(3)
+    lows, probe, final = np.empty(3), np.empty(size), y
     why, origin, count, local, events, steps = FINISHED, 0.0, 0, 0.0, 0, 0
     while local < t_end:
-        if steps >= most:
+        if steps >= max_steps:
             why = STEP_LIMIT
             break
         if count == 0:
             rate(modes, c, phase, direction, y, first)
             switch_values(modes, c, phase, direction, y, here)
         # time is event time plus a whole number of steps: summing h would lose digits of the event times
-        following = min(origin + (count + 1) * h, t_end)
+        following = origin + (count + 1) * h
         length = following - local
+        if following >= t_end:
+            following, length = t_end, t_end - local
         rk4_step(modes, c, phase, direction, y, first, length, end, k, z)
-        P, F = rate(modes, c, phase, direction, end, next_rate)
-        w, _ = disc_point(modes, end)
         steps += 1
+        P, F = rate(modes, c, phase, direction, end, following_rate)
+        w, _ = disc_point(modes, end)
         if not abs(w) < HUGE:
             why = NON_FINITE
             break
         heights[0], heights[1] = min(heights[0], w), max(heights[1], w)
         conditions = _margins(c, phase, direction, end, n, P, F, w, after)
-        cause, high, middle = violated(after, conditions), length, 0.0
-        if cause >= 0 or (count > 0 and _dips(before, here, after, conditions)):
-            step = Step(phase, direction, y, first, here, count == 0, k, z, trial)
-            if cause < 0:
-                cause, high, tries = _probe_dips(modes, c, step, length, before, after[:conditions], dip)
-                steps += tries
-            if cause >= 0:
-                cause, middle, tries = _locate(modes, c, step, cause, high, after, end)
-                steps += tries
+        cause, high = violated(after, conditions), length
+        for index in range(conditions if cause < 0 < count else 0):
+            s = _dip(before[index], here[index], after[index])
+            if s > 0.0:
+                rk4_step(modes, c, phase, direction, y, first, s * length, probe, k, z)
+                steps += 1
+                switch_values(modes, c, phase, direction, probe, trial)
+                cause = violated(trial, conditions)
+                if cause >= 0:
+                    high, after[:] = s * length, trial
+                    break
         if cause < 0:
             y, end = end, y
-            first, next_rate = next_rate, first
+            first, following_rate = following_rate, first
             before, here, after = here, after, before
             local = following
             count += 1
             continue
+        low, at_low, at_high, side = 0.0, here[cause], after[cause], 0
+        lows[:] = here
+        for _ in range(ROOT_TRIES):
+            middle = low + (high - low) * at_low / (at_low - at_high)
+            if not low < middle < high or (low == 0.0 and count == 0):  # a phase may begin at a root
+                middle = 0.5 * (low + high)
+            rk4_step(modes, c, phase, direction, y, first, middle, end, k, z)
+            steps += 1
+            switch_values(modes, c, phase, direction, end, trial)
+            other = violated(trial, conditions)
+            # an end that stays twice counts half (Illinois)
+            if other >= 0:
+                if other != cause:
+                    cause, at_low, side = other, lows[other], 0
+                at_low *= 0.5 if side == 1 else 1.0
+                moved, high, at_high, side = high - middle, middle, trial[cause], 1
+            else:
+                at_high *= 0.5 if side == -1 else 1.0
+                moved, low, at_low, side = middle - low, middle, trial[cause], -1
+                lows[:] = trial
+            if moved < 1e-12 * length or trial[cause] == 0.0:
+                break
         y[:] = end
         local += middle
         origin, count = local, 0
