@@ -230,6 +230,13 @@ def test_each_model_is_judged_by_its_own_data() -> None:
     assert [heading for heading, _, _ in sections] == [*BY_TITLE]
     rows = dict(zip(BY_TITLE, verdicts.drop(columns=["Conclusion", "Place"]).to_numpy().tolist(), strict=True))
     assert rows["Onset"] == [HOLDS, HOLDS, FAILS, UNDECIDED]
+    assert (
+        sections[0][2]["Found"]
+        .iloc[0]
+        .startswith(
+            "2 of 6 points separate: 1 from an unstable cycle, 1 where none is found, 0 from a stable one; 3 with"
+        )
+    )
     assert rows[STICK] == [HOLDS, FAILS, HOLDS, UNDECIDED]  # half a bound is as good
     assert all(verdict.startswith(NOT_COMPUTED) for verdict in rows[CRITICAL])
 

@@ -62,7 +62,7 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
     if (outcome == "failed").any():
         raise Missing("study survival_outcome has points that failed")
     apart = outcome == "separation"
-    cycles = {"stable": growth < -SLOW, "unstable": growth > SLOW, "none": np.isnan(growth)}
+    cycles = {"stable": growth < -SLOW, "unstable": growth > SLOW, "without": np.isnan(growth)}
     counts = {kind: int((apart & where).sum()) for kind, where in cycles.items()}
     stable = cycles["stable"]
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
