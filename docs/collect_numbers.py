@@ -28,7 +28,7 @@ from disc_model.plate import mode_arrays
 
 ROOT = Path(__file__).parents[1]
 STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encoding="utf-8"))
-PAGES = ["README.md", "docs/**/*.md", "config/**/*.yaml", "src/disc_model/figures/paper/catalogue.yaml"]
+PAGES = ["README.md", "docs/**/*.md", "config/**/*.yaml"]
 """Texts in which statements are looked for."""
 NUMBER = r"[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?"
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]

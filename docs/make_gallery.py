@@ -2,12 +2,16 @@
 
 from pathlib import Path
 
+import xarray as xr
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.artist import Artist
+from matplotlib.figure import Figure
 from PIL import Image
 
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
-from disc_model.figures.paper import disc
-from disc_model.figures.paper.catalogue import CATALOGUE, caption, number_of
+from disc_model.figures.drawing import BLACK, styled
+from disc_model.paper.figures.instants import colour_of, draw_circle, draw_disc, motion_of, scale_of
 from disc_model.studies.study import load_study
 
 SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1", "B2"))
@@ -43,30 +47,52 @@ def shrink(source: Path, target: Path) -> Path:
     return target
 
 
+def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
+    """Write the motion of disc and slider as an animated picture, .gif or .webp, with at most `frames` frames.
+
+    Raises `Missing` if the case does not hold the windows `around0`, ...
+    """
+    motion = motion_of(case)
+    step = max(1, motion.time.size // frames)
+    with styled():
+        figure = Figure(figsize=(6.0, 2.5))
+        figure.set_layout_engine("none")  # panels keep their places in all frames
+        disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
+        scale = scale_of(motion)
+
+        def draw(i: int) -> list[Artist]:
+            for ax in (disc, circle):
+                ax.cla()
+            draw_disc(disc, motion, i, scale)
+            draw_circle(circle, motion, i, 7)
+            circle.set_ylim(scale.vmin, scale.vmax)
+            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.phase[i]}"
+            circle.set_title(text, color=colour_of(motion, i, BLACK))
+            return [disc, circle]
+
+        animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        animation.save(path, writer=PillowWriter(fps=12), dpi=100)
+
+
 @script
 def main() -> None:
-    results, docs = Path("results/paper/figures"), Path("docs")
-    specs = load_study("config/paper.yaml").specs
-    parameters = {name: spec.parameters for name, spec in specs.items()}
-    windows = {name: spec.sections for name, spec in specs.items()}
+    results, docs = Path("results"), Path("docs")
+    studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
+    entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
     lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
     for name in SHOWN:
-        small = shrink(results / f"{name}.png", docs / "gallery" / f"{name}.png")
-        text = f"**{number_of(name)}. {CATALOGUE[name].title}.** {caption(name, parameters, windows)}"
-        lines += [f"![{number_of(name)}](gallery/{small.name})", "", text, ""]
-    (case,) = load_cases([results.parent / "cases" / "F02.nc"]).values()
-    disc.film(case, docs / "gallery" / "film.webp")
+        _, entry = entries[name]
+        small = shrink(results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png")
+        number, _, title = " ".join(entry.title.split()).partition(": ")
+        lines += [f"![{number}](gallery/{small.name})", "", f"**{number}. {title}.** {entry.caption}", ""]
+    (case,) = load_cases([results / "paper" / "cases" / "F02.nc"]).values()
+    film(case, docs / "gallery" / "film.webp")
     lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
-    asked = [load_study(path).grids()[0] for path in ("config/paper.yaml", "config/survival.yaml")]
-    texts = {
-        name: (study, plot.caption)
-        for grids in asked
-        for study, grid in grids.items()
-        for name, plot in grid.plots.items()
-    } | {name: ("bench", text) for name, text in OF_BENCHMARK.items()}
-    for name in (*OF_GRIDS, *OF_BENCHMARK):
-        folder, text = texts[name]
-        source, small = results.parents[1] / folder / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png"
+    texts = {name: (entries[name][0], entries[name][1].plot.caption) for name in OF_GRIDS}
+    texts |= {name: ("bench", text) for name, text in OF_BENCHMARK.items()}
+    for name, (study, text) in texts.items():
+        source, small = results / study / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png"
         if source.is_file():
             shrink(source, small)
         if small.is_file():

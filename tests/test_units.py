@@ -95,4 +95,4 @@ def test_numbers_of_figures_have_the_units_of_their_axes() -> None:
     spectrum = {"kind": "spectrogram", "case": "A", "window": "w", "highest": "0.5 kHz"}
     record = {"windows": {"w": {"last": "2 s", "rate": "4 kHz"}}}
     cases = {"A": {"title": "A", "t_end": "0.1 min", "parameters": {"N": 1, "Omega": 1}, "record": record}}
-    assert parse_study({"study": "s", "cases": cases, "figures": {"f": spectrum}}).plots["f"].highest == 500  # type: ignore[attr-defined]
+    assert parse_study({"study": "s", "cases": cases, "figures": {"f": spectrum}}).figures["f"].highest == 500  # type: ignore[attr-defined]

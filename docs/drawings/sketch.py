@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from disc_model import Parameters
-from disc_model.figures.paper.model import sketch
+from disc_model.paper.figures.schematic import sketch
 
 FONT = {"font.size": 11, "mathtext.fontset": "cm", "svg.hashsalt": "sketch", "font.family": "DejaVu Sans"}
 

@@ -15,8 +15,6 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
 ASIDE = {
-    "figures.kinds": "a figure's text holds the values of all options",
-    "figures.paper.catalogue": "says what a file may ask for",
     "mode_choice": "is an entry point, where modes are chosen by the motion",
     "plausibility": "warns",
     "progress": "shows progress",

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import numpy as np
-from docs.make_gallery import PAGE, shrink
+from docs.make_gallery import PAGE, film, shrink
 from PIL import Image, ImageColor
 
 from disc_model.figures.drawing import PHASE_COLOURS, SLIDER
+from tests.figures.test_cases import simulated
 
 
 def test_small_pictures_showed_phases_in_other_colours(tmp_path: Path) -> None:
@@ -23,3 +24,11 @@ def test_small_pictures_showed_phases_in_other_colours(tmp_path: Path) -> None:
     scale = shown.shape[1] / PAGE
     for i, colour in enumerate(kept):
         assert tuple(shown[round(40 * scale), round((100 * i + 20) * scale)].tolist()) == colour
+
+
+def test_a_film_moves(tmp_path: Path) -> None:
+    path = tmp_path / "film.webp"
+    film(simulated(True), path, frames=3)
+    with Image.open(path) as picture:
+        assert picture.n_frames >= 3
+    assert path.stat().st_size < 100_000

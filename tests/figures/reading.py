@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from disc_model.figures import drawing
-from disc_model.figures.kinds import PLOTS
+from disc_model.figures.kind import kind_of
 
 ON_EACH_SCALE = pytest.mark.parametrize(
     ("x", "values", "scale"),
@@ -20,10 +19,32 @@ ON_EACH_SCALE = pytest.mark.parametrize(
 
 
 def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **phrase: Any) -> Figure:
-    """A figure of a kind, as a file asks for it, with further studies by their roles."""
+    """A figure of a kind, as a file asks for it, with further studies by their roles; fit for print."""
     shown = {"study": study, **(others or {})}
-    plot = PLOTS[kind].model_validate({"kind": kind, **phrase})
-    return drawing.draw(plot, {name: xr.DataTree(one) for name, one in shown.items()})
+    inputs = {name: xr.DataTree(dataset) for name, dataset in shown.items()}
+    figure = kind_of(kind).model_validate({"kind": kind, **phrase}).render(inputs)
+    assert_fit_for_print(figure)
+    return figure
+
+
+def assert_fit_for_print(figure: Figure) -> None:
+    """Nothing lies outside the page or over a title, and all axes are named; an empty panel says why."""
+    figure.draw_without_rendering()
+    width, height = figure.get_size_inches()
+    page = figure.get_tightbbox()
+    margin = 0.05  # inch
+    assert min(page.x0, page.y0, width - page.x1, height - page.y1) > -margin
+    if title := figure.get_suptitle():
+        above = figure._suptitle.get_window_extent()
+        assert not [legend for legend in figure.legends if legend.get_window_extent().overlaps(above)], title
+    for ax in figure.axes:
+        if not ax.axison:
+            assert ax.texts or ax.get_label() == "<colorbar>"
+        elif ax.has_data() and ax.get_label() != "<colorbar>":
+            assert any(one.get_ylabel() for one in (ax, *ax.get_shared_y_axes().get_siblings(ax)))
+            assert any(one.get_xlabel() for one in figure.axes)
+    for text in (text for ax in figure.axes for text in (ax.xaxis.label, ax.yaxis.label) if text.get_text()):
+        assert text.get_fontsize() >= 6
 
 
 def crosses(ax: Axes) -> list[list[float]]:

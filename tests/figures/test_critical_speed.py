@@ -49,8 +49,6 @@ def test_areas_are_the_outcomes_of_a_map_where_there_is_one(chart: Callable[...,
     assert {"quiet", "growing, in contact", "separation", "areas: within 900 s"} <= set(labels(figure))
     (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
     assert not np.ma.getmaskarray(mesh.get_array()).any()
-    alone = chart(cycle=cycle.drop_vars("outcome"))
-    assert "stable stick-slip cycle (white: none)" in labels(alone)
 
 
 def test_a_line_does_not_jump_to_another_branch() -> None:

@@ -8,8 +8,7 @@ import pytest
 import xarray as xr
 
 from disc_model.figures import drawing
-from disc_model.figures.kinds import Campbell
-from tests.processes import python
+from disc_model.figures.curve import CurvePlot
 
 
 @pytest.mark.parametrize(
@@ -24,23 +23,13 @@ from tests.processes import python
     ],
 )
 def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: str) -> None:
-    study = xr.Dataset(coords={"k": [1.0, 2.0]}, attrs={"title": "Made up", "base": json.dumps(base)})
-    figure = drawing.new_figure(drawing.COLUMN, 2)
-    drawing.head(figure, study, Campbell())
-    assert figure.get_suptitle() == f"Made up\n{text}"
-
-
-def test_a_figure_with_a_caption_has_no_heading() -> None:
-    """The paper's figures have none, and those of grids said in the picture what stood below it too."""
-    figure = drawing.new_figure(drawing.COLUMN, 2)
-    drawing.head(figure, xr.Dataset(attrs={"title": "Made up", "base": '{"N": 385}'}), Campbell(caption="Said below."))
-    assert figure.get_suptitle() == ""
-
-
-def test_a_value_stays_in_the_line_of_its_name() -> None:
-    figure = drawing.new_figure(1.0, 2)
-    drawing.entitle(figure, Campbell(), "", "N = 385 N, Ω = 15.1 rad/s, D* = 2e-05 N m s")
-    assert figure.get_suptitle().split("\n") == ["N = 385 N,", "Ω = 15.1 rad/s,", "D* = 2e-05 N m s"]
+    attrs = {"title": "Made up", "base": json.dumps(base)}
+    status = ("k", [0, 0], {"flag_meanings": "ok"})
+    study = xr.Dataset({"period": ("k", [1.0, 2.0]), "status": status}, {"k": [1.0, 2.0]}, attrs)
+    plot = CurvePlot(variable="period", x="k")
+    assert plot.render({"study": xr.DataTree(study)}).get_suptitle() == f"Made up\n{text}"
+    said_below = plot.model_copy(update={"caption": "Said below."})
+    assert said_below.render({"study": xr.DataTree(study)}).get_suptitle() == ""
 
 
 def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
@@ -49,8 +38,3 @@ def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog
     with caplog.at_level(logging.INFO):
         drawing.save(figure, tmp_path / "figure.pdf")
     assert not caplog.records
-
-
-def test_the_style_needs_no_figure_of_another_kind() -> None:
-    """A figure alone in its process ended in an AttributeError: other modules had imported matplotlib's styles."""
-    python("from disc_model.figures.drawing import styled\nwith styled():\n    pass")

@@ -9,7 +9,6 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
-from disc_model.figures import drawing
 from disc_model.figures.drawing import save
 from tests.figures.reading import draw, labels, lines
 
@@ -55,22 +54,6 @@ def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_pa
     assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear"), "a range by factors has an axis by factors"
     assert ax.get_xlim() == pytest.approx((0.01, 10)), "its cells are no wider"
     save(figure, tmp_path / "map.png")
-
-
-def test_a_range_by_factors_has_an_axis_by_factors_whatever_it_is_of(study: xr.Dataset) -> None:
-    loads = study.rename(c_p="N").assign_coords(N=[10.0, 20.0, 40.0, 80.0])
-    [ax, _] = draw("heat_map", loads, variable="drift", x="N", y="mu_k", at={"normalization": "orthonormal"}).axes
-    assert (ax.get_xscale(), ax.get_xlim()) == ("log", pytest.approx((10, 80)))
-    uneven = loads.assign_coords(N=[0.1, 0.2, 0.3, 4.0])
-    at = {"mu_k": 0.1, "normalization": "orthonormal"}
-    scales = [draw("curve", one, variable="drift", x="N", at=at).axes[0].get_xscale() for one in (loads, uneven)]
-    assert scales == ["log", "linear"]
-
-
-def test_one_value_of_a_dimension_can_be_shown(study: xr.Dataset) -> None:
-    figure = mapped(study, "drift", at={"normalization": "orthonormal"})
-    assert len(figure.axes) == 2  # one panel and its scale
-    assert not figure.legends
 
 
 def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
@@ -126,15 +109,6 @@ def test_a_zip_has_a_panel_or_a_line_for_each_of_its_points(study: xr.Dataset) -
     np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
     figure = draw("curve", zipped(study), variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
     assert list(lines(figure.axes[0]))[:2] == phrase
-
-
-def test_panels_come_as_the_page_has_its_columns(study: xr.Dataset) -> None:
-    """Survival's figure had the normal force before the vertical one, as the alphabet has them."""
-    laws = {"contact_compliance": ("both", [3e-7, 3e-7]), "contact_force": ("both", ["normal", "vertical"])}
-    alphabetic = zipped(study)["growth_rate"].drop_vars("normalization").assign_coords(laws)
-    panels = drawing.slices(alphabetic, "both")
-    assert [one["contact_force"].item() for _, one in panels] == ["vertical", "normal"]
-    np.testing.assert_array_equal(panels[0][1], study["growth_rate"].sel(normalization="orthonormal"))
 
 
 def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:

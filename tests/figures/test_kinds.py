@@ -1,20 +1,45 @@
-"""Which studies a figure can show, alone and beside others: all that could end in an error once they are computed."""
+"""All kinds of figures: how they are found, and that each is drawn somewhere here."""
 
-from importlib.util import find_spec
+from pathlib import Path
 
-from disc_model.figures.kinds import PLOTS, General
+import pytest
+
+from disc_model.errors import ParameterError
+from disc_model.figures.general import General
+from disc_model.figures.kind import CasePlot, Kind, Plot, kind_of, library_kinds
 from disc_model.parameters import Parameters
 from disc_model.studies.document import QUANTITIES
+from tests.processes import python
+
+KINDS = library_kinds()
+TESTS = [path for path in Path(__file__).parent.glob("test_*.py") if path.name != "test_kinds.py"]
 
 
-def test_every_plot_knows_its_quantity_its_dimensions_and_who_draws_it() -> None:
-    plane = {"x": "N", "y": "Omega"}
-    needed = {"stability_map": plane, "region_map": plane, "bifurcation": {"x": "Omega"}, "basins": {"x": "Omega"}}
-    for kind, plot in PLOTS.items():
-        if issubclass(plot, General):  # of any quantity, see test_general
-            continue
-        made = plot(kind=kind, **needed.get(kind, {}))
-        assert made.quantities
-        assert {*made.quantities} <= QUANTITIES.keys()
-        assert find_spec(made.module)
-        assert set(made.dims) <= {*Parameters.model_fields}
+@pytest.mark.parametrize("name", KINDS)
+def test_a_kind_is_a_module_of_its_name_and_is_drawn_by_a_test(name: str) -> None:
+    kind = KINDS[name]
+    assert kind.__module__ == f"disc_model.figures.{name}"
+    assert issubclass(kind, CasePlot | Plot)
+    if issubclass(kind, Plot) and not issubclass(kind, General):
+        plane = {"x": "N", "y": "Omega"} if "y" in kind.model_fields else {"x": "N"} if "x" in kind.model_fields else {}
+        assert {*kind.quantities} <= QUANTITIES.keys()
+        assert {*kind(**plane).dims} <= {*Parameters.model_fields}
+    assert any(f'"{name}"' in test.read_text() for test in TESTS)
+
+
+@pytest.mark.parametrize("name", ["chart", "paper.chart", "paper", "", None, ["heat_map"], "kind", "..errors"])
+def test_another_name_is_no_kind(name: object) -> None:
+    with pytest.raises(ParameterError, match="unknown kind of figure"):
+        kind_of(name)
+
+
+def test_a_study_is_checked_without_what_draws_and_without_the_paper() -> None:
+    code = "import sys, disc_model.studies.study; print(*sorted({name.split('.')[0] for name in sys.modules}))"
+    assert "matplotlib" not in python(code).stdout.split()
+    code = "import sys, disc_model.studies.study; print(*(name for name in sys.modules if '.paper' in name))"
+    assert python(code).stdout.split() == []
+
+
+def test_a_caption_may_be_given_in_parts() -> None:
+    parts = Kind.model_validate({"kind": "any", "caption": ["One part.", "Another."]})
+    assert parts.caption == Kind.model_validate({"kind": "any", "caption": "One part. Another."}).caption

@@ -1,32 +1,16 @@
 """Maps of outcomes, regions and growth rates: cells, lines, marks, and what is said of them."""
 
 import json
-from itertools import combinations
 from typing import Any
 
 import numpy as np
-import pytest
 import xarray as xr
 from matplotlib.collections import LineCollection
-from matplotlib.colors import AsinhNorm, to_rgb
 from matplotlib.figure import Figure
 
-from disc_model.figures import motions
-from disc_model.figures.cells import (
-    OUTCOME_LOOKS,
-    Look,
-    alone,
-    cycles_of,
-    fill,
-    growth_panels,
-    isolated,
-    scale_of,
-    unresolved,
-)
+from disc_model.figures.cells import alone, cycles_of, growth_panels, unresolved
 from disc_model.figures.drawing import save
 from disc_model.figures.growth_map import Curve, parted
-from disc_model.figures.kinds import StabilityMap
-from disc_model.figures.stability_map import set_scales
 from disc_model.studies.grids.quantities import regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 from tests.studies.grids.conftest import growth_over
@@ -36,65 +20,6 @@ STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
 LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 
 # ---- cells
-
-
-@pytest.mark.parametrize("looks", [OUTCOME_LOOKS, motions.LOOKS])
-def test_outcomes_differ_in_grey_print_by_darkness_or_hatch(looks: dict[str, Look]) -> None:
-    """Separation and what is undecided were equally dark, and steady sliding nearly as light as a growing motion."""
-    for one, other in combinations(looks.values(), 2):
-        apart = abs(np.dot(np.subtract(to_rgb(one.face), to_rgb(other.face)), (0.299, 0.587, 0.114)))
-        assert apart > 0.08 or one.hatch != other.hatch, f"{one.label}, {other.label}"
-
-
-def test_a_hatched_look_is_coloured_as_well() -> None:
-    ax = Figure().subplots()
-    edges = np.arange(3.0), np.arange(2.0)
-    fill(ax, edges, np.array([["steady_sliding", "quiet"]]), OUTCOME_LOOKS)
-    (colour,), (hatch,) = ax.collections, ax.patches
-    assert (hatch.get_hatch(), colour.get_hatch()) == (OUTCOME_LOOKS["steady_sliding"].hatch, None)
-    assert np.count_nonzero(colour.get_array()[..., 3]) == 2
-    assert hatch.get_zorder() > colour.get_zorder()
-
-
-def test_a_hatch_on_dark_red_could_not_be_seen() -> None:
-    """Black lines on the darkest colours of growth rates, of either sign, and white ones on the page would be lost."""
-    rate = np.full((5, 12), 0.01)
-    rate[2, 1], rate[2, 4], rate[2, 7], rate[2, 10] = 0.29, -0.29, -0.01, np.nan
-    codes = np.where(np.isnan(rate), regions.CYCLES.index("no_cycle"), regions.CYCLES.index("followed"))
-    cycle = (("N", "Omega"), codes, {"flag_meanings": " ".join(regions.CYCLES)})
-    data = xr.Dataset(
-        {"growth_rate": (("N", "Omega"), rate), "cycle": cycle}, {"N": np.arange(5.0), "Omega": np.arange(12.0)}
-    )
-    figure = Figure()
-    ax = figure.subplots()
-    growth_panels(figure, [ax], [data])
-    inks = {}
-    for hatch, places in zip(ax.patches, _hatched(ax), strict=True):
-        inks |= dict.fromkeys(places[:, 1], np.dot(to_rgb(hatch.get_edgecolor()), (0.299, 0.587, 0.114)))
-    assert inks == pytest.approx({1: 1, 4: 1, 7: 0, 10: 0}), "white, white, black, black"
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "scale"),
-    [
-        ("D_star", np.linspace(0, 4e-5, 33), "linear"),  # was logarithmic, with the labels 0 and 1 only
-        ("c_p", np.linspace(0.0, 1, 33), "linear"),
-        ("E", np.linspace(8e10, 2.2e11, 33), "linear"),
-        ("m", np.geomspace(0.01, 1, 33), "log"),
-        ("c", np.append([0, 0.0025], np.geomspace(0.005, 0.5, 31)), "symlog"),
-        ("N", np.geomspace(1, 1000, 5), "linear"),
-    ],
-)
-def test_evenly_spaced_values_have_a_linear_axis(name: str, values: np.ndarray, scale: str) -> None:
-    assert scale_of(name, values) == scale
-
-
-def test_a_logarithmic_axis_has_no_tick_beyond_its_values() -> None:
-    """The axis itself reaches a fiftieth farther: there 500 g were named, though no point has so much."""
-    ax = Figure().subplots()
-    study = xr.Dataset(coords={"m": np.geomspace(0.01, 0.49, 9), "N": np.arange(3.0)})
-    set_scales([ax], study, StabilityMap(x="m", y="N"))
-    assert ax.get_xticks().tolist() == pytest.approx([10, 20, 50, 100, 200])
 
 
 def test_what_there_is_without_a_cycle_is_told_apart() -> None:
@@ -165,14 +90,6 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     return xr.Dataset(data, axes, {"options": json.dumps({"horizon": 900.0})})
 
 
-def test_a_single_large_growth_rate_is_hatched_in_maps_of_regions() -> None:
-    """A resonance narrower than a cell was one dark cell among even ones, which looked like a stain."""
-    data = made_up("Omega", [5.0, 6, 7, 8, 9, 10], NORMS[:1]).squeeze()
-    assert not isolated(data)[:2].any()
-    data["growth_rate"][0, 4] = 0.4
-    assert np.argwhere(isolated(data)).tolist() == [[0, 4]]
-
-
 def mark(x: float, y: float, paper: str) -> dict[str, Any]:
     return {"x": x, "y": y, "paper_outcome": paper}
 
@@ -228,29 +145,6 @@ def test_what_did_not_vary_is_said() -> None:
     assert phrase == "Made up\nN = 200 N, D* = 2e-05 N m s"
 
 
-def test_a_case_at_which_paper_start_and_cycle_do_not_agree_is_explained() -> None:
-    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
-    study["growth_rate"].loc[{"Omega": 20}] = -0.2
-    marks = {
-        "F1": mark(5, 100, "quiet"),  # quiet, as the paper says, and the cycle is stable
-        "F2": mark(5, 200, "separation"),  # quiet, and the paper separates
-        "F3": mark(20, 100, "separation"),
-    }
-    *_, phrase = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
-    assert phrase.split("\n")[1:] == [
-        "F2: paper: “separation”, static start: quiet.",
-        "F3: separation, beside a cycle that is stable (-0.2/s): another motion is reached.",
-    ]
-
-
-def test_a_plane_that_lies_the_other_way_round() -> None:
-    study = made_up("Omega", [5.0, 10, 20], NORMS[1:]).isel(normalization=0, drop=True)
-    study.attrs["base"] = json.dumps({"normalization": "orthonormal"})
-    figure = draw("region_map", study, x="N", y="Omega")
-    assert lengths(figure.axes[0]) == [2, 2]
-    assert figure.axes[0].get_ylabel() == "Speed Ω (rad/s)"
-
-
 def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str) -> xr.Dataset:
     words = {"flag_meanings": "failed quiet growing separation"}
     return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)
@@ -271,21 +165,6 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -
     assert phrase <= set(labels(figure))
 
 
-@pytest.mark.parametrize(("x", "values"), [("n_diameters", [2, 4, 8]), ("n_circles", [0, 1]), ("c", [0.0])])
-def test_maps_of_one_normalization_over_any_number(x: str, values: list[float]) -> None:
-    axes, shape = {"N": [100.0, 200.0], x: values}, (2, len(values))
-    study = outcomes(("N", x), axes, np.ones(shape, int), base=json.dumps({"normalization": "orthonormal"}))
-    rate = xr.DataArray(np.linspace(-1, 1, 2 * len(values)).reshape(shape), dims=("N", x))
-    growth = xr.Dataset({"growth_rate": rate.expand_dims({"normalization": NORMS})}, axes | {"normalization": NORMS})
-    marks = {"a": mark(values[0], 100, "quiet")}
-    figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
-    panel, _ = figure.axes
-    assert panel.get_title(loc="left") == "orthonormal modes"
-    assert panel.get_xlabel() == {"c": "Damper c (N s/m)"}.get(x, f"Nodal {x[2:]}")
-    # the paper's cases are of the other modes
-    assert not any("the paper" in label for label in labels(figure))
-
-
 # ---- growth
 
 
@@ -303,17 +182,6 @@ def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
     assert not draw("growth_map", growth.assign(growth_rate=xr.full_like(growth["growth_rate"], 0.1))).legends
     none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
     assert labels(draw("growth_map", none)) == ["no cycle found"]
-
-
-@pytest.mark.usefixtures("toy")
-def test_growth_that_is_mostly_beyond_the_scale_has_a_scale_of_its_own() -> None:
-    """The map of a disc with the damping of cast iron had one colour."""
-    growth = growth_over(LOADS, SPEEDS)
-    growth["growth_rate"] -= 3
-    axes, bar = draw("growth_map", growth).axes[:2]
-    (mesh,) = (cells for cells in axes.collections if isinstance(cells.norm, AsinhNorm))
-    assert mesh.norm.vmax == -growth["growth_rate"].min()
-    assert [tick.get_text() for tick in bar.get_yticklabels()] == ["−1", "−0.1", "0", "0.1", "1"]
 
 
 def test_a_curve_across_which_the_shown_cycle_does_not_change_is_of_another_cycle() -> None:

@@ -1,17 +1,15 @@
 """Figures of motions over one parameter: bifurcation diagrams, basins, ramps; and what all figures of grids do."""
 
-import json
-
 import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.figures import motions as drawn
+from disc_model.figures import ramps as drawn
 from disc_model.figures.growth_map import Curve, crossings
 from disc_model.studies.grids.points import STATUSES
 from disc_model.studies.grids.quantities import ramps
 from tests.figures.reading import crosses, draw, labels, lines
-from tests.studies.grids.conftest import computed, growth_over, in_base, made_up_samples, with_failed
+from tests.studies.grids.conftest import computed, growth_over, made_up_samples, with_failed
 from tests.studies.grids.quantities.test_basins import Made, made
 
 __all__ = ["made"]
@@ -32,17 +30,6 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     assert lines(ax)["no event while sampled"].get_xdata() == [3]
 
 
-def test_samples_at_switches_are_not_named_after_phases() -> None:
-    samples, _ = made_up_samples()
-    study = samples.assign_attrs(
-        base=json.dumps({"normalization": "orthonormal", "Omega": 15, "k": 5e4, "c_p": 1.0}),
-        options=json.dumps({"section": "event"}),
-    )
-    figure = draw("bifurcation", study, x="N", title="Made up")
-    assert labels(figure.axes[0]) == ["at release of stick"]
-    assert figure.get_suptitle() == "Made up\nΩ = 15 rad/s, $c_p$ = 1 N s/m, orthonormal modes"  # k is that of Table 1
-
-
 def test_what_has_not_settled_is_grey_and_what_has_not_converged_ringed() -> None:
     samples, exponents = made_up_samples()
     samples["settled"][:] = [2, 1, 2]  # words of "undecided changing settled"
@@ -53,24 +40,6 @@ def test_what_has_not_settled_is_grey_and_what_has_not_converged_ringed() -> Non
     ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
     assert list(ring.get_xdata()) == [3]
     assert ring.get_color() == lines(below)["largest exponent"].get_color()
-
-
-def test_a_diagram_of_any_variable_has_its_unit() -> None:
-    samples, _ = made_up_samples()
-    samples["P"] = xr.full_like(samples["psi"], 1.0)
-    above, below = draw("bifurcation", samples, x="N", variable="P").axes
-    assert (below.get_xlabel(), above.get_ylabel()) == ("Preload N (N)", "Contact force P (N)")
-    assert draw("bifurcation", samples, x="N").axes[0].get_ylabel() == "Angle ψ (mrad)"
-
-
-def test_a_diagram_looked_like_chaos_where_the_motion_repeats() -> None:
-    """Nearly all points are periodic, after 21 to 259 switches; nothing said so, nor where the paper's cases lie."""
-    samples, _ = made_up_samples()
-    samples["period_events"][:] = [2, 0, 45]
-    above, below = draw("bifurcation", samples, x="N", paper_cases={"F2": 1.0, "F7": 3.0}).axes
-    assert below.lines[0].get_xydata().tolist() == [[1, 2], [3, 45]]
-    assert list(lines(below)["not shown to repeat"].get_xdata()) == [2]
-    assert [text.get_text() for text in above.texts] == ["F2", "F7"]
 
 
 # ---- basins
@@ -162,21 +131,3 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
     (ax,) = draw("thresholds", with_failed(lost, N=400), {"curves": plane, "cycle": growth}).axes
     assert crosses(ax) == [[200, 400]]
-
-
-def test_the_normalization_may_be_given_in_base(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
-    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
-    both = xr.concat([growth, growth.assign_coords(normalization=["orthonormal"])], "normalization")
-    alone = in_base(speeds)
-    assert len(draw("critical_speed", alone, {"hysteresis": in_base(sweep), "cycle": both}).axes) == 2
-    assert len(draw("thresholds", alone, {"curves": plane, "cycle": both}).axes) == 1
-    assert len(draw("growth_map", in_base(growth), {"curves": plane}).axes) == 2  # and the colour bar
-    samples, exponents = made_up_samples("as_published")
-    exponents = exponents.expand_dims(normalization=["as_published"])
-    assert len(draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes) == 3
-
-
-def test_grids_too_narrow_for_contours_are_drawn_without(plane: xr.Dataset, speeds: xr.Dataset) -> None:
-    for growth in (growth_over([200.0], np.linspace(5, 18, 9)), growth_over([200.0, 400.0], [5.0, 9.0])):
-        assert draw("critical_speed", speeds, {"cycle": growth}).axes
-        assert draw("thresholds", speeds, {"curves": plane, "cycle": growth}).axes

@@ -5,10 +5,9 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgb
 
 from disc_model.figures import sensitivity
-from disc_model.figures.campbell import COLOURS, gaps, noted, spread
+from disc_model.figures.campbell import gaps, noted, spread
 from disc_model.studies.grids.summaries.campbell import EFFECTS
 from tests.figures.reading import draw
 from tests.studies.grids.quantities import test_sensitivity as uncertain
@@ -33,18 +32,6 @@ def test_instability_against_each_parameter() -> None:
     assert len(figure.axes) == 2 * study.sizes["N"]
     assert figure.subfigs[0].get_suptitle().startswith("Preload N = 200 N, unstable ")
     assert [ax.get_xlabel() for ax in figure.axes[-2:]] == ["k\n(kN/m)", "$μ_s$"]
-
-
-def test_a_point_that_a_rule_leaves_out_has_no_row() -> None:
-    """It had empty panels."""
-    figure = draw("sensitivity", uncertain.made_up(where="N < 300 and sample < 6"))
-    assert [part.get_suptitle().partition(",")[0] for part in figure.subfigs] == ["Preload N = 200 N"]
-
-
-def test_modes_are_distinct_in_grey_print() -> None:
-    """Three pairs of colours were as dark as each other."""
-    grey = [np.dot(to_rgb(colour), (0.299, 0.587, 0.114)) for colour in COLOURS[:5]]
-    assert np.diff(grey).min() > 0.1, "of 0 to 4 diameters, from dark to light"
 
 
 def made_up_crossings() -> xr.Dataset:
@@ -104,33 +91,6 @@ def test_a_campbell_diagram_cuts_nothing_off_and_numbers_what_matters() -> None:
     ratios = [line / study["stick_slip_frequency"].values for line in whole]
     multiples = {float(np.round(np.nanmean(ratio), 6)) for ratio in ratios if np.nanstd(ratio) < 1e-9}
     assert multiples >= set(study["crossing_multiple"].values.tolist())
-
-
-def test_a_campbell_diagram_numbered_small_peaks_and_joined_two_cycles() -> None:
-    """43/s at speeds at which another cycle was found had no number, and a line down to the next cycle."""
-    study = made_up_crossings()
-    for name in ("growth_rate", "cycle_growth_rate"):
-        study[name][65:67] = 43.0
-    assert "14.50 rad/s: 100 Hz mode, 43/s" in [one.phrase for one in noted(study)]
-    line = draw("campbell", study).axes[1].lines[0]
-    height = np.asarray(line.get_ydata())
-    assert not np.any(np.abs(np.diff(height)) > 1), "broken where the rate jumps"
-    assert np.nanmax(height) == 43
-    study["cycle_growth_rate"][30, 0] = study["growth_rate"][30] = study["crossing_growth_rate"][1:] = 0.005
-    assert not any("0.005" in one.phrase for one in noted(study))
-
-
-def test_a_campbell_diagram_left_crossings_out_beside_a_gap() -> None:
-    """No rise is resolved at a crossing beside a gap; that of the largest peak had no number, at 15.98 rad/s."""
-    study = made_up_crossings()
-    study["crossing_Omega"][0] = 14.15  # one speed after the peak
-    for name in ("growth_rate", "cycle_growth_rate"):
-        study[name][61] = 0.6
-    (found,) = (one for one in noted(study) if one.phrase.endswith("0.6/s"))
-    assert (found.crossings, found.phrase) == ((0,), "14.10 rad/s, 2 $f_s$ = 180 Hz: 100 Hz mode, 0.6/s")
-    study["crossing_Omega"][0] = 14.25
-    (later,) = (one for one in noted(study) if one.phrase.endswith("0.6/s"))
-    assert later.crossings == ()
 
 
 @pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [5.0], [], list(np.zeros(30))])

@@ -85,7 +85,7 @@ CASES: list[tuple[dict[str, Any], str]] = [
     ({"cases": {"A": CASE | {"record": {"windows": {"w": {"rat": 1}}}}}}, "cases.A.record.windows.w.rat rate"),
     ({"cases": {"A": CASE | {"record": {"events": {"start": 2}}}}}, "cases.A.record.events within run"),
     ({"cases": {"status": CASE}}, "cases.status name"),
-    ({"figures": ["fig99"]}, "figures.0 'fig99' unknown"),
+    ({"figures": ["fig99"]}, "figures mapping"),
     ({"figures": {"f": {"kind": "history", "case": "B", "window": "late"}}}, "figures.f.case 'B' A"),
     ({"figures": {"f": {"kind": "history", "case": "A", "window": "all"}}}, "figures.f.window 'all' late"),
     ({"cases": 3}, "cases 3 mapping"),

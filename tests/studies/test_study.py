@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from disc_model import Parameters
 from disc_model.simulation.case import CaseSpec, Window
@@ -50,14 +51,28 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
     study = parse_study(CASES | GRID | {"base": {"N": 200, "Omega": 20}, "figures": both})
     assert study.grid is not None
     assert list(study.grid.plots) == ["growth"]
-    assert list(study.plots) == ["seen"]
-    assert "seen" in study.drawable
+    entries = study.entries(study.grids()[0])
+    assert [(name, [*entry.inputs]) for (_, name), entry in entries.items()] == [("growth", ["study"]), ("seen", ["A"])]
 
 
-def test_what_is_drawable_has_its_cases_and_windows() -> None:
-    """A figure of the paper that a study does not list can still be asked for, if there is all that it needs."""
-    assert with_case("F16", record={"poincare": {}}).drawable == ("fig16",)
-    assert with_case().drawable == ()
+def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
+    other = GRID | {"study": "other"}
+    (tmp_path / "other.yaml").write_text(yaml.safe_dump(other))
+    growth = GRID["figures"]["growth"] | {"study": "other", "section": "1 First"}
+    study = parse_study(CASES | {"figures": {"f": growth}})
+    grids, asked = study.grids([tmp_path])
+    assert (list(grids), asked) == (["other"], ())
+    entries = study.entries(grids)
+    assert entries[CASES["study"], "f"].inputs == {"study": "other"}
+    assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
+    for figure, fault in (
+        (growth | {"study": "elsewhere"}, "figures.f.study = 'elsewhere': no such study"),
+        (growth | {"x": "k"}, "figures.f.x = 'k': is no dimension"),
+    ):
+        with pytest.raises(StudyError, match=fault):
+            parse_study(CASES | {"figures": {"f": figure}}).grids([tmp_path])
+    with pytest.raises(StudyError, match="shows a grid: this study has none"):
+        parse_study(CASES | {"figures": GRID["figures"]})
 
 
 # ---- cases

@@ -20,7 +20,7 @@ def test_the_report_holds_every_result_and_needs_no_network(finished: Project, t
         loaded = page.run("return performance.getEntriesByType('resource').map(x => x.name)")
         assert not [message for message in page.messages() if message["level"] == "SEVERE"]
     assert [name for name in loaded if not name.startswith(("data:", "file:", "blob:"))] == []
-    assert found.keys() >= {"Claims of the paper", "Figures of the paper", "Maps and curves", "Provenance"}
+    assert found.keys() >= {"Claims of the paper", "Figures", "Maps and curves", "Provenance"}
     files = {Path(file).name for parts in found.values() for inside in parts.values() for file in inside}
     assert files == {"fig11.png", "fig13.png", "chart.png", "claims.html", "provenance.html"}
 

@@ -14,9 +14,9 @@ from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
-FIGURES = {"draw_figure:fig11", "draw_figure:fig13"}
+FIGURES = {"draw_figure:small:fig11", "draw_figure:small:fig13"}
 TABLES = {"merge_cases", "check_claims", "describe_study"}
-PLOT = {"draw_plot:small_map:chart"}
+PLOT = {"draw_figure:small_map:chart"}
 MAP_TAIL = {"merge_batches:small_map"} | PLOT
 GROWTH_TAIL = {"merge_batches:small_growth"} | PLOT
 Jobs = Callable[[Project], set[str]]
@@ -55,7 +55,7 @@ def test_a_second_run_does_nothing(project: Project) -> None:
 
 def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: Project) -> None:
     jobs = replace(project, config=None).planned()
-    assert {"simulate_case:F02", "simulate_case:F13", "draw_figure:fig02"} <= jobs
+    assert {"simulate_case:F02", "simulate_case:F13", "draw_figure:paper:fig02"} <= jobs
     assert "simulate_case:X" not in jobs
     jobs = replace(project, config="config/test.yaml").planned()
     assert {job for job in jobs if job.startswith("simulate_case")} == {
@@ -66,7 +66,7 @@ def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: P
 @pytest.mark.parametrize(
     ("file", "old", "new", "jobs"),
     [
-        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:fig13"} | TABLES),
+        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:small:fig13"} | TABLES),
         (SMALL, "title: quiet", "title: calm", lambda _: TABLES),
         (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | TABLES),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
@@ -136,8 +136,9 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/studies/grids/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
         ("src/disc_model/studies/cases.py", lambda _: TABLES),
         ("src/disc_model/studies/study.py", lambda _: set()),
-        ("src/disc_model/figures/paper/histories.py", lambda _: FIGURES),
-        ("src/disc_model/figures/stability_map.py", lambda _: FIGURES | PLOT),
+        ("src/disc_model/figures/history.py", lambda _: FIGURES),
+        ("src/disc_model/figures/stability_map.py", lambda _: PLOT),
+        ("src/disc_model/paper/figures/response.py", lambda _: set()),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
@@ -155,7 +156,7 @@ def test_deleted_intermediate_is_not_missed_but_a_deleted_figure_is(project: Pro
     (project.folder / "results" / "small" / "cases" / "X.nc").unlink()
     assert project.planned() == set()
     (project.folder / "results" / "small" / "figures" / "fig11.png").unlink()
-    assert project.planned() == {"draw_figure:fig11"}
+    assert project.planned() == {"draw_figure:small:fig11"}
 
 
 def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None:
@@ -180,7 +181,7 @@ def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(proje
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
     project.edit(MAP, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
     kept = set(project.folder.glob("results/small_growth/**/*.nc"))
-    project.complete("-j2", "--until", "draw_plot")
+    project.complete("-j2", "--until", "draw_figure")
     bad = int((dataset(project, "small_map/small_map.nc")["status"] != 0).sum())
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
     assert len(lines) == bad > 0

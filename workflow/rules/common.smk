@@ -22,8 +22,7 @@ SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
-    from disc_model.figures.kinds import OwnFigure
-    from disc_model.figures.paper.catalogue import SECTIONS
+    from disc_model.figures.kind import Plot
     from disc_model.kernels import KINDS, kinds_of_case
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
@@ -107,7 +106,6 @@ wildcard_constraints:
     study="|".join(GRIDS) or "none",
     batch=r"[0-9a-f]{12}",
     key=r"[0-9a-f]{12}",
-    plot=r"[A-Za-z][A-Za-z0-9_]*",
     case="|".join(STUDY.specs) or "none",
 
 
@@ -123,10 +121,9 @@ def made_of(rule, *sources, of=()):
 
 def figure_names():
     """Names of figures, by the study in whose folder they are."""
-    figures = {name: [*study.plots] for name, study in GRIDS.items()}
-    figures[STUDY.name] = [*figures.get(STUDY.name, ()), *STUDY.drawable]
-    if HAS_FIGURE_15:
-        figures[STUDY.name] += ["fig15"]
+    figures = {name: [] for name in (STUDY.name, *GRIDS)}
+    for study, name in FIGURES:
+        figures[study].append(name)
     return figures
 
 
@@ -204,18 +201,25 @@ def grid_made_of(study):
     return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
 
 
-def plot_made_of(study, name):
-    plot = GRIDS[study].plots[name]
-    shown = [study, *(other for _, other in sorted(plot.overlays.items()))]
-    of = [plot.model_dump_json(), *map(grid_made_of, shown)]
-    return made_of("draw_figure", plot.module, of=of)
+FIGURES = STUDY.entries(GRIDS)
 
 
-def overlay_inputs(wildcards):
-    """Merged files of the further studies in a figure, by role; none for a figure of a case beside the grid."""
-    plot = GRIDS[wildcards.study].plots.get(wildcards.plot)
-    others = {} if plot is None else plot.overlays
-    return {role: grid_file(name) for role, name in sorted(others.items())}
+def figure_of(wildcards):
+    return FIGURES[wildcards.study, wildcards.figure]
+
+
+def files_of(wildcards):
+    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
+    figure = figure_of(wildcards)
+    file = grid_file if isinstance(figure.plot, Plot) else case_file
+    return {role: file(name) for role, name in figure.inputs.items()}
+
+
+def figure_made_of(wildcards):
+    figure = figure_of(wildcards)
+    inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
+    of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
+    return made_of("draw_figure", figure.plot.module, of=of)
 
 
 def motion_file(study, key):
@@ -229,19 +233,11 @@ def motions_of(study):
 
 def explorer_pictures():
     """The report's figures, in its order."""
-    for name in [*STUDY.figures, *STUDY.plots]:
-        figure = STUDY.figure(name)
-        yield {
-            "heading": figure.category if name in STUDY.plots else figure.section,
-            "title": figure.label,
-            "caption": figure.caption,
-            "file": f"{RESULTS}/figures/{name}.png",
-        }
-    for name in ASKED:
-        for plot, asked in GRIDS[name].plots.items():
+    for (study, name), figure in FIGURES.items():
+        if study in (STUDY.name, *ASKED):
             yield {
-                "heading": "Maps and curves",
-                "title": f"{GRIDS[name].title or name}: {plot}",
-                "caption": f"{asked.caption} From the grid study {name}.".strip(),
-                "file": f"results/{name}/figures/{plot}.png",
+                "heading": figure.section or figure.category,
+                "title": figure.title,
+                "caption": figure.caption,
+                "file": f"results/{study}/figures/{name}.png",
             }

@@ -2,7 +2,7 @@
 
 plot : JSON, the figure as its kind describes it
 title : written into the files
-inputs : name=netCDF file, as `disc_model.figures.drawing.draw` has it
+inputs : name=netCDF file, as `disc_model.figures.kind.Kind.render` has it
 """
 
 import json
@@ -10,15 +10,15 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_inputs
 from disc_model.errors import script
-from disc_model.figures.drawing import draw, save
-from disc_model.figures.kinds import KINDS
+from disc_model.figures.drawing import save
+from disc_model.figures.kind import kind_of
 
 
 @script
 def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
-    given = json.loads(plot)
+    options = json.loads(plot)
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
     shown = dict(zip(names, load_inputs([*map(Path, files)]), strict=True))
-    figure = draw(KINDS[given["kind"]].model_validate(given), shown)
+    figure = kind_of(options["kind"]).model_validate(options).render(shown)
     for path in (png, pdf):
         save(figure, path, title=title)

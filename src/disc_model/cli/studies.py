@@ -8,7 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -61,11 +61,11 @@ def list_(
     """List the grid studies, figures or cases of a study, or what of its results is outdated."""
     if what not in KINDS:
         raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
-    chosen, grids = _read(files)
+    chosen, grids, asked = _read(files)
     if what == "outdated":
         typer.echo(_outdated(files, directory))
         return
-    heads, rows = _listed(what, chosen, grids)
+    heads, rows = _listed(what, chosen, grids, asked)
     Console().print(table(f"{what} of {chosen.name}", heads, rows, overflow="fold"))
 
 
@@ -149,34 +149,31 @@ def _run(command: list[str]) -> int:
     return INTERRUPTED
 
 
-def _read(files: Sequence[Path]) -> tuple[Study, Grids]:
-    """The study of the files, checked with all files that it names, and its grids."""
+def _read(files: Sequence[Path]) -> tuple[Study, Grids, tuple[str, ...]]:
+    """The study of the files, checked with all files that it names, all grids, and the names of those asked for."""
     from disc_model.studies.study import load_study
 
     chosen = load_study(*files)
     folders = [Path(), *(file.parent for file in files), PACKAGE]
-    grids, asked = chosen.grids(folders)
-    return chosen, {name: grids[name] for name in asked}
+    return chosen, *chosen.grids(folders)
 
 
-def _listed(what: str, chosen: Study, grids: Grids) -> tuple[tuple[str, ...], Sequence[tuple[str, ...]]]:
+def _listed(
+    what: str, chosen: Study, grids: Grids, asked: Collection[str]
+) -> tuple[tuple[str, ...], Sequence[tuple[str, ...]]]:
     """Heads and rows of a table of the grid studies, figures or cases."""
     from disc_model.data.variables import values_text
-    from disc_model.figures.paper.catalogue import CATALOGUE
 
     if what == "studies":
         heads = ("study", "quantity", "dimensions", "points", "title")
-        each = grids.values()
+        each = [grids[name] for name in asked]
         return heads, [(one.name, one.quantity, " x ".join(one.values), str(one.n_points), one.title) for one in each]
     if what == "cases":
         parameters = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
         cases = [(name, case.title, parameters[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
         return ("case", "title", "parameters", "t_end (s)"), cases
-    figures = [(name, "paper", CATALOGUE[name].title) for name in chosen.figures]
-    figures += [(name, plot.kind, plot.title or plot.case) for name, plot in chosen.plots.items()]
-    for grid in grids.values():
-        figures += [(name, plot.kind, plot.title or grid.title) for name, plot in grid.plots.items()]
-    return ("figure", "kind", "title"), figures
+    figures = {key: figure for key, figure in chosen.entries(grids).items() if key[0] in (chosen.name, *asked)}
+    return ("figure", "kind", "title"), [(name, one.plot.kind, one.title) for (_, name), one in figures.items()]
 
 
 def _outdated(files: Sequence[Path], directory: Path) -> str:

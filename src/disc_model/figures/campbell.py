@@ -2,19 +2,16 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from scipy.optimize import isotonic_regression
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BROWN, GREY, PAGE, SLIDER, panels
-from disc_model.figures.kinds import Campbell
+from disc_model.figures.drawing import BLACK, BROWN, GREY, PAGE, SLIDER, Axes, Figure, Line2D, panels
+from disc_model.figures.kind import NORM, Plot, Values
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
 """Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
@@ -29,29 +26,48 @@ LINEAR = 1.0
 """Growth rate up to which the scale is linear, 1/s."""
 
 
-def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Campbell) -> Figure:
-    """Draw (a) frequencies, (b) growth rates by mode; events of the cycle are numbered and explained below."""
-    study = study.transpose("Omega", ...)
-    met = noted(study)
-    heights = [3.2, 1.9, 0.13 * (1 + len(met))]
-    figure, [top, bottom, below] = panels(PAGE, sum(heights) + 1.6, 3, height_ratios=heights)
-    _frequencies(top, study)
-    _growth_rates(bottom, study)
-    for ax in (top, bottom):
-        ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
-        for low, high, _ in gaps(study):
-            ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
-        for one in met:
-            ax.axvline(one.Omega, color=GREY, linewidth=0.4, zorder=0)
-    _crossings(top, study, met)
-    bottom.set_xlabel(drawing.axis_of("Omega")[0])
-    below.set_axis_off()
-    heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
-    nothing = "the cycle's growth rate has no peak at a crossing"
-    phrase = "\n".join([heading if met else nothing, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
-    below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
-    figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
-    return figure
+class Campbell(Plot):
+    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency.
+
+    normalization : the one that is shown, where the study has several
+    """
+
+    quantities = ("campbell",)
+    needs = ("Omega",)
+
+    kind: Literal["campbell"] = "campbell"
+    normalization: Literal["as_published", "orthonormal"] | None = None
+
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Allow several normalizations if the file chooses one."""
+        yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
+        known = [str(one) for (one,) in values.get(NORM, ())]
+        if self.normalization is not None and known and self.normalization not in known:
+            yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw (a) frequencies, (b) growth rates by mode; events of the cycle are numbered and explained below."""
+        study = study.transpose("Omega", ...)
+        met = noted(study)
+        heights = [3.2, 1.9, 0.13 * (1 + len(met))]
+        figure, [top, bottom, below] = panels(PAGE, sum(heights) + 1.6, 3, height_ratios=heights)
+        _frequencies(top, study)
+        _growth_rates(bottom, study)
+        for ax in (top, bottom):
+            ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
+            for low, high, _ in gaps(study):
+                ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
+            for one in met:
+                ax.axvline(one.Omega, color=GREY, linewidth=0.4, zorder=0)
+        _crossings(top, study, met)
+        bottom.set_xlabel(drawing.axis_of("Omega")[0])
+        below.set_axis_off()
+        heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
+        nothing = "the cycle's growth rate has no peak at a crossing"
+        phrase = "\n".join([heading if met else nothing, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
+        below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
+        figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
+        return figure
 
 
 class Noted(NamedTuple):
@@ -206,6 +222,8 @@ def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
 
 def spread(places: list[float], apart: float, low: float, high: float) -> list[float]:
     """Ascending places, spread to a distance within bounds, as close as possible to the given ones."""
+    from scipy.optimize import isotonic_regression
+
     if not places:
         return []
     apart = min(apart, (high - low) / max(len(places) - 1, 1))
@@ -218,9 +236,9 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
 def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
     return [
-        *(Line2D([], [], color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        Line2D([], [], marker=".", label="stick-slip cycle, in (a)", **DOT),
-        Line2D([], [], color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
-        Line2D([], [], marker="o", label="crossing", **RING),
-        Line2D([], [], marker="o", label="numbered crossing", **DOT),
+        *(drawing.sample(color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
+        drawing.sample(marker=".", label="stick-slip cycle, in (a)", **DOT),
+        drawing.sample(color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
+        drawing.sample(marker="o", label="crossing", **RING),
+        drawing.sample(marker="o", label="numbered crossing", **DOT),
     ]

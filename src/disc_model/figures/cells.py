@@ -5,16 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
-from matplotlib.axes import Axes
-from matplotlib.colors import AsinhNorm, to_rgba
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch, PathPatch
-from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.figures.drawing import BLACK, GREY, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, AsinhNorm, Axes, Figure, Outline, Patch, edges, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -98,6 +92,9 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
 
     below : colours that are drawn there already, shape (rows, columns, 4)
     """
+    from matplotlib.colors import to_rgba
+    from matplotlib.patches import PathPatch
+
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
         colours[words == word] = to_rgba(look.face)
@@ -114,8 +111,10 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
                 ax.add_patch(PathPatch(_outline(sides, here), fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
 
 
-def _outline(sides: Edges, there: NDArray[np.bool_]) -> Path:
+def _outline(sides: Edges, there: NDArray[np.bool_]) -> Outline:
     """The outlines of all these cells as one path: a hatch of each cell would take a hundred times as long."""
+    from matplotlib.path import Path
+
     (low, left), (x, y) = np.nonzero(there), sides
     corners = [(x[left + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
     return Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
@@ -131,6 +130,8 @@ def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
 
 def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
     """Legend entries of the looks that are among words."""
+    from matplotlib.patches import Patch
+
     return [
         Patch(fc=look.face, ec=BLACK if look.hatch else GREY, hatch=look.hatch, linewidth=0.4, label=look.label)
         for name, look in looks.items()
@@ -149,6 +150,8 @@ LINEAR = 1 / 30
 
 def growth_norm(rates: Array) -> AsinhNorm:
     """A colour scale that is nearly linear near 0 and nearly logarithmic beyond."""
+    from matplotlib.colors import AsinhNorm
+
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
@@ -161,6 +164,8 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
 
     panels : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
     """
+    from cmcrameri import cm
+
     norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):

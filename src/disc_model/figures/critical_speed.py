@@ -2,83 +2,113 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
+from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
 from disc_model.figures.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, END, GREEN, ONSET, ORANGE, PAGE, PAPER, PURPLE, SKY, panels
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    COLUMN,
+    END,
+    GREEN,
+    ONSET,
+    ORANGE,
+    PAGE,
+    PAPER,
+    PURPLE,
+    SKY,
+    Artist,
+    Axes,
+    Figure,
+    panels,
+)
 from disc_model.figures.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
-from disc_model.figures.kinds import CriticalSpeed, Thresholds
+from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
+from disc_model.parameters import Finite
 
 Array = NDArray[np.float64]
 
-STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle (white: none)")
+STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
 """Colour and marker of each horizon, the longest first."""
 EDGES: dict[str, Any] = {
     "markersize": 2.4,
     "markeredgecolor": BLACK,
     "markeredgewidth": 0.5,
-    "path_effects": [withStroke(linewidth=1.3, foreground=BLACK)],
 }
 """What all these marks have in common: black edges, to be seen on any area."""
 
 
-def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: CriticalSpeed) -> Figure:
-    """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
-    lost = drawing.failed(study).values
-    sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
-    scan = span(study["scan_Omega"].values)
-    if cycle is not None:
-        # separation is unknown beyond the scan
-        cycle = cycle.sel(Omega=slice(*scan)).transpose("N", "Omega", ...)
-        cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
-    figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
-    loads = study["N"].values
-    axes[0].set(
-        xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
-    )
-    drawing.mark_failed(axes[0], loads[lost], on="y")
-    study = study.isel(N=~lost).sortby("N")
-    handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
-    if "curves" in overlays:
-        curves = curves_of(overlays["curves"])
-        shown = curves if cycle is None else parted(curves, cycle)[0]
-        handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
-    horizons = sorted(study["horizon"].values)[::-1]
-    if isinstance(plot, Thresholds):  # one only: that of the map behind, if any, else the longest
-        behind = stated_in(cycle, "options")["horizon"] if cycle is not None and "outcome" in cycle else None
-        horizons = [behind] if behind in horizons else horizons[:1]
-    _starts(axes[0], study, horizons)
-    if plot.paper_points:
-        load, speed = np.transpose([*plot.paper_points.values()])
-        edge: dict[str, Any] = {"markeredgecolor": BLACK, "markeredgewidth": 0.6}
-        axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
-    titles = ["from the static start"]
-    if sweep is not None:
-        titles.append(_sweep(axes[1], sweep, study, horizons[0]))
-        if "basins" in overlays:
-            _measured(axes[1], overlays["basins"])
-        elif cycle is not None:
-            _both(axes[1], cycle, sweep)
-    drawing.letters(axes, titles, pad=12)
-    for ax in axes:
-        ax.set_xlabel(SPEED)
-        handles += ax.get_legend_handles_labels()[0]
-    axes[0].set_ylabel(LOAD)
-    figure.legend(handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0)
-    return figure
+class CriticalSpeed(Plot):
+    """Speeds at which separation begins or ends against the preload, for several horizons."""
+
+    quantities = ("critical_speed",)
+    needs = ("N",)
+    roles: ClassVar[Roles] = {
+        "hysteresis": Role("hysteresis", ("N",)),
+        "cycle": CYCLE,
+        "curves": CURVES,
+        "basins": Role("basins", ("Omega",)),
+    }
+
+    one_horizon: ClassVar[bool] = False
+
+    kind: Literal["critical_speed"] = "critical_speed"
+    paper_points: dict[str, tuple[Finite, Finite]] = Field({})
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
+        lost = drawing.failed(study).values
+        sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
+        scan = span(study["scan_Omega"].values)
+        if cycle is not None:
+            # separation is unknown beyond the scan
+            cycle = cycle.sel(Omega=slice(*scan)).transpose("N", "Omega", ...)
+            cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
+        figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
+        loads = study["N"].values
+        axes[0].set(
+            xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
+        )
+        drawing.mark_failed(axes[0], loads[lost], on="y")
+        study = study.isel(N=~lost).sortby("N")
+        handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
+        if "curves" in overlays:
+            curves = curves_of(overlays["curves"])
+            shown = curves if cycle is None else parted(curves, cycle)[0]
+            handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
+        horizons = sorted(study["horizon"].values)[::-1]
+        if self.one_horizon:  # that of the map behind, if any, else the longest
+            behind = stated_in(cycle, "options")["horizon"] if cycle is not None and "outcome" in cycle else None
+            horizons = [behind] if behind in horizons else horizons[:1]
+        _starts(axes[0], study, horizons)
+        if self.paper_points:
+            load, speed = np.transpose([*self.paper_points.values()])
+            edge: dict[str, Any] = {"markeredgecolor": BLACK, "markeredgewidth": 0.6}
+            axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
+        titles = ["from the static start"]
+        if sweep is not None:
+            titles.append(_sweep(axes[1], sweep, study, horizons[0]))
+            if "basins" in overlays:
+                _measured(axes[1], overlays["basins"])
+            elif cycle is not None:
+                _both(axes[1], cycle, sweep)
+        drawing.letters(axes, titles, pad=12)
+        for ax in axes:
+            ax.set_xlabel(SPEED)
+            handles += ax.get_legend_handles_labels()[0]
+        axes[0].set_ylabel(LOAD)
+        figure.legend(
+            handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0
+        )
+        return figure
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -127,9 +157,10 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
 
 def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     """Draw the longest horizon as a line, shorter ones where their speed differs, and where separation ends again."""
+    edges = EDGES | {"path_effects": drawing.outline(1.3, BLACK)}
     longest = speeds_of(study, horizons[0], "begins")
     for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
-        look = EDGES | {"color": color, "marker": marker, "zorder": 1.9 - 0.1 * i}  # below the curves
+        look = edges | {"color": color, "marker": marker, "zorder": 1.9 - 0.1 * i}  # below the curves
         if i == 0:
             _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
         elif later := [
@@ -154,6 +185,8 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
     cycle : over N and Omega, of the quantity `regions` or `floquet`
     """
+    from matplotlib.patches import Patch
+
     if "outcome" in cycle:
         words, horizon = outcome_cells(ax, cycle["outcome"]), stated_in(cycle, "options")["horizon"]
         return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
@@ -185,6 +218,8 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
     sweep is left out if the sweep found no separation at one of them.
     """
+    from matplotlib.colors import ListedColormap
+
     rate = cycle["growth_rate"]
     speeds, loads = rate["Omega"].values, rate["N"].values
     lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)

@@ -1,22 +1,20 @@
-"""Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
+"""Common style and parts of several figures: labels, envelopes of long histories, points of grids.
 
-import json
+matplotlib is imported where something is drawn, see `disc_model.figures.kind`.
+"""
+
+from __future__ import annotations
+
 import logging
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from itertools import chain, repeat
 from pathlib import Path
-from pkgutil import resolve_name
 from textwrap import fill
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 import xarray as xr
-from matplotlib import style
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.legend import Legend
-from matplotlib.patheffects import AbstractPathEffect, withStroke
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -28,10 +26,24 @@ from disc_model.data.variables import (
     axis_of,
     flag_names,
     stated_in,
-    typeset,
     values_text,
 )
-from disc_model.figures.kinds import CasePlot, General, GrowthMap, Kind, OwnFigure, Plot, StabilityMap
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.collections import QuadMesh
+    from matplotlib.colors import AsinhNorm, Normalize
+    from matplotlib.figure import Figure, FigureBase
+    from matplotlib.legend import Legend
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    from matplotlib.path import Path as Outline
+    from matplotlib.patheffects import AbstractPathEffect
+else:  # names for annotations, without matplotlib
+    Artist = AsinhNorm = Axes = Figure = FigureBase = Line2D = Normalize = Outline = Patch = QuadMesh = Any
+    ScalarMappable = Any
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
@@ -66,35 +78,9 @@ BORDERS: dict[str, dict[str, Any]] = {
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
+    from matplotlib import style
+
     return style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
-
-
-def draw(plot: Plot | CasePlot | OwnFigure, inputs: Mapping[str, xr.DataTree]) -> Figure:
-    """Draw a figure of any kind from its data, in the common style; the reason instead, if a case does not hold them.
-
-    Parameters
-    ----------
-    inputs : for a figure of a grid, the study as ``study`` and further ones by their roles; else by name, such as cases
-    """
-    function = resolve_name(plot.function)
-    with styled():
-        if isinstance(plot, Plot):
-            study, *others = (tree.to_dataset() for tree in inputs.values())
-            if not plot.several:
-                norm = getattr(plot, "normalization", None) or normalizations(study)[0]
-                study, *others = (of(one, norm) for one in (study, *others))
-            figure: Figure = function(study, dict(zip([*inputs][1:], others, strict=True)), plot)
-            head(figure, study, plot)
-        else:
-            try:
-                figure = function(*inputs.values(), **plot.options)
-            except Missing as reason:
-                figure, [ax] = panels(COLUMN, 2)
-                _say_missing(ax, reason)
-        if isinstance(plot, CasePlot):
-            (case,) = inputs.values()
-            entitle(figure, plot, "", what_case(json.loads(case.attrs.get("parameters", "{}"))))
-    return figure
 
 
 @contextmanager
@@ -108,6 +94,13 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
             _say_missing(ax, reason)
 
 
+def empty_figure(reason: Missing) -> Figure:
+    """A figure that says why there is nothing to show."""
+    figure, [ax] = panels(COLUMN, 2)
+    _say_missing(ax, reason)
+    return figure
+
+
 def _say_missing(ax: Axes, reason: Missing) -> None:
     phrase = fill(f"not shown: the case {reason}", 24)
     ax.set_axis_off()
@@ -116,6 +109,8 @@ def _say_missing(ax: Axes, reason: Missing) -> None:
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
+    from matplotlib.figure import Figure
+
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -139,11 +134,11 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
     figure.set_layout_engine("none")
 
 
-def history(case: xr.DataTree, until: float = np.inf) -> xr.Dataset:
-    """Ranges over the run, up to the time in s that the paper shows; two bins define the bin width."""
-    found = dataset.samples(case, "history", envelope=True)
-    shown = found.sel(time=slice(None, until))
-    return shown if shown.sizes["time"] > 1 else found
+def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
+    """Ranges in a window, up to a time in s; two bins define the bin width."""
+    ranges = dataset.samples(case, window, envelope=True)
+    shown = ranges.sel(time=slice(None, until))
+    return shown if shown.sizes["time"] > 1 else ranges
 
 
 Values = TypeVar("Values", xr.DataArray, xr.Dataset)
@@ -155,9 +150,23 @@ MODELS = {"normal": WORDS["normal"], "bonded": "bilateral contact", "residual": 
 """Words for models other than the paper's."""
 
 
+def sample(**look: Any) -> Line2D:
+    """A line or mark for a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], **look)
+
+
 def halo(width: float = 1.5) -> list[AbstractPathEffect]:
     """A white outline for text over lines or colours; width in points."""
-    return [withStroke(linewidth=width, foreground="white")]
+    return outline(width, "white")
+
+
+def outline(width: float, colour: str) -> list[AbstractPathEffect]:
+    """An outline of text, lines or marks; width in points, that of what it surrounds included."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=width, foreground=colour)]
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
@@ -199,42 +208,6 @@ def what_case(values: Mapping[str, Any]) -> str:
         words.append(MODES["orthonormal"])
     numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)})
     return ", ".join(filter(None, [numbers, *words]))
-
-
-def head(figure: Figure, study: xr.Dataset, plot: Plot) -> None:
-    """Write the head of a figure of a grid: its title, or the study's, and the values that did not vary."""
-    texts = []
-    if isinstance(plot, General):
-        shown = picked(study, plot.at)[plot.variable]
-        alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
-        texts = [coordinate_text(shown, name) for name in alone if name in shown.coords]
-    base = json.loads(study.attrs.get("base", "{}"))
-    modes = normalizations(study) if "normalization" in study.coords else []
-    if isinstance(plot, StabilityMap | GrowthMap):  # above their panels
-        base.pop("normalization", None)
-        modes = []
-    # 0 stands for N or Omega if the quantity varies it by itself
-    varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
-    texts.append(what_case({name: value for name, value in base.items() if name not in varied}))
-    texts += [MODES[modes[0]]] if len(modes) == 1 else []
-    entitle(figure, plot, study.attrs.get("title", ""), ", ".join(filter(None, texts)))
-
-
-def entitle(figure: Figure, plot: Kind, title: str, values: str) -> None:
-    """Write a figure's title, or else another one, and values of parameters above it, in lines that fit.
-
-    A caption says both.
-    """
-    width = round(figure.get_figwidth() / 0.06)
-    # keep a value on the line of its name
-    kept = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-    text = "\n".join(fill(text, width) for text in (plot.title or title, kept) if text).replace("\u00a0", " ")
-    if plot.caption or not text:
-        return
-    if isinstance(plot, StabilityMap):  # a title of the figure itself would cover the legend above the panels
-        figure.legends[0].set_title(text)
-    else:
-        figure.suptitle(text, fontsize=8)
 
 
 def slices(found: Values, by: str | None) -> list[tuple[str, Values]]:

@@ -1,25 +1,18 @@
 """Growth maps: the growth rate of the stick-slip cycle over speed and preload, its neutral curves and folds."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import drawing
 from disc_model.figures.cells import CYCLE_LOOKS, growth_panels, patches
-from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, panels
-from disc_model.figures.kinds import GrowthMap
+from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, Artist, Axes, Figure, Line2D, panels
+from disc_model.figures.kind import CURVES, Plot, Roles
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
@@ -27,10 +20,49 @@ Array = NDArray[np.float64]
 OTHER: dict[str, Any] = {
     "color": GREY,
     "linewidth": 1.0,
-    "path_effects": drawing.halo(2.0),
     "label": "end of another cycle's stability",
 }
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
+
+
+class GrowthMap(Plot):
+    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization.
+
+    Of the quantity `regions` it is that of the cycle that the static start follows.
+    """
+
+    quantities = ("floquet", "regions")
+    needs = ("N", "Omega")
+    several = True
+    named_above = True
+    roles: ClassVar[Roles] = {"curves": CURVES}
+
+    kind: Literal["growth_map"] = "growth_map"
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
+        other_look = OTHER | {"path_effects": drawing.halo(2.0)}
+        norms = drawing.normalizations(study)
+        figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
+        grids = [drawing.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
+        gaps = growth_panels(figure, axes, grids)
+        data = [drawing.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
+        curves = [curves_of(one) for one in data] or [[] for _ in norms]
+        shown, others = zip(*map(parted, curves, grids), strict=True)
+        for ax, grid, other in zip(axes, grids, others, strict=True):
+            ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
+            for curve in other:
+                ax.plot(curve.Omega, curve.N, **other_look)
+        drawing.letters(axes, [drawing.MODES[norm] for norm in norms], pad=12)
+        axes[0].set_ylabel(LOAD)
+        handles: list[Artist] = [
+            *draw_curves(axes, shown, data),
+            *([drawing.sample(**other_look)] if any(others) else []),
+        ]
+        handles += patches(CYCLE_LOOKS, gaps)
+        if handles:
+            figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
+        return figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +106,8 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
 
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
     """
+    from scipy.ndimage import binary_dilation
+
     rate = cycle["growth_rate"]
     # beside a cell are the eight around it
     stable, unstable, not_stable = (
@@ -129,37 +163,15 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
                 look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
                 drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
     kinds = {curve.kind for own in curves for curve in own}
-    handles = [Line2D([], [], **drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
+    handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
-    handles += [Line2D([], [], marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
+    handles += [drawing.sample(marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     lost = [int(one["n_continuation_failures"].sum()) for one in data]
     if any(lost):
         counts = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
-        handles.append(Line2D([], [], linestyle="", label=f"continuation failed: {', '.join(counts)}"))
+        handles.append(drawing.sample(linestyle="", label=f"continuation failed: {', '.join(counts)}"))
     return handles
 
 
 def span(values: Array) -> tuple[float, float]:
     return float(values.min()), float(values.max())
-
-
-def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: GrowthMap) -> Figure:
-    """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
-    norms = drawing.normalizations(study)
-    figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
-    grids = [drawing.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
-    gaps = growth_panels(figure, axes, grids)
-    data = [drawing.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
-    curves = [curves_of(one) for one in data] or [[] for _ in norms]
-    shown, others = zip(*map(parted, curves, grids), strict=True)
-    for ax, grid, other in zip(axes, grids, others, strict=True):
-        ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
-        for curve in other:
-            ax.plot(curve.Omega, curve.N, **OTHER)
-    drawing.letters(axes, [drawing.MODES[norm] for norm in norms], pad=12)
-    axes[0].set_ylabel(LOAD)
-    handles: list[Artist] = [*draw_curves(axes, shown, data), *([Line2D([], [], **OTHER)] if any(others) else [])]
-    handles += patches(CYCLE_LOOKS, gaps)
-    if handles:
-        figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
-    return figure

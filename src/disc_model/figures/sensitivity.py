@@ -1,13 +1,12 @@
 """Probability of instability against each uncertain parameter."""
 
+import math
 from collections.abc import Iterator, Mapping
 from itertools import product
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import (
     EXCLUDED,
@@ -18,35 +17,52 @@ from disc_model.data.variables import (
     stated_in,
     typeset,
 )
+from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, PAGE, new_figure
-from disc_model.figures.kinds import Sensitivity
+from disc_model.figures.drawing import BLACK, BLUE, PAGE, Axes, Figure, new_figure
+from disc_model.figures.kind import Plot, Values
 
+MOST_PANELS = 4
+"""Greatest number of points that a figure shows."""
 BINS = 3
 """Number of parts, with equal numbers of draws, of a parameter's distribution."""
 
 
-def draw(study: xr.Dataset, overlays: Mapping[str, xr.Dataset], plot: Sensitivity) -> Figure:
-    """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
+class Sensitivity(Plot):
+    """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
 
-    Bars are 95 % intervals; the dashed line is the probability at all values.
-    """
-    cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
-    figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
-    separates = f"separates within {stated_in(study, 'options')['horizon']:g} s"
-    for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
-        axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
-        for ax, name in zip(axes, names, strict=True):
-            _panel(ax, cell, name)
-        phrase = "; ".join(
-            f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
-            for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
-            if np.isfinite(cell[key])
-        )
-        part.suptitle(f"{title}, {phrase}", x=0.01, ha="left", fontsize=8)
-        axes[0].set_ylabel("P(unstable)")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    return figure
+    quantities = ("sensitivity",)
+    several = True
+
+    kind: Literal["sensitivity"] = "sensitivity"
+
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        points = math.prod(len(along) for name, along in values.items() if name != SAMPLE)
+        if points > MOST_PANELS:
+            rule = f"has room for {MOST_PANELS} points beside their samples, not {points}"
+            yield Fault.of(("kind",), self.kind, rule)
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
+
+        Bars are 95 % intervals; the dashed line is the probability at all values.
+        """
+        cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
+        figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
+        separates = f"separates within {stated_in(study, 'options')['horizon']:g} s"
+        for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
+            axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
+            for ax, name in zip(axes, names, strict=True):
+                _panel(ax, cell, name)
+            phrase = "; ".join(
+                f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
+                for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
+                if np.isfinite(cell[key])
+            )
+            part.suptitle(f"{title}, {phrase}", x=0.01, ha="left", fontsize=8)
+            axes[0].set_ylabel("P(unstable)")
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        return figure
 
 
 def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:

@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping
 from itertools import chain
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union
 
 from pydantic import (
     AfterValidator,
@@ -31,9 +31,8 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SAMPLE, SCALARS, START, attributes
-from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
-from disc_model.figures.kinds import CASE_PLOTS, PLOTS, CasePlot, Plot
-from disc_model.figures.paper.catalogue import CATALOGUE
+from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.figures.kind import Kind, kind_of, library_kinds
 from disc_model.parameters import (
     AUTO,
     RATIOS,
@@ -844,31 +843,38 @@ class NamedCase(Strict):
 # Figures
 
 
-def _of_known_kind(raw: Any) -> Any:
-    kinds = (*CASE_PLOTS, *PLOTS)
-    if isinstance(raw, Mapping) and (kind := raw.get("kind")) not in kinds:
-        raise ParameterError(Fault.of(("kind",), kind, f"unknown kind of figure{suggestion(kind, kinds)}"))
-    return raw
+def _figure(raw: Any) -> Kind:
+    if isinstance(raw, Kind):
+        return raw
+    if not isinstance(raw, Mapping):
+        raise ValueError("must be a mapping")
+    return kind_of(raw.get("kind")).model_validate(raw)
 
 
-if TYPE_CHECKING:
-    Figures = dict[str, CasePlot | Plot] | tuple[Any, ...]
-else:
-    Plots = Annotated[
-        Union[*CASE_PLOTS.values(), *PLOTS.values()],
-        Field(discriminator="kind"),
-        BeforeValidator(_of_known_kind),
-    ]
-    PaperFigure = Annotated[Any, WithJsonSchema({"enum": list(CATALOGUE)})]
-    Figures = Annotated[
-        Annotated[dict[str, Plots], Tag("by name")] | Annotated[tuple[PaperFigure, ...], Tag("a list")],
-        Discriminator(
-            lambda raw: "by name" if isinstance(raw, Mapping) else "a list" if isinstance(raw, list | tuple) else None,
-            custom_error_type="figures",
-            custom_error_message="must be a mapping of names to {kind: ...}, or a list of the paper's figures",
-        ),
-        BeforeValidator(lambda raw: () if raw is None else raw),
-    ]
+_OTHER_KIND = {
+    "type": "object",
+    "properties": {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}},
+    "required": ["kind"],
+}
+Figure = Annotated[
+    Kind,
+    PlainValidator(
+        _figure,
+        json_schema_input_type=Annotated[Union[*library_kinds().values()], Field(discriminator="kind")]
+        | Annotated[Any, WithJsonSchema(_OTHER_KIND)],
+    ),
+]
+"""A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
+
+
+def _without_null(raw: Any) -> Any:
+    return {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw
+
+
+Figures = Annotated[
+    dict[Name, Figure], BeforeValidator(_without_null, json_schema_input_type=dict[Name, Figure | None])
+]
+"""Figures by their names; null drops one that is inherited."""
 
 # ----------------------------------------------------------------------------------------------------
 # The whole document
@@ -885,7 +891,7 @@ class Document(Strict):
     study : name of the study, and of its folder of results
     title : subject of the study
     base : parameters of all cases and of all points; the rest is Table 1 of the paper
-    figures : contents of each figure by its name; or a list of the paper's
+    figures : contents of each figure by its name
     cases : named simulations, with inherited values; `tol` and `record` are common to them
     claims : whether the paper's claims and tables are checked against the cases
     quantity, options : the quantity that a grid computes at each point
@@ -901,7 +907,7 @@ class Document(Strict):
     study: Name
     title: Title = ""
     base: GivenParameters = GivenParameters()
-    figures: Figures = ()
+    figures: Figures = Field({})
     tol: Tolerance | None = 1e-10
     record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)

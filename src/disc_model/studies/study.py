@@ -28,8 +28,9 @@ from pydantic import create_model
 from disc_model.data.variables import PERTURBATIONS, SAMPLE, START, values_text
 from disc_model.disc import read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, suggestion
-from disc_model.figures.kinds import NORM, CasePlot, General, OwnFigure, Plot, RegionMap, Values
-from disc_model.figures.paper.catalogue import CATALOGUE, SECTIONS, caption, label, lacking
+from disc_model.figures.general import General
+from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, Values
+from disc_model.figures.region_map import RegionMap
 from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
@@ -164,15 +165,25 @@ def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
 # Studies
 
 
-class CaseFigure(NamedTuple):
-    """A figure of cases: how it is drawn, its cases, and its section and title in lists."""
+class FigureEntry(NamedTuple):
+    """A figure as lists and reports show it, and what it is drawn from.
 
-    plot: CasePlot | OwnFigure
-    cases: tuple[str, ...]
+    inputs : names of cases, or of grid studies by their roles
+    """
+
+    plot: Kind
+    inputs: Mapping[str, str]
     category: str
     section: str
-    label: str
+    title: str
     caption: str
+
+
+MODES = {
+    "as_published": "modes scaled as in the published results",
+    "orthonormal": "modes normalised as Eq. (17) says",
+}
+"""Normalizations in captions."""
 
 
 class Study:
@@ -180,8 +191,7 @@ class Study:
 
     document : content of the file; the study has its name, title, claims, cases, and files of further grid studies
     specs : what is simulated of each case, in the order of the file
-    figures : the requested figures of the paper
-    plots : figures of cases, by name
+    figures : figures of cases and of grids, by name
     grid : the file's own grid, if it has one
     """
 
@@ -198,54 +208,53 @@ class Study:
                 self.specs[name] = case.spec()
             except ParameterError as error:
                 faults += [_locate(fault.inside(("cases", name)), raw) for fault in error.faults]
-        named = document.figures if isinstance(document.figures, dict) else {}
-        self.figures: tuple[str, ...] = () if isinstance(document.figures, dict) else document.figures
-        self.plots = {name: plot for name, plot in named.items() if isinstance(plot, CasePlot)}
-        of_grid = {name: plot for name, plot in named.items() if isinstance(plot, Plot)}
-        faults += self._wrong_figures(raw, named)
-        self.grid = GridStudy(document, raw, of_grid, faults) if raw.keys() & GRID_KEYS else None
+        self.figures = document.figures
+        own = {name: plot for name, plot in self._plots if plot.study in ("", self.name)}
+        faults += self._wrong_figures(raw)
+        self.grid = GridStudy(document, raw, own, faults) if raw.keys() & GRID_KEYS else None
 
-    def _wrong_figures(self, raw: Mapping[str, Any], named: Mapping[str, CasePlot | Plot]) -> Iterator[Fault]:
-        """Faults of the paper's figures that are listed, and of those with a name of their own."""
+    @property
+    def _plots(self) -> Iterator[tuple[str, Plot]]:
+        """The figures of grids, with their names."""
+        return ((name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot))
+
+    def _wrong_figures(self, raw: Mapping[str, Any]) -> Iterator[Fault]:
+        """Faults of the figures of cases, and of those of a grid that the file lacks."""
         known = [str(name) for name in mapping(raw.get("cases"))]
-        for i, name in enumerate(self.figures):
-            place = ("figures", str(i))
-            if not isinstance(name, str) or name not in CATALOGUE:
-                yield Fault.of(place, name, f"unknown figure{suggestion(name, CATALOGUE)}")
-                continue
-            for case, rule in lacking(name, self.specs):
-                if case in self.specs or case not in known:  # otherwise the case has faults of its own
-                    yield Fault.of(place, name, rule)
         cases = {name: self.specs[name].sections if name in self.specs else None for name in known}
-        for name, plot in named.items():
-            place = ("figures", name)
-            if not name.isidentifier() or (name in CATALOGUE and isinstance(plot, CasePlot)):
-                rule = "a figure's name must be letters, digits and _, and not that of one of the paper's"
-                yield Fault(place, "", rule)
+        for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
-                yield from (fault.inside(place) for fault in plot.faults(cases))
-            elif not raw.keys() & GRID_KEYS:
-                yield Fault.of((*place, "kind"), plot.kind, "shows a grid, and this study has none")
+                yield from (fault.inside(("figures", name)) for fault in plot.faults(cases))
+            elif isinstance(plot, Plot) and not plot.study and not raw.keys() & GRID_KEYS:
+                rule = "shows a grid: this study has none, and no other one is named as its study"
+                yield Fault.of(("figures", name, "kind"), plot.kind, rule)
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
         """Texts about the cases, which do not change their results."""
         return {name: {"title": case.title, "reference": case.reference} for name, case in self.cases.items()}
 
-    @property
-    def drawable(self) -> tuple[str, ...]:
-        """Figures for which these cases provide all data: those of the paper, and those of cases."""
-        return (*(name for name in CATALOGUE if not list(lacking(name, self.specs))), *self.plots)
+    def entries(self, grids: Mapping[str, GridStudy]) -> dict[tuple[str, str], FigureEntry]:
+        """All figures of the file and of grids, by the study in whose folder they are and their names."""
+        figures = {}
+        for name, plot in self.figures.items():
+            if isinstance(plot, Plot):
+                figures[self.name, name] = grids[plot.study or self.name].entry_of(name, plot)
+            elif isinstance(plot, CasePlot):
+                figures[self.name, name] = self._entry_of(name, plot)
+        for grid in grids.values():
+            for name, plot in grid.plots.items():
+                figures.setdefault((grid.name, name), grid.entry_of(name, plot))
+        return figures
 
-    def figure(self, name: str) -> CaseFigure:
-        """A figure of cases or of the paper, by its name."""
-        if (plot := self.plots.get(name)) is not None:
-            stated = plot.caption or f"{plot.title or name}: {plot.case}"
-            stated = f"{stated}, {values_text(dict(self.specs[plot.case].parameters))}"
-            return CaseFigure(plot, (plot.case,), "Figures of cases", plot.case, name, stated)
-        entry, specs = CATALOGUE[name], self.specs.items()
-        stated = caption(name, {case: x.parameters for case, x in specs}, {case: x.sections for case, x in specs})
-        return CaseFigure(entry.plot, entry.cases, "Figures of the paper", SECTIONS[entry.section], label(name), stated)
+    def _entry_of(self, name: str, plot: CasePlot) -> FigureEntry:
+        """A figure of cases; its caption has their parameters."""
+        every = [self.specs[case].parameters for case in plot.cases]
+        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in every))
+        modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in every}))
+        stated = f"{plot.caption or f'{plot.title or name}:'} {values}; everything else as in Table 1; {modes}."
+        section = plot.section or plot.case
+        return FigureEntry(plot, {case: case for case in plot.cases}, "Figures", section, plot.title or name, stated)
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -264,8 +273,8 @@ class Study:
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _found(pattern, folders)]
         asked = (*grids, *(path.stem for path in paths))
-        plots = [plot for grid in grids.values() for plot in grid.plots.values()]
-        shown_too = {name for plot in plots for name in plot.overlays.values()}.difference(asked)
+        shown = {name for _, plot in self._plots for name in (plot.study, *plot.overlays.values()) if name}
+        shown_too = shown.difference(asked)
         helpers = [path for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders) if path.is_file()]
         known = {*asked, *(path.stem for path in helpers)}
         faults: list[str] = []
@@ -273,8 +282,17 @@ class Study:
             self._add_grid(path, grids, faults)
         for name in self.document.overrides.keys() - known:
             faults.append(f"overrides.{name}: no such study{suggestion(name, sorted(known))}")
-        for name in grids.keys() & set(asked):
-            faults += _misfits(grids[name], grids, known)
+        for name in sorted(grids.keys() & set(asked)):
+            for figure, plot in grids[name].plots.items():
+                faults += _misfits(f"{name}: figures.{figure}", plot, grids[name], grids, known)
+        for figure, plot in self._plots:
+            if plot.study in grids and plot.study != self.name:
+                shown_grid = grids[plot.study]
+                faults += [fault.inside(("figures", figure)).in_file for fault in shown_grid.faults_of(plot)]
+                faults += _misfits(f"{self.name}: figures.{figure}", plot, shown_grid, grids, known)
+            elif plot.study and plot.study not in known:
+                rule = f"no such study{suggestion(plot.study, sorted(known))}"
+                faults.append(Fault.of(("figures", figure, "study"), plot.study, rule).in_file)
         if faults:
             raise StudyError(*faults, source="grid studies")
         return grids, asked
@@ -380,15 +398,16 @@ def _found(pattern: str, folders: Sequence[Path]) -> list[Path]:
     return [Path(path) for path in next(filter(None, found), [pattern])]
 
 
-def _misfits(study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]) -> Iterator[str]:
-    """Faults of the further studies that figures show."""
-    for name, plot in study.plots.items():
-        for role, other in plot.overlays.items():
-            where = f"{study.name}: figures.{name}.overlays.{role} = {other!r}"
-            if other not in known:
-                yield f"{where}: no such study{suggestion(other, sorted(known))}"
-            elif other in grids:
-                yield from (f"{where}: {rule}" for rule in misfits_of(plot, role, study, grids[other]))
+def _misfits(
+    where: str, plot: Plot, study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]
+) -> Iterator[str]:
+    """Faults of the further studies that a figure of a study shows."""
+    for role, other in plot.overlays.items():
+        if other not in known:
+            yield f"{where}.overlays.{role} = {other!r}: no such study{suggestion(other, sorted(known))}"
+        elif other in grids:
+            misfits = misfits_of(plot, role, study, grids[other])
+            yield from (f"{where}.overlays.{role} = {other!r}: {rule}" for rule in misfits)
 
 
 def misfits_of(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Iterator[str]:
@@ -917,19 +936,27 @@ class GridStudy:
                 yield from cross_faults(Parameters, {**here, **dict(zip(related, corner, strict=True))})
 
     def _check_plots(self) -> None:
+        for name, plot in self.plots.items():
+            self.faults += [fault.inside(("figures", name)) for fault in self.faults_of(plot)]
+
+    def faults_of(self, plot: Plot) -> Iterable[Fault]:
+        """Faults that keep a figure from showing this grid."""
         # a faulty dimension counts as one without values
         meant = sorted(self.wanted.difference(self.varied))
         values: Values = {**dict.fromkeys(meant, ()), **self.values}
-        for name, plot in self.plots.items():
-            found: Iterable[Fault] = ()
-            if isinstance(plot, General):
-                if self.options is not None:
-                    found = _general(plot, self.quantity, self.options, values)
-            elif self.quantity in plot.quantities:
-                found = plot.faults(values)
-            else:
-                found = [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
-            self.faults += [fault.inside(("figures", name)) for fault in found]
+        if isinstance(plot, General):
+            return () if self.options is None else _general(plot, self.quantity, self.options, values)
+        if self.quantity in plot.quantities:
+            return plot.faults(values)
+        return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
+
+    def entry_of(self, name: str, plot: Plot) -> FigureEntry:
+        """A figure of this grid, as lists and reports show it."""
+        inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
+        category = "Figures" if plot.section else "Maps and curves"
+        title = plot.title or f"{self.title or self.name}: {name}"
+        stated = f"{plot.caption} From the grid study {self.name}.".strip()
+        return FigureEntry(plot, inputs, category, plot.section, title, stated)
 
 
 def _own(name: str, values: Mapping[str, Any]) -> Any:

@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, floquet
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing, general
+from disc_model.figures import drawing
 from disc_model.studies.grids.merge import MergeError, failures, merge_batches
 from disc_model.studies.grids.run import run_batch
 from disc_model.studies.rules import holds
@@ -77,7 +77,7 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert not list(failures(study))
     assert list(drawing.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
-        general.draw_heat_map(study, {}, plot).savefig(tmp_path / f"{name}.png")
+        plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
     with pytest.raises(MergeError, match="missing"):
         merge_batches(batches, grid.grid, {})
 

@@ -5,32 +5,77 @@ harmonics of the angle. Twice their number and one of angles therefore determine
 shapes determine the rest.
 """
 
-from pathlib import Path
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal, NamedTuple
 
-import cmcrameri.cm as cmc
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 from numpy.typing import NDArray
+from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, DISC, GREY, PAGE, SEPARATED, SLIDER, new_figure, styled
+from disc_model.figures.drawing import (
+    BLACK,
+    DISC,
+    GREY,
+    PAGE,
+    SEPARATED,
+    SLIDER,
+    Axes,
+    Figure,
+    Normalize,
+    new_figure,
+)
+from disc_model.figures.kind import CasePlot, Need, as_samples
 from disc_model.parameters import Parameters
 from disc_model.plate import mode_arrays, mode_shapes
 
 Array = NDArray[np.float64]
-COLOURS = cmc.vik
-"""Colours of the deflection: blue below the plane of the disc at rest, red above it."""
 RADII, ANGLES = 25, 181
 """Points across and around the disc at which it is drawn."""
+
+
+class Instants(CasePlot):
+    """The disc from above at four instants, and along its circle of radius r_0.
+
+    They are equidistant from the first loss of contact to the next, or over the whole stretch without two losses.
+
+    around : number of the windows `around0`, ...
+    """
+
+    kind: Literal["paper.instants"] = "paper.instants"
+    around: Annotated[int, Field(ge=1)] = 9
+
+    def needs(self) -> Iterator[Need]:
+        for i in range(self.around):
+            yield Need("around", self.case, f"around{i}", [as_samples])
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure = new_figure(PAGE, 4.2)
+        above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
+        discs = above.subplots(1, 4)
+        circle = around.subplots()
+        motion = motion_of(cases[0])
+        losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
+        first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
+        scale = scale_of(motion)
+        for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
+            i = first + j * (last - first) // len(discs)
+            mesh = draw_disc(ax, motion, i, scale)
+            after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
+            ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
+            draw_circle(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
+        bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
+        bar.outline.set_visible(False)
+        circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
+        circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
+        circle.margins(y=0.08)
+        circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
+        circle.set_title("(e)", loc="left", x=-0.06)
+        return figure
 
 
 class Motion(NamedTuple):
@@ -82,37 +127,10 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
 
 
-def instants(case: xr.DataTree) -> Figure:
-    """Draw the disc from above at four instants, and along its circle of radius r_0.
-
-    They are equidistant from the first loss of contact to the next, or over the whole stretch without two losses.
-    """
-    figure = new_figure(PAGE, 4.2)
-    above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
-    discs = above.subplots(1, 4)
-    circle = around.subplots()
-    motion = motion_of(case)
-    losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
-    first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
-    scale = _scale(motion)
-    for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
-        i = first + j * (last - first) // len(discs)
-        mesh = _disc(ax, motion, i, scale)
-        after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
-        ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
-        _around(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
-    bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
-    bar.outline.set_visible(False)
-    circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
-    circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
-    circle.margins(y=0.08)
-    circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
-    circle.set_title("(e)", loc="left", x=-0.06)
-    return figure
-
-
-def _scale(motion: Motion) -> Normalize:
+def scale_of(motion: Motion) -> Normalize:
     """Colour scale of the deflection, mm, equal at all times and centred on 0."""
+    from matplotlib.colors import Normalize
+
     edge, theta = np.array([motion.parameters.b]), np.linspace(0, 2 * np.pi, ANGLES)
     step = max(1, motion.time.size // 50)
     largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
@@ -121,23 +139,27 @@ def _scale(motion: Motion) -> Normalize:
     return Normalize(-1e3 * largest, 1e3 * largest)
 
 
-def _colour(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
+def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
     """Colour of the slider, or of words on it."""
     return SEPARATED if motion.phase[i] == "separation" else otherwise
 
 
-def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
+def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     """Draw the disc from above, in mm, with the slider on it."""
+    from cmcrameri.cm import vik
+    from matplotlib.patches import Circle
+
     p = motion.parameters
     r, theta = np.linspace(p.a, p.b, RADII), np.linspace(0, 2 * np.pi, ANGLES)
     x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
     values = 1e3 * motion.deflection(i, r, theta)
-    mesh = ax.pcolormesh(x, y, values, cmap=COLOURS, norm=scale, shading="gouraud", rasterized=True)
+    # blue below the plane of the disc at rest, red above it
+    mesh = ax.pcolormesh(x, y, values, cmap=vik, norm=scale, shading="gouraud", rasterized=True)
     ax.add_patch(Circle((0, 0), 1e3 * p.a, fc="0.85", ec=GREY, lw=0.6))
     ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6, clip_on=False))
     angle = motion.slider[i]
     place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
-    ax.plot(*place, "o", ms=5, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
+    ax.plot(*place, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
     # a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged
     edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
     ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
@@ -151,41 +173,11 @@ def _disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
     return mesh
 
 
-def _around(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
+def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
     """Draw the disc along the circle of radius r_0 at an instant, with the slider as a mark of a size in points."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
     along = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
     ax.plot(theta, along, color=DISC, **look)
     angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-    ax.plot(angle, height, "s", ms=size, mfc=_colour(motion, i), mec=BLACK, mew=0.6)
+    ax.plot(angle, height, "s", ms=size, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
-
-
-def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
-    """Write the motion of disc and slider as an animated picture, .gif or .webp, with at most `frames` frames.
-
-    Raises `Missing` if the case does not hold the windows `around0`, ...
-    """
-    from matplotlib.animation import FuncAnimation, PillowWriter
-
-    motion = motion_of(case)
-    step = max(1, motion.time.size // frames)
-    with styled():
-        figure = Figure(figsize=(6.0, 2.5))
-        figure.set_layout_engine("none")  # panels keep their places in all frames
-        disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
-        scale = _scale(motion)
-
-        def draw(i: int) -> list[Artist]:
-            for ax in (disc, circle):
-                ax.cla()
-            _disc(disc, motion, i, scale)
-            _around(circle, motion, i, 7)
-            circle.set_ylim(scale.vmin, scale.vmax)
-            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.phase[i]}"
-            circle.set_title(text, color=_colour(motion, i, BLACK))
-            return [disc, circle]
-
-        animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        animation.save(path, writer=PillowWriter(fps=12), dpi=100)

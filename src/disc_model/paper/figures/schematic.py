@@ -4,16 +4,14 @@ The page docs/model.md shows the same drawing.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Annulus, Arc, Circle, Rectangle
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SLIDER
+from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SLIDER, Axes, Figure
+from disc_model.figures.kind import CasePlot
 from disc_model.parameters import Parameters
 
 Point = tuple[float, float] | NDArray[np.float64]
@@ -25,13 +23,19 @@ OUTER = 1.2
 """Radius of the disc as drawn."""
 
 
-def schematic(case: xr.DataTree) -> Figure:
-    """Draw the model of a case."""
-    return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
+class Schematic(CasePlot):
+    """The model of a case, its radii to scale."""
+
+    kind: Literal["paper.schematic"] = "paper.schematic"
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        return sketch(Parameters.model_validate_json(cases[0].attrs["parameters"]))
 
 
 def sketch(p: Parameters) -> Figure:
     """Draw the model with the radii of a case."""
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=(PAGE, 0.97 * PAGE))
     figure.set_layout_engine("none")  # the boxes are given
     boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
@@ -47,6 +51,8 @@ def sketch(p: Parameters) -> Figure:
 
 def _side(ax: Axes) -> None:
     """Draw the side view, unrolled along the circle of radius r_0; the gap is open so that u and w are distinct."""
+    from matplotlib.patches import Rectangle
+
     x = np.linspace(-2.5, 4.4, 300)
 
     def surface(at: NDArray[np.float64] | float) -> NDArray[np.float64]:
@@ -97,6 +103,8 @@ def _side(ax: Axes) -> None:
 
 def _above(ax: Axes, p: Parameters) -> None:
     """Draw the view from above: radii, to scale, and angles."""
+    from matplotlib.patches import Annulus, Circle
+
     a, b, r_0 = (radius * OUTER / p.b for radius in (p.a, p.b, p.r_0))
     ax.add_patch(Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
     ax.add_patch(Circle((0, 0), a, fc=CLAMP, ec=DISC, lw=1.5))
@@ -128,6 +136,8 @@ def _above(ax: Axes, p: Parameters) -> None:
 
 def _forces(ax: Axes) -> None:
     """Draw the free-body diagrams of the slider and of the disc under it."""
+    from matplotlib.patches import Rectangle
+
     ax.add_patch(Rectangle((-0.45, 0.55), 0.9, 0.6, fc=BODY, ec=BLACK, lw=1.3))
     ax.text(0, 0.85, "$m$", ha="center", va="center")
     _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
@@ -174,6 +184,8 @@ def _write(ax: Axes, place: Point, text: str, **look: Any) -> None:
 
 def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -> None:
     """Draw an arc with an arrow, from one angle to another."""
+    from matplotlib.patches import Arc
+
     wide = 2 * radius
     ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=SLIDER, lw=1.5))
     _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=SLIDER)

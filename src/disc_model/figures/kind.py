@@ -1,0 +1,340 @@
+"""What all kinds of figures have in common.
+
+A kind is a module in this package, or, of the paper's figures, in `disc_model.paper.figures`, under its own name. It
+holds a class whose fields are what a study file may say of such a figure, its rules (`faults`) and its drawing
+(`draw`). `kind_of` finds it by its name, and only what a study names is imported. Neither this module nor a kind
+imports matplotlib before something is drawn: it would double the time in which a study is checked.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import import_module
+from pkgutil import iter_modules
+from textwrap import fill
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+
+import xarray as xr
+from pydantic import BeforeValidator, Field
+
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import PERTURBATIONS, typeset
+from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.figures import drawing
+from disc_model.figures.drawing import Figure
+from disc_model.parameters import RATIOS, Parameters, Strict, Title
+from disc_model.simulation.case import Poincare, Window
+
+Values = Mapping[str, Sequence[tuple[Any, ...]]]
+"""Values of the parameters along each dimension of a grid."""
+NORM = "normalization"
+"""The dimension that a study may have beside those that a figure requires."""
+KINDS: dict[str, type[Kind]] = {}
+"""Kinds by their names, as far as their modules are imported."""
+
+
+def kind_of(name: Any) -> type[Kind]:
+    """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
+    package, _, module = str(name).rpartition(".")
+    try:
+        import_module(".".join(filter(None, ["disc_model", package, "figures", module])))
+        return KINDS[name]
+    except (ModuleNotFoundError, KeyError, TypeError):
+        fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, library_kinds())}")
+        raise ParameterError(fault) from None
+
+
+def library_kinds() -> dict[str, type[Kind]]:
+    """All kinds of this package, by their names."""
+    package = import_module(__package__)
+    for module in iter_modules(package.__path__):
+        import_module(f"{__package__}.{module.name}")
+    return {name: kind for name, kind in KINDS.items() if "." not in name}
+
+
+def _joined(caption: Any) -> Any:
+    return (
+        " ".join(caption) if isinstance(caption, list) and all(isinstance(part, str) for part in caption) else caption
+    )
+
+
+class Kind(Strict):
+    """A figure: its fields are what a study file may say of it.
+
+    title : stands above the figure, and in lists
+    caption : stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
+    section : heading under which report and explorer show it
+    """
+
+    kind: str
+    title: Title = ""
+    caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
+    section: Title = ""
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **options: Any) -> None:
+        super().__pydantic_init_subclass__(**options)
+        if isinstance(name := cls.model_fields["kind"].default, str):
+            KINDS[name] = cls
+
+    @property
+    def module(self) -> str:
+        """Module that holds its kind."""
+        return type(self).__module__
+
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+        """Draw it from its data in the common style.
+
+        inputs : the cases by their names; or the grid study as ``study``, and further ones by their roles
+        """
+        raise NotImplementedError
+
+    def write_head(self, figure: Figure, title: str, values: str) -> None:
+        """Write the figure's title, or else another one, and values of parameters above it, in lines that fit.
+
+        A caption says both.
+        """
+        width = round(figure.get_figwidth() / 0.06)
+        # keep a value on the line of its name
+        joined = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
+        text = "\n".join(fill(text, width) for text in (self.title or title, joined) if text).replace("\u00a0", " ")
+        if text and not self.caption:
+            self.place_title(figure, text)
+
+    def place_title(self, figure: Figure, text: str) -> None:
+        """Write a title where it covers nothing."""
+        figure.suptitle(text, fontsize=8)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Of grid studies
+
+
+class Role(NamedTuple):
+    """Requirements on an overlay: its quantity, or an alternative with the same data; its dimensions except `NORM`, if
+    they differ from the figure's; and some options.
+    """
+
+    quantity: str
+    dims: tuple[str, ...] | None = None
+    options: Mapping[str, Any] = {}
+    required: bool = False
+    instead: str = ""
+
+
+Roles = Mapping[str, Role]
+"""Further studies that a figure can show, by their role."""
+CYCLE = Role("floquet", ("N", "Omega"), instead="regions")
+CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
+
+
+class Plot(Kind):
+    """A figure of a grid study.
+
+    study : the grid study that it shows, if not the file's own
+    overlays : further studies it shows, by the role they play in it
+    quantities : those that it can show, the default first
+    needs : required dimensions, beside those that the file chooses as x and y
+    several : whether it can show several normalizations, or is drawn from the values for one
+    named_above : whether its panels name their normalizations
+    roles : the roles that overlays may play
+    """
+
+    quantities: ClassVar[tuple[str, ...]] = ()
+    needs: ClassVar[tuple[str, ...]] = ()
+    several: ClassVar[bool] = False
+    named_above: ClassVar[bool] = False
+    roles: ClassVar[Roles] = {}
+
+    study: str = ""
+    overlays: dict[str, str] = Field({})
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw the study, with further ones by their roles."""
+        raise NotImplementedError
+
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+        study, *others = (tree.to_dataset() for tree in inputs.values())
+        if not self.several:
+            norm = getattr(self, "normalization", None) or drawing.normalizations(study)[0]
+            study, *others = (drawing.of(dataset, norm) for dataset in (study, *others))
+        with drawing.styled():
+            figure = self.draw(study, dict(zip([*inputs][1:], others, strict=True)))
+            base = json.loads(study.attrs.get("base", "{}"))
+            modes = drawing.normalizations(study) if "normalization" in study.coords else []
+            if self.named_above:
+                base.pop("normalization", None)
+                modes = []
+            # 0 stands for N or Omega if the quantity varies it by itself
+            varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
+            fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
+            texts = [*self.chosen(study), fixed, *([drawing.MODES[modes[0]]] if len(modes) == 1 else [])]
+            self.write_head(figure, study.attrs.get("title", ""), ", ".join(filter(None, texts)))
+        return figure
+
+    def chosen(self, study: xr.Dataset) -> list[str]:
+        """Values along dimensions of the study that the figure takes at one place."""
+        return []
+
+    @property
+    def axes(self) -> dict[str, str]:
+        """Dimensions that the file chooses, by axis."""
+        return {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """All dimensions that the figure needs."""
+        return (*self.needs, *self.axes.values())
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
+        yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
+        yield from self._wrong_overlays()
+
+    def _wrong_overlays(self) -> Iterator[Fault]:
+        """Roles that the figure does not have, and lacks."""
+        for role, name in self.overlays.items():
+            if role not in self.roles:
+                yield Fault.of(
+                    ("overlays", role),
+                    name,
+                    "unknown role" + (suggestion(role, self.roles) if self.roles else ", this kind has no overlays"),
+                )
+        for role, wanted in self.roles.items():
+            if wanted.required and role not in self.overlays:
+                yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
+
+    def _wrong_axes(self, values: Values) -> Iterator[Fault]:
+        """Faults of the dimensions that the file chooses."""
+        for axis, name in self.axes.items():
+            if name not in values:
+                yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
+            elif name not in (*PERTURBATIONS, *RATIOS) and not Parameters.unit(name):
+                yield Fault.of((axis,), name, "must be one parameter, and a number")
+        if len({*self.axes.values()}) < len(self.axes):
+            yield Fault.of(("y",), self.axes["y"], "must differ from x")
+
+    def _wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Required dimensions that the study lacks, and dimensions of the study that the figure cannot show."""
+        allowed = (*self.dims, NORM)
+        further = [name for name in values if values[name] and name not in allowed]
+        if missing := [name for name in self.dims if name not in values]:
+            yield Fault.of(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
+        elif further:
+            yield Fault.of(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
+        elif not self.several and len(values.get(NORM, ())) > 1:
+            yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Of named cases
+
+Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
+"""Variables of samples beside times and phases."""
+Recorded = Mapping[str, Window | Poincare | None]
+"""Records of a case: windows by name, and the Poincaré section as ``poincare``."""
+Rule = Callable[[Window], Iterator[str]]
+"""Rules that a window breaks, as ends of sentences."""
+SHORTEST_SPECTRUM = 1.1
+"""Least length of a window for a spectrum in time, s: one window of the transform and two steps."""
+HIGHEST = 1000.0
+"""Highest frequency of a spectrum in time, Hz."""
+
+
+class Need(NamedTuple):
+    """A record that a figure shows: the figure's key that names it, its case, its name, and the rules for a window.
+
+    Only the Poincaré section has no rules.
+    """
+
+    key: str
+    case: str
+    name: str
+    rules: Sequence[Rule] = ()
+
+
+def as_samples(window: Window) -> Iterator[str]:
+    """Rules for a window that is drawn sample by sample."""
+    if window.envelope is not None:
+        yield "must have no envelope"
+
+
+def as_ranges(window: Window) -> Iterator[str]:
+    """Rules for a window that is drawn as ranges."""
+    if window.envelope is None:
+        yield "needs an envelope"
+    elif window.count < 2 * window.envelope:
+        yield "must be two envelopes long or more"
+
+
+def as_spectrum(window: Window, highest: float = HIGHEST) -> Iterator[str]:
+    """Rules for a window whose spectrum in time is drawn up to a frequency in Hz."""
+    yield from as_samples(window)
+    if window.stop - window.start < SHORTEST_SPECTRUM:
+        yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
+    if window.rate < 2 * highest:
+        yield f"needs a rate of {2 * highest:g} Hz or more"
+
+
+class CasePlot(Kind):
+    """A figure of one or several named cases.
+
+    case : name of the case, of the first one if there are several
+    shows : keys that name the windows that the figure shows of each case, with the rule for them
+    """
+
+    shows: ClassVar[tuple[tuple[str, Rule], ...]] = ()
+
+    case: str
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        """Draw the cases; raises `Missing` if they do not hold what the figure needs."""
+        raise NotImplementedError
+
+    def needs(self) -> Iterator[Need]:
+        """The records that the figure shows."""
+        for case in self.cases:
+            for key, rule in self.shows:
+                named = getattr(self, key)
+                yield from (Need(key, case, name, [rule]) for name in ([named] if isinstance(named, str) else named))
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        """Further cases that the figure shows."""
+        return ()
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        """All cases that the figure shows."""
+        return (self.case, *self.others)
+
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+        """Draw it as any figure; the reason instead, if a case does not hold what it needs."""
+        first = next(iter(inputs.values()))
+        with drawing.styled():
+            try:
+                figure = self.draw(*inputs.values())
+            except Missing as reason:
+                figure = drawing.empty_figure(reason)
+            self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
+        return figure
+
+    def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
+        """Faults that keep it from being drawn; a case that is None has faults of its own."""
+        for case in self.cases:
+            if case not in cases:
+                yield Fault.of(("case",), case, f"no such case (known: {', '.join(cases) or 'none'})")
+        for need in self.needs():
+            if (recorded := cases.get(need.case)) is None:
+                continue
+            window = recorded.get(need.name)
+            if window is None:
+                known = ", ".join(name for name, window in recorded.items() if window is not None)
+                rule = f"is not recorded by case {need.case} (known: {known or 'none'})"
+                yield Fault.of((need.key,), need.name, rule)
+            elif isinstance(window, Window):
+                for broken in (broken for rule in need.rules for broken in rule(window)):
+                    yield Fault.of((need.key,), need.name, broken)
+            elif need.rules:
+                yield Fault.of((need.key,), need.name, "must be a window, not the Poincaré section")

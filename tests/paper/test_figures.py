@@ -1,0 +1,149 @@
+"""The paper's figures, as config/paper.yaml describes them."""
+
+import functools
+import re
+from pathlib import Path
+from pkgutil import iter_modules
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model import Parameters, Record, Window, simulate
+from disc_model.data.dataset import Missing, events_dataset
+from disc_model.figures.drawing import COLUMN, PAGE
+from disc_model.figures.kind import CasePlot
+from disc_model.paper import figures
+from disc_model.paper.figures.instants import motion_of
+from disc_model.studies.study import load_study
+from tests.damages import DAMAGES, EACH_DAMAGE, damaged
+from tests.figures.reading import assert_fit_for_print
+from tests.figures.test_cases import RECORDED, said_in, simulated
+
+STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
+FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}
+ONE_OF_EACH = list({plot.kind: name for name, plot in FIGURES.items()}.values())
+"""A figure of each kind."""
+ZOOMS = {"fig26": (("spectrum_c", 54.0), ("spectrum_d", 57.0)), "fig28": (("spectrum_d", 56.5), ("spectrum_d", 57.0))}
+"""Closer looks at times that the made-up case has."""
+
+
+def test_every_kind_of_the_paper_is_in_its_study() -> None:
+    modules = {f"paper.{module.name}" for module in iter_modules(figures.__path__)} - {"paper.separations"}
+    assert modules == {plot.kind for plot in STUDY.figures.values() if "." in plot.kind}
+    assert all(
+        plot.module == f"disc_model.{plot.kind.replace('.', '.figures.')}"
+        for plot in map(FIGURES.get, ONE_OF_EACH)
+        if "." in plot.kind
+    )
+
+
+@functools.cache
+def holding_less(damage: str) -> xr.DataTree:
+    """The made-up case, damaged."""
+    return damaged(simulated(True), DAMAGES[damage])
+
+
+def drawn(name: str, case: xr.DataTree) -> Figure:
+    plot = FIGURES[name]
+    if name in ZOOMS:
+        plot = plot.model_copy(update={"zooms": ZOOMS[name]})
+    return plot.render(dict.fromkeys(plot.cases, case))
+
+
+@pytest.mark.parametrize(
+    ("name", "separates"), [*((name, True) for name in FIGURES), *((name, False) for name in ONE_OF_EACH)]
+)
+def test_figures_are_fit_for_print(name: str, separates: bool) -> None:
+    figure = drawn(name, simulated(separates))
+    assert figure.get_figwidth() in (COLUMN, PAGE)
+    assert figure.get_suptitle() == "", "the caption says it"
+    assert_fit_for_print(figure)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("damage", EACH_DAMAGE)
+@pytest.mark.parametrize("name", ONE_OF_EACH)
+def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
+    """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
+    figure = drawn(name, holding_less(damage))
+    figure.draw_without_rendering()
+    reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
+    if damage in ("failed", "nothing recorded"):
+        assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
+        lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
+        known = {"failed"} if damage == "failed" else {*lacks}
+        assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_captions_say_what_the_windows_and_the_cases_hold(name: str) -> None:
+    entry, plot = STUDY.entries(STUDY_GRIDS)["paper", name], FIGURES[name]
+    windows = [STUDY.specs[need.case].sections[need.name] for need in plot.needs()]
+    for number, unit in re.findall(r"θ = ([\d.]+) (rad)", plot.caption):
+        assert {window.theta for window in windows} == {float(number)}, unit
+    for start, stop in re.findall(r"point, (\d+) to (\d+) s", plot.caption):
+        assert [(window.start, window.stop) for window in windows] == [(float(start), float(stop))]
+    for length in re.findall(r"\(b\) (\d+) ms of it", plot.caption):
+        assert windows[1].stop - windows[1].start == pytest.approx(1e-3 * float(length))
+    assert "N = " in entry.caption
+    assert entry.caption.endswith("; everything else as in Table 1; modes scaled as in the published results.")
+
+
+STUDY_GRIDS = STUDY.grids([Path(__file__).parents[2]])[0]
+
+
+def test_closures_fall_to_rounding_at_the_period_only() -> None:
+    """Releases that repeat after three: nothing showed that motions of long periods are periodic."""
+    times = np.cumsum(np.tile([0.01, 0.02, 0.04], 10))
+    frame = pd.DataFrame({"time": times, "kind": "stick_to_slip", "phase": "slip"})
+    events = events_dataset(frame).assign_attrs(kept_from=0.0, kept_until=2.0)
+    ax = drawn("figB2", xr.DataTree.from_dict({"/": xr.Dataset(), "/events": events})).axes[0]
+    counts, differences = ax.lines[0].get_data()
+    np.testing.assert_array_equal(counts[np.asarray(differences) < 1e-9], [3, 6, 9, 12])
+
+
+# ---- the whole disc
+
+
+@pytest.fixture(scope="module")
+def case() -> xr.DataTree:
+    """A light disc that turns and separates soon; three modes, five angles."""
+    p = Parameters(N=300, Omega=50, n_diameters=2, normalization="orthonormal")
+    windows = [Window(start=0.5, stop=0.52, rate=2e4, theta=1.2 * j) for j in range(5)]
+    windows.append(Window(start=0.5, stop=0.52, rate=2e4, theta=2.1))
+    names = [*(f"around{j}" for j in range(5)), "elsewhere"]
+    return simulate(p, 0.52, record=Record(windows=tuple(windows))).to_tree(names)
+
+
+@pytest.mark.compiled
+def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
+    """Under the slider, and at an angle that the shape is not made from; to rounding of the displacement itself."""
+    motion = motion_of(case)
+    r_0 = np.array([motion.parameters.r_0])
+    elsewhere = case["elsewhere"].to_dataset()
+    size = float(np.abs(elsewhere["w"]).max())
+    for i in range(0, motion.time.size, 20):
+        under, there = motion.deflection(i, r_0, np.array([motion.slider[i], 2.1]))[0]
+        assert under == pytest.approx(float(elsewhere["w"][i]), abs=1e-12 * size)
+        assert there == pytest.approx(float(elsewhere["w_point"][i]), abs=1e-12 * size)
+
+    p = motion.parameters
+    w = np.abs(motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))).max(axis=1)
+    assert w[0] < 1e-9 * w[2], "it is clamped inside"
+    assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
+
+
+@pytest.mark.compiled
+def test_what_does_not_determine_the_disc_is_said(case: xr.DataTree) -> None:
+    with pytest.raises(Missing, match="recorded the disc at 4 angles, 5 are needed"):
+        motion_of(case.drop_nodes("around4"))
+    late = case["around1"].to_dataset().assign_coords(time=case["around1"]["time"] + 1.0)
+    with pytest.raises(Missing, match="at other times at other angles"):
+        motion_of(case.assign(around1=xr.DataTree(late)))
+    circles, p = case.copy(), Parameters.model_validate_json(case.attrs["parameters"])
+    circles.attrs["parameters"] = p.replace(n_circles=1).canonical_json
+    with pytest.raises(Missing, match="nodal circles"):
+        motion_of(circles)
