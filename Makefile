@@ -105,7 +105,7 @@ compile-times: env
 # What compiles kernels of its own is left to `make test-long`, which tries all in every set of instructions.
 test-portable: env
 	NUMBA_CACHE_DIR=$(CURDIR)/$(VENV)/kernels-generic $(BIN)/python -m tests.instruction_sets generic \
-	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/test_plate.py tests/validation \
+	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/disc/test_plate.py tests/validation \
 	  --ignore tests/validation/test_contact_laws.py --ignore tests/validation/test_ramps.py
 
 # With the rival integrators, so that their tests are not passed over. The random search draws thirty times as many inputs

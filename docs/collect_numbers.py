@@ -23,8 +23,8 @@ import disc_model as dm
 from disc_model.analysis.sobol import share
 from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import script
-from disc_model.plate import mode_arrays
 
 ROOT = Path(__file__).parents[1]
 STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encoding="utf-8"))

@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 
 import disc_model
-from disc_model import Parameters, cli, mode_choice, plausibility, simulate
+from disc_model import Parameters, cli, mode_choice, simulate
 from disc_model.cli import studies as cli_studies
 from disc_model.cli.case import option_name
 from disc_model.cli.run import plot_record
+from disc_model.disc import plausibility
 from disc_model.simulation import api
 from disc_model.simulation.quicklook import quicklook
 from disc_model.studies.study import load_study

@@ -9,10 +9,10 @@ from pydantic import Field
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window
 from disc_model.errors import DiscModelError, Fault, StatusBase, as_text, script
-from disc_model.parameters import Checked, CycleTolerance, Real, Strict, Tolerance
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError, parse_study
+from disc_model.units import Checked, CycleTolerance, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
 
 WINDOW = {"start": 0, "stop": 1, "rate": 100}

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, simulate
+from disc_model.disc.truncation import CHOSEN_BY, FREQUENCIES, real_modes
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
-from disc_model.truncation import CHOSEN_BY, FREQUENCIES, real_modes
 
 P = Parameters(N=385.0, Omega=15.1)
 RESIDUAL = P.replace(contact_compliance="residual")

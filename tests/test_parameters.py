@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
 from disc_model import Disc, ParameterError, Parameters
-from disc_model.parameters import RESIDUAL, is_number
+from disc_model.parameters import RESIDUAL
+from disc_model.units import is_number
 from tests.processes import python
 
 

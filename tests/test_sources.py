@@ -116,7 +116,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
 
     for name in QUANTITIES:
         batch = of(SCRIPTS / "compute_batch.py", f"studies.grids.quantities.{name}")
-        assert {"engine/series.py", "plate.py", "data/variables.py", f"studies/grids/quantities/{name}.py"} <= batch
+        assert {"engine/series.py", "disc/plate.py", f"studies/grids/quantities/{name}.py"} <= batch
         assert not [
             path for path in batch if path.split("/")[0] in ("figures", "paper", "benchmarks", "cli", "explorer")
         ]
@@ -130,7 +130,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     case = of(SCRIPTS / "simulate_case.py")
     assert {"engine/event_loop.py", "simulation/recorder.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
-    assert {"stability/cycle.py", "truncation.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
+    assert {"stability/cycle.py", "disc/truncation.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
     assert {"config/paper.yaml", "paper/section42.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {"benchmarks/methods/compiled.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(

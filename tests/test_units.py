@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from disc_model import ParameterError, Parameters, Ramp, Window, simulate
-from disc_model.parameters import in_si
 from disc_model.studies.study import parse_study
+from disc_model.units import in_si
 from tests.studies.refused import parse_grid
 
 

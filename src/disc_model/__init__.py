@@ -17,15 +17,15 @@ __version__ = "0.2.0"
 
 _NAMES = {
     "data.dataset": "load",
-    "disc": "read_disc",
+    "disc.flexibility": "residual_flexibility",
+    "disc.plate": "plate_modes coupled_natural_frequencies",
+    "disc.plausibility": "ImplausibleValue",
+    "disc.tables": "read_disc",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
-    "flexibility": "residual_flexibility",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
-    "plate": "plate_modes coupled_natural_frequencies",
-    "plausibility": "ImplausibleValue",
     "simulation.api": "simulate Execution",
     "simulation.case": "Record Window Poincare",
     "simulation.deflection": "snapshots deflection",
@@ -40,7 +40,10 @@ __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.data.dataset import load
-    from disc_model.disc import read_disc
+    from disc_model.disc.flexibility import residual_flexibility
+    from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+    from disc_model.disc.plausibility import ImplausibleValue
+    from disc_model.disc.tables import read_disc
     from disc_model.errors import (
         DiscModelError,
         ModeError,
@@ -52,11 +55,8 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
-    from disc_model.flexibility import residual_flexibility
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
-    from disc_model.plate import coupled_natural_frequencies, plate_modes
-    from disc_model.plausibility import ImplausibleValue
     from disc_model.simulation.api import Execution, simulate
     from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.deflection import deflection, snapshots

@@ -1,8 +1,8 @@
 """Choice of the number of modes that a case needs for a given quantity: `choose_modes`.
 
-The choice by ``frequencies`` needs no simulation (`disc_model.truncation`).  The choice by a quantity of the motion
-takes the first model with which two larger ones agree. Without agreement there is no choice, and the error gives the
-difference of the largest models.  For a disc given by a table, the last candidate is the whole table.
+The choice by ``frequencies`` needs no simulation (`disc_model.disc.truncation`).  The choice by a quantity of the
+motion takes the first model with which two larger ones agree. Without agreement there is no choice, and the error gives
+the difference of the largest models.  For a disc given by a table, the last candidate is the whole table.
 """
 
 from __future__ import annotations
@@ -12,9 +12,17 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from disc_model.disc.truncation import (
+    FREQUENCIES,
+    ModeChoice,
+    ModeRequest,
+    by_frequencies,
+    count_modes,
+    counts,
+    resized,
+)
 from disc_model.errors import DiscModelError, ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters
-from disc_model.truncation import FREQUENCIES, ModeChoice, ModeRequest, by_frequencies, count_modes, counts, resized
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result

@@ -1,339 +1,34 @@
-"""The validated parameters of the model, in SI units; and the basis of all schemas: kinds of numbers, strict bases."""
+"""The validated parameters of the model, in SI units."""
 
 from __future__ import annotations
 
-import functools
-import hashlib
-import json
 import math
-import numbers
 import operator
-import re
-from collections.abc import Callable, Iterator, Mapping, Sized
-from dataclasses import dataclass
-from importlib.util import find_spec
+from collections.abc import Mapping, Sized
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal, Self, TypeGuard, get_args
-
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, field_validator
-
-from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
-
-# ----------------------------------------------------------------------------------------------------
-# Numbers
-
-TOLERANCES = (1e-15, 1e-2)
-"""Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
-CYCLE_TOLERANCES = (1e-14, 1e-6)
-"""Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
-
-
-Units = str | Mapping[str, "Units"]
-"""A unit; or, for values by name, those that have one."""
-
-
-@dataclass(frozen=True, eq=False)
-class Unit:
-    """Marks the type of a number, or of a structure of numbers, with its SI unit.
-
-    of : the field that names the parameter whose unit it is, where that is a matter of choice
-    """
-
-    name: Units = ""
-    of: str = ""
-
-    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {**handler(schema), "unit": self.name} if self.name and isinstance(self.name, str) else handler(schema)
-
-
-class Unfit(str):
-    """A text with a unit that cannot be converted to the requested one."""
-
-    unit: str
-
-
-_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
-_WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
-DECIMAL_COMMA = "; a decimal point is needed, not a comma"
-_POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
-_UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
-"""A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
-_ANGLES = ("rad", "deg", "rev", "turn", "rpm", "rps", "cycle", "°")
-
-
-@functools.lru_cache(maxsize=1)
-def _units() -> Any:
-    import pint  # the import takes a second, and few callers need it
-
-    return pint.UnitRegistry()
-
-
-def in_si(value: Any, unit: Units) -> Any:
-    """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
-
-    Results have 15 digits, so that equal decimal numbers in different units are equal.
-    """
-    if isinstance(value, dict):
-        units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-        return value | {name: in_si(one, units[name]) for name, one in value.items() if name in units}
-    if isinstance(value, list | tuple):
-        return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
-    if not (unit and isinstance(unit, str) and isinstance(value, str) and (found := _WITH_UNIT.fullmatch(value))):
-        return value
-    try:
-        if not _UNIT.fullmatch(found[2]):
-            raise ValueError("no unit")
-        if unit.startswith("rad") and not any(word in found[2] for word in _ANGLES):
-            raise ValueError("Hz may mean turns or radians")
-        converted = _units().Quantity(float(found[1]), found[2].replace("^", "**")).to("" if unit == "1" else unit)
-        return float(f"{converted.magnitude:.15g}")
-    except Exception:  # exceptions of pint and of Python's tokenizer, which have no common base
-        unfit = Unfit(value)
-        unfit.unit = unit
-        return unfit
-
-
-def number(value: Any) -> Any:
-    """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else.
-
-    Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
-    treats it so.
-    """
-    if isinstance(value, Unfit):
-        kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
-        kind += ", such as rpm; Hz may mean turns or radians" * (value.unit == "rad/s")
-        raise ValueError(f"must be a number {kind}")
-    if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
-        raise ValueError("must be a number")
-    try:
-        return float(value) + 0.0  # adding zero turns -0.0 into 0.0
-    except OverflowError:  # a whole number beyond the range of floats
-        return math.inf if str(value)[0] != "-" else -math.inf
-    except ValueError:
-        comma = DECIMAL_COMMA * bool(isinstance(value, str) and _WITH_COMMA.match(value))
-        raise ValueError(f"must be a number{comma}") from None
-
-
-def whole(value: Any) -> Any:
-    """Convert a count as `number` does: 4, 4.0 and "4" are the same, 4.5 is refused."""
-    if is_whole(value):
-        return int(value)
-    found = number(value)
-    if not found.is_integer():
-        raise ValueError("must be a whole number")
-    return int(found)
-
-
-def is_number(value: object) -> bool:
-    """Whether a value is a number within the range of floats; text that `number` would convert is not."""
-    # the usual type first: the test for the abstract one takes several times as long
-    if isinstance(value, float):
-        return True
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        return False
-    # integers beyond the range of floats compare as less than infinity
-    try:
-        return math.isfinite(float(value)) or not -math.inf < value < math.inf  # type: ignore[operator]
-    except OverflowError:
-        return False
-
-
-def is_whole(value: object) -> TypeGuard[int]:
-    """Whether a value is a whole number by its type, Python's or numpy's; a bool is not."""
-    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
-
-
-def limits_rule(limits: tuple[float, float]) -> str:
-    """Text of the rule for a number within limits, such as `TOLERANCES`."""
-    return f"must be within {limits[0]:g} and {limits[1]:g}"
-
-
-def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
-    """Faults of an argument that must be a number within limits."""
-    good = is_number(value) and limits[0] <= value <= limits[1]
-    return [] if good else [Fault.of((name,), value, limits_rule(limits))]
-
-
-def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
-    """A validator for pydantic, which refuses values by a rule."""
-
-    def checked(value: Any) -> Any:
-        if not holds(value):
-            raise ValueError(rule)
-        return value
-
-    return checked
-
-
-def _within(limits: tuple[float, float]) -> AfterValidator:
-    return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], limits_rule(limits)))
-
-
-def _drawable(text: str) -> str:
-    """Refuse formulas that matplotlib cannot typeset, because it would report them only after all computations."""
-    if "$" in text and find_spec("matplotlib"):
-        from matplotlib.mathtext import MathTextParser
-
-        try:
-            MathTextParser("path").parse(text)
-        except ValueError as error:
-            raise ValueError(f"must be text that matplotlib can set ({' '.join(str(error).split())})") from None
-    return text
-
-
-Title = Annotated[str, AfterValidator(_drawable)]
-Real = Annotated[float, BeforeValidator(number)]
-Finite = Annotated[Real, Field(allow_inf_nan=False)]
-Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
-Count = Annotated[int, BeforeValidator(whole)]
-Seconds = Annotated[Positive, Unit("s")]
-Speed = Annotated[Positive, Unit("rad/s")]
-Tolerance = Annotated[Real, _within(TOLERANCES)]
-CycleTolerance = Annotated[Real, _within(CYCLE_TOLERANCES)]
-
-
-# ----------------------------------------------------------------------------------------------------
-# Bases
-
-
-def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
-    """Faults of names that are not text, at any depth; in a nested model pydantic would raise a `TypeError`."""
-    if isinstance(data, dict):
-        for name, value in data.items():
-            if not isinstance(name, str):
-                comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-                yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
-            if isinstance(value, dict | list | tuple):
-                yield from faults_of_names(value, (*path, str(name)))
-    elif isinstance(data, list | tuple):
-        for i, value in enumerate(data):
-            if isinstance(value, dict | list | tuple):
-                yield from faults_of_names(value, (*path, str(i)))
-
-
-@functools.cache
-def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]:
-    """Units of the fields of a model, from their schema or from their type; and the fields that decide others."""
-    found = {}
-    for name, field in model.model_fields.items():
-        extra = field.json_schema_extra
-        parts = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else [*field.metadata]
-        parts.append(field.annotation)
-        for part in parts:
-            parts += get_args(part)
-        if mark := next((part for part in parts if isinstance(part, Unit)), None):
-            found[name] = mark
-    decided = {name: mark.of for name, mark in found.items() if mark.of}
-    return {name: mark.name for name, mark in found.items() if not mark.of}, decided
-
-
-class Strict(BaseModel):
-    """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI.
-
-    Every way to make one raises a single `ParameterError` that lists all faults, those of parts included.
-    """
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    def __init__(self, /, *unnamed: Any, **data: Any) -> None:
-        if unnamed:
-            name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
-            example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
-            raise ParameterError(f"{name} takes named values: {name}({example})")
-        data = in_si(data, self._units(data))
-        faults: list[str] = list(faults_of_names(data))
-        try:
-            if not faults:
-                super().__init__(**data)
-        except ValidationError as error:
-            faults += faults_of(error, data, type(self))
-        faults += self._more_faults(data)
-        if faults:
-            raise ParameterError(*faults) from None
-
-    @classmethod
-    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
-        """SI units of the values that have one, by the marks of their types."""
-        fixed, decided = _units_of(cls)
-        named = {name: data.get(by, cls.model_fields[by].default) for name, by in decided.items()}
-        return fixed | {name: Parameters.unit(str(one)) for name, one in named.items()}
-
-    @classmethod
-    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        """Faults by rules that pydantic does not check, for `data` as given."""
-        return []
-
-    @classmethod
-    def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
-        """Make the model from a mapping, with the same errors as the constructor."""
-        if isinstance(obj, Mapping):
-            if unnamed := [*faults_of_names(obj)]:
-                raise ParameterError(*unnamed)
-            return cls(**obj)
-        if isinstance(obj, cls):
-            return obj
-        raise ParameterError(Fault.of((cls.__name__.lower(),), obj, "must be a mapping of names to values"))
-
-
-def given_values(model: Strict) -> dict[str, Any]:
-    """The values of a model that were given, in the order of its fields."""
-    return {name: getattr(model, name) for name in type(model).model_fields if name in model.model_fields_set}
-
-
-class Checked(Strict):
-    """Base of models that callers make, with changed copies."""
-
-    @classmethod
-    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """Make the model from JSON text, with the same errors as the constructor."""
-        try:
-            values = json.loads(json_data)
-        except (ValueError, TypeError, RecursionError) as error:
-            raise ParameterError(Fault.of(("json_data",), json_data, f"must be JSON ({error})")) from None
-        return cls.model_validate(values)
-
-    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """A copy; unlike in pydantic, the changes by `update` are validated."""
-        return self.replace(**(update or {}))
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        change = f"{name}={as_text(value)}"
-        raise ParameterError(f"{change}: cannot be set in place, replace({change}) returns a changed copy")
-
-    def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed."""
-        return type(self)(**{**dict(self), **changes})
-
-
-# ----------------------------------------------------------------------------------------------------
-# Names by content
-
-
-def content_key(text: str) -> str:
-    """First 12 hexadecimal digits of the sha256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-
-def canonical_json(value: Any) -> str:
-    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
-
-    def plain(item: Any) -> Any:
-        if isinstance(item, Mapping):
-            return {str(key): plain(value) for key, value in item.items()}
-        if isinstance(item, list | tuple):
-            return [plain(value) for value in item]
-        if isinstance(item, float):
-            return item + 0.0 if math.isfinite(item) else str(item)
-        return item
-
-    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
-
-
-# ----------------------------------------------------------------------------------------------------
-# Parameters of a case
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import BaseModel, BeforeValidator, Field, field_validator
+
+from disc_model.errors import Fault, as_text, raise_faults
+from disc_model.units import (
+    UNITS,
+    Checked,
+    Count,
+    Finite,
+    Positive,
+    Real,
+    canonical_json,
+    content_key,
+    is_number,
+    limits_faults,
+    must,
+    number,
+    within,
+)
 
 AUTO = "auto"
-"""Value of ``n_diameters`` in a file for which `disc_model.truncation` chooses the modes."""
+"""Value of ``n_diameters`` in a file for which `disc_model.disc.truncation` chooses the modes."""
 CHOOSING = ("truncation_quantity", "truncation_tolerance")
 """Keys of files and command lines that control this choice."""
 RESIDUAL = "residual"
@@ -426,7 +121,7 @@ class Disc(Checked):
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
-    omega: tuple[Annotated[Finite, _within(FREQUENCIES)], ...]
+    omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field((), validate_default=True)
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
@@ -643,7 +338,10 @@ class Parameters(Checked):
     @classmethod
     def unit(cls, name: str) -> str:
         """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown name."""
-        return str(_units_of(cls)[0].get(name, ""))
+        return UNITS.get(name, "")
+
+
+UNITS.update((name, field.json_schema_extra["unit"]) for name, field in Parameters.model_fields.items())  # type: ignore[index, misc, call-overload]
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

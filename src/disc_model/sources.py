@@ -16,7 +16,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 ASIDE = {
     "mode_choice": "is an entry point, where modes are chosen by the motion",
-    "plausibility": "warns",
+    "disc.plausibility": "warns",
     "progress": "shows progress",
     "simulation.quicklook": "draws for a reader",
     "studies.document": "a batch's text holds the values of all options",

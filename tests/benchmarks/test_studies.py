@@ -20,9 +20,9 @@ from disc_model.benchmarks.scenes import Verdict, errors
 from disc_model.benchmarks.truncation import contact_study, truncation_study
 from disc_model.benchmarks.work_precision import cost_at, fitted_order, headline, measured_points, table
 from disc_model.data.variables import flag_names
+from disc_model.disc.plate import mode_arrays
 from disc_model.figures.drawing import save
-from disc_model.parameters import CYCLE_TOLERANCES, limits_faults
-from disc_model.plate import mode_arrays
+from disc_model.units import CYCLE_TOLERANCES, limits_faults
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 from tests.references.stored import load
 

@@ -8,7 +8,7 @@ import pytest
 
 import disc_model
 from disc_model import Parameters
-from disc_model.disc import disc_table
+from disc_model.disc.tables import disc_table
 from disc_model.studies.study import load_study
 
 ROOT = Path(__file__).parents[2]

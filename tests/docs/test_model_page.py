@@ -8,7 +8,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.data.variables import SCALARS, SERIES, attributes
-from disc_model.plate import coupled_frequencies
+from disc_model.disc.plate import coupled_frequencies
 
 PAGE = (Path(__file__).parents[2] / "docs" / "model.md").read_text(encoding="utf-8")
 POWERS = str.maketrans("⁻¹²³", "-123")

@@ -13,11 +13,11 @@ from disc_model import Parameters
 from disc_model.analysis import classify
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS
+from disc_model.disc.plate import plate_modes
 from disc_model.paper import disc, energy, measures, normalisation, section44
 from disc_model.paper.ledger import CLAIMS
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FAILS, HOLDS, NOT_COMPUTED, NOT_TESTABLE, REMARK, UNDECIDED
-from disc_model.plate import plate_modes
 from tests.damages import DAMAGES, Groups, damaged
 from tests.paper import made_up
 from tests.paper.made_up import AS_TOLD, STILL, TO_THE_CONTRARY, Story

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from disc_model import plate_modes
-from disc_model.flexibility import contact_compliance
+from disc_model.disc.flexibility import contact_compliance
 from tests.references.stored import State, load
 
 LONG = np.longdouble

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Poincare, Record, Window, simulate
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import StepLimit
-from disc_model.plate import mode_arrays
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)

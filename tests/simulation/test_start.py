@@ -12,9 +12,9 @@ from disc_model import Execution, Record, Window, deflection, floquet
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES, flag_names
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 from disc_model.simulation.api import make_initial_state, perturb, run_case, simulate, static_start, transfer_state
 from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.result import State

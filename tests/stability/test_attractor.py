@@ -10,9 +10,9 @@ import yaml
 from scipy.stats import qmc
 
 from disc_model.data.variables import Outcome
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, coupled_natural_frequencies
-from disc_model.flexibility import contact_compliance
-from disc_model.plate import coupled_frequencies
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import coupled_frequencies
 from disc_model.stability.resonances import modes_at_rest, nearest_resonance
 
 P = Parameters(N=385, Omega=15)

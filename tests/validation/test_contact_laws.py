@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Record, Window, plate_modes, simulate
+from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
-from disc_model.flexibility import contact_compliance
 from disc_model.simulation.api import static_start
 from disc_model.simulation.result import engine_case, write_state
 from tests.contact_laws import COMPILES, LAWS

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, State, simulate
-from disc_model.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays
 from tests import instruction_sets
 from tests.processes import python, run
 from tests.tally import tried
@@ -83,7 +83,7 @@ MODES = """
 import sys
 import numpy as np
 from disc_model import Parameters, simulate
-from disc_model.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays
 p = Parameters(N=800, Omega=30)
 for normalization in ("as_published", "orthonormal"):
     own = p.replace(normalization=normalization)

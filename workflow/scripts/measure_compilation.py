@@ -14,7 +14,7 @@ from disc_model.kernels import USUAL
 SCRIPT = """
 import time
 from disc_model.kernels import example, compile_kernels
-from disc_model.plate import plate_modes
+from disc_model.disc.plate import plate_modes
 from disc_model.stability.cycle import floquet
 before = time.process_time()
 plate_modes(example("{kind}"))  # imports are not what is measured

@@ -28,9 +28,9 @@ from disc_model.benchmarks.questions import (
 )
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
+from disc_model.disc.plate import mode_arrays
+from disc_model.disc.truncation import real_modes
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
-from disc_model.truncation import real_modes
 
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """s"""

@@ -18,14 +18,14 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks.study import TABLES, Row, run
-from disc_model.flexibility import contact_compliance
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import coupled_frequencies, mode_arrays
+from disc_model.disc.truncation import BAND, RICH, frequency_error, real_modes
 from disc_model.parameters import Parameters
-from disc_model.plate import coupled_frequencies, mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import floquet
-from disc_model.truncation import BAND, RICH, frequency_error, real_modes
 
 CASES: dict[str, dict[str, dict[str, Any]]] = TABLES["truncation_cases"]
 """Cases by normalisation: an unstable cycle, a motion in contact, and one that separates within a minute."""

@@ -13,12 +13,13 @@ import typer
 from pydantic import create_model
 from rich.table import Column, Table
 
-from disc_model.disc import read_disc
+from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.disc.tables import read_disc
+from disc_model.disc.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 from disc_model.errors import Fault, ParameterError
 from disc_model.mode_choice import chosen_modes
-from disc_model.parameters import Parameters, Strict
-from disc_model.plausibility import warn_of_doubts
-from disc_model.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
+from disc_model.parameters import Parameters
+from disc_model.units import Strict
 
 ANY = "VALUE"
 """Placeholder in help texts for an option whose values are not a list of words."""

@@ -16,12 +16,12 @@ from disc_model.cli.case import (
     table,
     with_case_options,
 )
-from disc_model.disc import damping_ratios, disc_table
+from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
+from disc_model.disc.tables import damping_ratios, disc_table
 from disc_model.errors import Fault, raise_faults, suggestion
-from disc_model.flexibility import residual_flexibility
 from disc_model.kernels import KINDS, compile_kernels
-from disc_model.parameters import CYCLE_TOLERANCES, CycleTolerance
-from disc_model.plate import coupled_natural_frequencies, mode_arrays
+from disc_model.units import CYCLE_TOLERANCES, CycleTolerance
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
 

@@ -92,7 +92,7 @@ def _compliance(p: Parameters) -> float:
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
     # imported here, because it imports scipy, for which jobs that only read results would have to wait
-    from disc_model.flexibility import contact_compliance
+    from disc_model.disc.flexibility import contact_compliance
 
     try:
         return contact_compliance(p)

@@ -11,7 +11,7 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, Axes, Figure, panels
 from disc_model.figures.kind import Plot, Role, Roles
-from disc_model.parameters import Finite, Unit
+from disc_model.units import Finite, Unit
 
 DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
 MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}

@@ -11,7 +11,7 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, panels
 from disc_model.figures.kind import Plot
-from disc_model.parameters import Finite
+from disc_model.units import Finite
 
 LOWEST = 1e-3
 """Least range that is distinguished from rest, mm."""

@@ -31,7 +31,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
-from disc_model.parameters import Finite
+from disc_model.units import Finite
 
 Array = NDArray[np.float64]
 

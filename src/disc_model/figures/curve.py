@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, Figure, panels
 from disc_model.figures.general import General, colour_bar, in_steps, remaining, scale
-from disc_model.parameters import Finite
+from disc_model.units import Finite
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""

@@ -12,7 +12,8 @@ from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import Axes, Figure, ScalarMappable
 from disc_model.figures.kind import NORM, Plot
-from disc_model.parameters import Finite, Parameters, Unit
+from disc_model.parameters import Parameters
+from disc_model.units import Finite, Unit
 
 
 class General(Plot):

@@ -13,8 +13,8 @@ from disc_model.errors import Fault
 from disc_model.figures import drawing
 from disc_model.figures.drawing import COLUMN, Figure, panels
 from disc_model.figures.kind import CasePlot, Recorded, Sampled
-from disc_model.parameters import Positive, Unit
 from disc_model.simulation.case import Window
+from disc_model.units import Positive, Unit
 
 RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 """Variables that a window with an envelope stores."""

@@ -23,8 +23,9 @@ from disc_model.data.variables import PERTURBATIONS, typeset
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import Figure
-from disc_model.parameters import RATIOS, Parameters, Strict, Title
+from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Poincare, Window
+from disc_model.units import Strict, Title
 
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""

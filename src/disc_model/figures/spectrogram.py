@@ -13,7 +13,7 @@ from disc_model.data.dataset import Missing
 from disc_model.figures import drawing
 from disc_model.figures.drawing import PAGE, Axes, Figure, FigureBase, QuadMesh, panels
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_spectrum
-from disc_model.parameters import Positive, Unit
+from disc_model.units import Positive, Unit
 
 FLOOR = -100.0
 """Least power shown, dB below the reference."""

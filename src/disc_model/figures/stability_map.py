@@ -14,7 +14,8 @@ from disc_model.figures import drawing
 from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches, scale_of
 from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, panels
 from disc_model.figures.kind import Plot, Role, Roles, Values
-from disc_model.parameters import Finite, Parameters, Strict, Units
+from disc_model.parameters import Parameters
+from disc_model.units import Finite, Strict, Units
 
 MARKS: dict[str, dict[str, Any]] = {
     "quiet": {"marker": "o", "facecolor": "white", "s": 9},

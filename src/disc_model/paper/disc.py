@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 from scipy.integrate import fixed_quad
 
+from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 from disc_model.paper.model import Answer
 from disc_model.parameters import Parameters
-from disc_model.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 
 BASE = Parameters(N=200, Omega=20)
 

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper.measures import Absent, Array
 from disc_model.parameters import Parameters
-from disc_model.plate import modal_damping, mode_arrays
 
 STAGES, LENGTH, RATE = 60, 5.0, 400.0
 """Stages of a run; greatest time in s at the end of each over which powers are averaged, and samples per s there."""

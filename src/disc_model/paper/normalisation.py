@@ -8,13 +8,13 @@ import pandas as pd
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section, fill
 from disc_model.data.variables import values_text
+from disc_model.disc.plate import plate_modes
 from disc_model.paper import disc
 from disc_model.paper.ledger import CLAIMS
 from disc_model.paper.measures import CaseView, rate_text
 from disc_model.paper.model import HOLDS, NOT_COMPUTED, REMARK, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
-from disc_model.plate import plate_modes
 
 TEXTS: dict[str, str] = read_texts("pages.yaml")["normalisation"]
 

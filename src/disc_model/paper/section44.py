@@ -9,11 +9,11 @@ import numpy as np
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
+from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
 from disc_model.paper.measures import HIGH, LOW, CaseView, is_kind
 from disc_model.paper.model import Answer
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
-from disc_model.plate import coupled_natural_frequencies, plate_modes
 
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
 """Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""

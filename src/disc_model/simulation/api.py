@@ -15,20 +15,11 @@ import numpy as np
 
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import PHASES
+from disc_model.disc.plate import mode_arrays
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
-from disc_model.parameters import (
-    TOLERANCES,
-    Parameters,
-    content_key,
-    foreign_case,
-    in_si,
-    is_number,
-    is_whole,
-    limits_faults,
-)
-from disc_model.plate import mode_arrays
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
@@ -47,6 +38,7 @@ from disc_model.simulation.result import (
     write_state,
 )
 from disc_model.sources import source_hash
+from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,21 +17,9 @@ from pydantic import (
 )
 
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
-from disc_model.parameters import (
-    AUTO,
-    Checked,
-    Count,
-    Finite,
-    Parameters,
-    Positive,
-    Real,
-    Seconds,
-    Strict,
-    Unit,
-    canonical_json,
-    content_key,
-)
+from disc_model.parameters import AUTO, Parameters
 from disc_model.simulation.ramps import Ramp
+from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
 # ----------------------------------------------------------------------------------------------------
 # Recorded quantities

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case, is_number
-from disc_model.plate import mode_arrays, mode_shapes, radial_range
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.api import simulate, static_start
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import Array, State, amplitude_faults, is_finite_array
+from disc_model.units import is_number
 
 if TYPE_CHECKING:
     import xarray as xr

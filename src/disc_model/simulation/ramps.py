@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, model_validator
 
 from disc_model.errors import Fault, ParameterError, as_text
-from disc_model.parameters import Checked, Parameters, Positive, Real, Seconds, Unit
+from disc_model.parameters import Parameters
+from disc_model.units import Checked, Positive, Real, Seconds, Unit
 
 Ramped = Literal["Omega", "N"]
 RAMPED: tuple[Ramped, ...] = ("Omega", "N")

@@ -18,16 +18,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.engine import layout
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, violations
-from disc_model.flexibility import contact_compliance
-from disc_model.parameters import Parameters, is_number
-from disc_model.plate import modal_damping, mode_arrays
-from disc_model.plausibility import warn_of_doubts
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
+from disc_model.units import is_number
 
 if TYPE_CHECKING:
     import pandas as pd

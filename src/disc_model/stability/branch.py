@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters, is_number, is_whole
+from disc_model.parameters import Parameters
 from disc_model.simulation.result import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
@@ -28,6 +28,7 @@ from disc_model.stability.return_map import (
     multipliers,
     rounding,
 )
+from disc_model.units import is_number, is_whole
 
 # ----------------------------------------------------------------------------------------------------
 # The equation

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.cycle import CycleStatus, FloquetResult, floquet

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_number, limits_faults
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result, State
@@ -34,6 +34,7 @@ from disc_model.stability.branch import (
 )
 from disc_model.stability.cycle import find_cycle, guess_faults
 from disc_model.stability.return_map import PARAMETERS, Array, ComplexArray, Counts, multipliers
+from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
 # ----------------------------------------------------------------------------------------------------
 # One parameter

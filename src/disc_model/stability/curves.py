@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, foreign_case, is_whole, limits_faults
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import compiling
 from disc_model.simulation.result import is_finite_array
 from disc_model.stability.branch import Branch, StepControl, is_interval
@@ -16,6 +16,7 @@ from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import PARAMETERS, Array, ReturnMap
+from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""

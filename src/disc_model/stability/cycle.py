@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from disc_model.errors import DiscModelError, StatusBase, raise_faults, violations
-from disc_model.parameters import CYCLE_TOLERANCES, Parameters, is_whole, limits_faults
+from disc_model.parameters import Parameters
 from disc_model.progress import compiling
 from disc_model.simulation.result import State
 from disc_model.stability.return_map import (
@@ -30,6 +30,7 @@ from disc_model.stability.return_map import (
     newton,
 )
 from disc_model.stability.sliding import SteadySliding, steady_sliding
+from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 RETURNS_TRIED = (1, 2, 3)
 """Numbers of releases in a period of the cycles that are sought."""

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import coupled_shapes, mode_arrays
 from disc_model.errors import ParameterError
-from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
-from disc_model.plate import coupled_shapes, mode_arrays
 
 
 @dataclass(frozen=True)

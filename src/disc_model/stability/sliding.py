@@ -20,11 +20,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import Modes, modal_damping, mode_arrays
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
-from disc_model.flexibility import contact_compliance
 from disc_model.parameters import Parameters
-from disc_model.plate import Modes, modal_damping, mode_arrays
 from disc_model.simulation.result import engine_case
 from disc_model.stability.return_map import Array, case_faults
 

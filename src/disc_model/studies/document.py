@@ -31,16 +31,18 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SAMPLE, SCALARS, START, attributes
+from disc_model.disc.truncation import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kind import Kind, kind_of, library_kinds
-from disc_model.parameters import (
-    AUTO,
-    RATIOS,
+from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
+from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
+from disc_model.simulation.ramps import RAMPED, Ramp
+from disc_model.simulation.ramps import faults as ramp_faults
+from disc_model.studies.rules import checked_rule
+from disc_model.units import (
     Count,
     CycleTolerance,
-    Disc,
     Finite,
-    Parameters,
     Positive,
     Real,
     Seconds,
@@ -52,11 +54,6 @@ from disc_model.parameters import (
     Units,
     must,
 )
-from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
-from disc_model.simulation.ramps import RAMPED, Ramp
-from disc_model.simulation.ramps import faults as ramp_faults
-from disc_model.studies.rules import checked_rule
-from disc_model.truncation import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Names

@@ -6,7 +6,8 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-from disc_model.parameters import Parameters, number, with_ratios
+from disc_model.parameters import Parameters, with_ratios
+from disc_model.units import number
 
 _MADE_OF = (
     *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),

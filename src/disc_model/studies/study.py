@@ -26,7 +26,9 @@ import yaml
 from pydantic import create_model
 
 from disc_model.data.variables import PERTURBATIONS, SAMPLE, START, values_text
-from disc_model.disc import read_disc
+from disc_model.disc.plausibility import RULES
+from disc_model.disc.tables import read_disc
+from disc_model.disc.truncation import FREQUENCIES, ModeRequest, asked_modes
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, Values
@@ -40,19 +42,11 @@ from disc_model.parameters import (
     RELATED,
     RESIDUAL,
     Disc,
-    Finite,
     Parameters,
-    Positive,
-    Strict,
-    canonical_json,
     case_of,
-    content_key,
     cross_faults,
-    given_values,
-    is_number,
     with_ratios,
 )
-from disc_model.plausibility import RULES
 from disc_model.simulation.case import CaseSpec, SomeParameters, Start
 from disc_model.studies.document import (
     DOCUMENTS,
@@ -70,7 +64,7 @@ from disc_model.studies.document import (
 from disc_model.studies.grids.merge import summary_of
 from disc_model.studies.grids.run import module_of, own_coordinates
 from disc_model.studies.rules import holds, names_in
-from disc_model.truncation import FREQUENCIES, ModeRequest, asked_modes
+from disc_model.units import Finite, Positive, Strict, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 """Keys of a study file that concern the grid alone."""

@@ -17,8 +17,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.plate import modal_damping, mode_arrays
 from disc_model.simulation.result import State
 
 Array = NDArray[np.float64]

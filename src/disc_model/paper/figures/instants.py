@@ -16,6 +16,7 @@ from pydantic import Field
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
+from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.figures import drawing
 from disc_model.figures.drawing import (
     BLACK,
@@ -31,7 +32,6 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kind import CasePlot, Need, as_samples
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays, mode_shapes
 
 Array = NDArray[np.float64]
 RADII, ANGLES = 25, 181

@@ -9,13 +9,14 @@ from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
+from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, PAGE, SKY, Axes, Figure, new_figure
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
 from disc_model.figures.spectrogram import draw_spectrum, span_of, spectrum_of
-from disc_model.parameters import Finite, Parameters, Positive, Unit
-from disc_model.plate import plate_modes
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
+from disc_model.units import Finite, Positive, Unit
 
 ZOOM = 0.2
 """Length of a closer look, s."""

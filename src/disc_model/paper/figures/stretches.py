@@ -9,7 +9,7 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import PAGE, SKY, Figure, panels
 from disc_model.figures.kind import CasePlot, as_ranges, as_spectrum
 from disc_model.figures.spectrogram import span_of, spectrum_of
-from disc_model.parameters import Positive, Unit
+from disc_model.units import Positive, Unit
 
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 

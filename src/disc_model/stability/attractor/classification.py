@@ -17,8 +17,8 @@ import numpy as np
 from disc_model.analysis.classify import CLOSES, FEWEST, SETTLED, closure, shortest_period
 from disc_model.analysis.settling import Settled, Settling, settling
 from disc_model.data.variables import Outcome
+from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 from disc_model.simulation.api import perturb, simulate, static_start
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result, State

@@ -13,9 +13,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from disc_model.data.variables import Outcome
-from disc_model.flexibility import contact_compliance
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.result import State, engine_case

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
+from disc_model.disc.plate import mode_arrays
+from disc_model.disc.truncation import read_asked
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes
 from disc_model.parameters import AUTO, case_of
-from disc_model.plate import mode_arrays
 from disc_model.simulation.case import Start
 from disc_model.sources import source_hash
 from disc_model.studies.document import QUANTITIES
 from disc_model.studies.grids.points import Made, Point, Row, failed, tried
-from disc_model.truncation import read_asked
 
 # ----------------------------------------------------------------------------------------------------
 # Batches

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.plate import mode_arrays
 
 
 class ImplausibleValue(UserWarning):

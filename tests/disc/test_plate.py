@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 from scipy import special
 
 from disc_model import Disc, ModeError, Parameters, coupled_natural_frequencies, plate_modes
-from disc_model import plate as plate_module
-from disc_model.flexibility import residual_flexibility
-from disc_model.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
+from disc_model.disc import plate as plate_module
+from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
 from tests.references.ritz import ritz_lambdas
 
 P = Parameters(N=385, Omega=15.1)

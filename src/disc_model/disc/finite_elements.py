@@ -18,10 +18,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.disc.plate import Array
+from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, violations
-from disc_model.parameters import Disc, Parameters, is_number
-from disc_model.plate import Array
-from disc_model.plausibility import ImplausibleValue, warn_of_doubts
+from disc_model.parameters import Disc, Parameters
+from disc_model.units import is_number
 
 if TYPE_CHECKING:
     from skfem import MeshQuad

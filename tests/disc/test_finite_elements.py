@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model import plausibility
-from disc_model.finite_elements import disc_of_section, section
-from disc_model.flexibility import residual_flexibility
-from disc_model.plate import mode_shapes
+from disc_model.disc import plausibility
+from disc_model.disc.finite_elements import disc_of_section, section
+from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import mode_shapes
 from tests import needs
 
 pytestmark = needs.FINITE_ELEMENTS.mark
 
 P = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
-PAGE = Path(__file__).parents[1] / "docs" / "own_disc.md"
+PAGE = Path(__file__).parents[2] / "docs" / "own_disc.md"
 RING = [(0.06, 0.1, -0.005, 0.005), (0.1, 0.12, -0.005, 0.005)]
 IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 

@@ -5,8 +5,8 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from disc_model import Disc, Parameters, plate_modes
-from disc_model import flexibility as module
-from disc_model.flexibility import harmonic_flexibility, residual_flexibility
+from disc_model.disc import flexibility as module
+from disc_model.disc.flexibility import harmonic_flexibility, residual_flexibility
 
 P = Parameters(N=385, Omega=15.1, normalization="orthonormal")
 

@@ -15,9 +15,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.disc.plate import Array, mode_arrays
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
-from disc_model.plate import Array, mode_arrays
 
 HIGHEST_HARMONIC = 4096
 """Highest harmonic of the sum; beyond it the plate is as if unbounded, unless the slider runs on its very edge."""

@@ -4,13 +4,14 @@ import json
 
 import pytest
 
-from disc_model import Parameters, choose_modes, truncation
+from disc_model import Parameters, choose_modes
 from disc_model.cli.case import parameters_of
+from disc_model.disc import truncation
+from disc_model.disc.truncation import RICH, frequency_error
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
-from disc_model.truncation import RICH, frequency_error
 
 P = Parameters(N=385.0, Omega=15.1)
 

@@ -15,10 +15,11 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults
-from disc_model.flexibility import contact_compliance
-from disc_model.parameters import AUTO, CHOOSING, Disc, Finite, Parameters, Strict
-from disc_model.plate import coupled_frequencies, mode_arrays
+from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
+from disc_model.units import Finite, Strict
 
 FREQUENCIES = "frequencies"
 """The quantity by which modes are chosen by default."""

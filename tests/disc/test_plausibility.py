@@ -5,7 +5,8 @@ from typing import Any
 
 import pytest
 
-from disc_model import ImplausibleValue, Parameters, plausibility, simulate
+from disc_model import ImplausibleValue, Parameters, simulate
+from disc_model.disc import plausibility
 from disc_model.studies.study import parse_study
 from tests.studies.refused import parse_grid
 

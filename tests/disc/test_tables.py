@@ -13,10 +13,11 @@ import xarray as xr
 import yaml
 
 import disc_model as dm
-from disc_model import mode_choice, truncation
-from disc_model.disc import disc_table
-from disc_model.flexibility import contact_compliance
-from disc_model.plate import mode_arrays, mode_shapes
+from disc_model import mode_choice
+from disc_model.disc import truncation
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import mode_arrays, mode_shapes
+from disc_model.disc.tables import disc_table
 from disc_model.simulation.result import engine_case
 from disc_model.studies.grids.merge import merge_batches
 from disc_model.studies.grids.run import run_batch
@@ -292,7 +293,7 @@ def test_the_page_reads_a_universal_file(tmp_path: Path, monkeypatch: pytest.Mon
             modal_damp_vis=1e-3, modal_damp_his=0.0,
         )  # fmt: skip
         pyuff.UFF("modes.uff")._write_set(mode, "add")
-    page = (Path(__file__).parents[1] / "docs" / "own_disc.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "own_disc.md").read_text(encoding="utf-8")
     (code,) = (text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "pyuff" in text)
     exec(code, {})
     found = dm.read_disc("disc.csv")

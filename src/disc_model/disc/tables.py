@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion
 from disc_model.parameters import Disc, Parameters
-from disc_model.plate import Array, modal_damping, mode_arrays, modes_of_table
 
 if TYPE_CHECKING:
     import os
@@ -121,7 +121,7 @@ def damping_ratios(p: Parameters) -> Array:
 
 def disc_table(p: Parameters) -> str:
     """Write the modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
-    from disc_model.flexibility import residual_flexibility
+    from disc_model.disc.flexibility import residual_flexibility
 
     modes = mode_arrays(p)
     columns: dict[str, Any] = {"diameters": modes.diameters, "circles": modes.circles, "omega_rad_per_s": modes.omega}
