@@ -65,7 +65,9 @@ def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: 
     """A shell executed parts of the folder's name, and a title that is not ASCII ended the merge."""
     environment = tmp_path / 'we$ird `touch EXECUTED` "x'
     environment.symlink_to(sys.prefix)
-    (tmp_path / "mine.yaml").write_text(STUDY.replace("title: Growth", "title: Grüße Ω, growth"), encoding="utf-8")
+    (tmp_path / "mine.yaml").write_text(
+        STUDY.replace("itle: Growth", "itle: Grüße Ω, growth").replace("P_{max}", "Größe P_{max}"), encoding="utf-8"
+    )
     plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     command = (environment / "bin" / "python", "-m", "snakemake", "-s", SNAKEFILE, "--configfile", "mine.yaml")
     run(*command, "-j2", cwd=tmp_path, timeout=900, **plain)

@@ -28,21 +28,16 @@ try:
     from disc_model.sources import source_hash
     from disc_model.studies.checks import check_owner, check_targets, closing_lines
     from disc_model.studies.study import read_file, study_from_config
+
+    # Imports of the jobs, so that a dry run does not succeed where they would fail.
+    for module in () if CONDA else ("numba", "netCDF4", "matplotlib", "cmcrameri"):
+        if find_spec(module) is None:
+            raise ModuleNotFoundError(name=module)
 except ModuleNotFoundError as error:
     raise WorkflowError(
-        f"There is no module {error.name}: install the package disc_model with what it needs"
-        " (`make env` in a clone of its repository), and use that environment's snakemake."
+        f"There is no module {error.name}: `pip install 'disc_model[workflow]'`, or `make env` in a clone of the"
+        " repository, brings all that is needed; use that environment's snakemake."
     ) from None
-
-# Imports of the jobs, so that a dry run does not succeed where they would fail.
-if missing := [
-    name
-    for name in ("numba", "netCDF4", "matplotlib", "cmcrameri")
-    if not CONDA and find_spec(name) is None
-]:
-    raise WorkflowError(
-        f"There is no module {', '.join(missing)}: `pip install 'disc_model[workflow]'` brings all that jobs need."
-    )
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 PAPER = Path("config/paper.yaml")
@@ -117,127 +112,3 @@ def made_of(rule, *sources, of=()):
     """
     hashed = source_hash(Path(SCRIPTS, f"{rule}.py"), *sources)
     return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
-
-
-def figure_names():
-    """Names of figures, by the study in whose folder they are."""
-    figures = {name: [] for name in (STUDY.name, *GRIDS)}
-    for study, name in FIGURES:
-        figures[study].append(name)
-    return figures
-
-
-@cache
-def unrecorded():
-    """Results without a record of Snakemake, which would take them for up to date."""
-    store = workflow.persistence
-    if any(Path(store.path, "incomplete").rglob("*")):
-        return []  # an interrupted run comes first: Snakemake knows of it
-    files = [*map(case_file, STUDY.specs), *PRODUCTS]
-    return [x for x in files if Path(x).exists() and not store.metadata(IOFile(x))]
-
-
-def refuse_unrecorded(wildcards):
-    """Stop if there are `unrecorded` results; an input function, since Snakemake has read its records by then."""
-    main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
-    if main and (unknown := unrecorded()):
-        raise WorkflowError(
-            f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
-            " (was .snakemake removed?), so nothing tells whether they are up to date."
-            " If results/ was copied from another folder, copy that folder's .snakemake beside it as well."
-            " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
-        )
-    return []
-
-
-def case_file(case):
-    return f"{RESULTS}/cases/{case}.nc"
-
-
-def batch_file(study, batch):
-    return f"results/{study}/batches/{batch}.nc"
-
-
-def grid_file(study):
-    return f"results/{study}/{study}.nc"
-
-
-def compiled(kinds):
-    """Files that mark compiled kernels of these kinds."""
-    return [f"results/compiled/{COMPILED}/{kind}.txt" for kind in kinds]
-
-
-COMPILED = source_hash("engine")
-
-
-def merge_plan(study):
-    """Data of a merge beyond its files, as JSON."""
-    plan = {
-        "batches": sorted(GRIDS[study].batches),
-        "grid": GRIDS[study].grid,
-        "attrs": GRIDS[study].attrs,
-    }
-    return json.dumps(plan, sort_keys=True)
-
-
-LABELS = json.dumps(STUDY.labels, sort_keys=True)
-
-
-def case_made_of(case):
-    spec = STUDY.specs[case]
-    chosen = ["mode_choice"] if spec.modes else []
-    return made_of("simulate_case", *chosen, of=spec.canonical)
-
-
-def cases_made_of():
-    return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
-
-
-def batch_made_of(study):
-    return made_of("compute_batch", *GRIDS[study].sources)
-
-
-def grid_made_of(study):
-    return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
-
-
-FIGURES = STUDY.entries(GRIDS)
-
-
-def figure_of(wildcards):
-    return FIGURES[wildcards.study, wildcards.figure]
-
-
-def files_of(wildcards):
-    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
-    figure = figure_of(wildcards)
-    file = grid_file if isinstance(figure.plot, Plot) else case_file
-    return {role: file(name) for role, name in figure.inputs.items()}
-
-
-def figure_made_of(wildcards):
-    figure = figure_of(wildcards)
-    inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
-    of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
-    return made_of("draw_figure", figure.plot.module, of=of)
-
-
-def motion_file(study, key):
-    return f"results/{study}/motions/{key}.nc"
-
-
-def motions_of(study):
-    """The one file of motions of a study, or none."""
-    return [motion_file(study, key) for key in GRIDS[study].motions]
-
-
-def explorer_pictures():
-    """The report's figures, in its order."""
-    for (study, name), figure in FIGURES.items():
-        if study in (STUDY.name, *ASKED):
-            yield {
-                "heading": figure.section or figure.category,
-                "title": figure.title,
-                "caption": figure.caption,
-                "file": f"results/{study}/figures/{name}.png",
-            }

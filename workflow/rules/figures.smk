@@ -1,6 +1,35 @@
 # One job per figure, from the files of its cases or grids: a change of another case does not draw it again.
 
 
+FIGURES = STUDY.entries(GRIDS)
+
+
+def figure_of(wildcards):
+    return FIGURES[wildcards.study, wildcards.figure]
+
+
+def files_of(wildcards):
+    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
+    figure = figure_of(wildcards)
+    file = grid_file if isinstance(figure.plot, Plot) else case_file
+    return {role: file(name) for role, name in figure.inputs.items()}
+
+
+def figure_made_of(wildcards):
+    figure = figure_of(wildcards)
+    inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
+    of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
+    return made_of("draw_figure", figure.plot.module, of=of)
+
+
+def figure_names():
+    """Names of figures, by the study in whose folder they are."""
+    figures = {name: [] for name in (STUDY.name, *GRIDS)}
+    for study, name in FIGURES:
+        figures[study].append(name)
+    return figures
+
+
 rule draw_figure:
     input:
         lambda wildcards: list(files_of(wildcards).values()),
@@ -27,12 +56,15 @@ rule draw_figure:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plot=lambda wildcards: figure_of(wildcards).plot.model_dump_json(),
+        # JSON is ASCII: commands can hold it in any locale. The caption itself is for the report.
+        plot=lambda wildcards: json.dumps(
+            figure_of(wildcards).plot.model_dump(mode="json")
+        ),
+        title=lambda wildcards: json.dumps(figure_of(wildcards).caption),
         caption=lambda wildcards: figure_of(wildcards).caption,
         made_of=lambda wildcards: figure_made_of(wildcards),
         files=lambda wildcards: [
             f"{name}={file}" for name, file in files_of(wildcards).items()
         ],
-    # '': Snakemake writes nothing at all for an empty caption
     shell:
-        "job draw_figure {params.plot:q} ''{params.caption:q} {output} {params.files:q} > {log} 2>&1"
+        "job draw_figure {params.plot:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"

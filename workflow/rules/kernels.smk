@@ -1,6 +1,14 @@
 # Kernels, compiled once, so that parallel jobs find them in the cache.
 
 
+COMPILED = source_hash("engine")
+
+
+def compiled(kinds):
+    """Files that mark compiled kernels of these kinds."""
+    return [f"results/compiled/{COMPILED}/{kind}.txt" for kind in kinds]
+
+
 rule compile:
     # Named by the sources: with a fixed name, users of kernels would need `ancient`. Snakemake (9.27) does not look
     # beyond a job that is only an ancient input, so changed sources would compile again and compute nothing.

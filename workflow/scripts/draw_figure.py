@@ -1,7 +1,7 @@
 """Draw one figure from the files of its data.
 
 plot : JSON, the figure as its kind describes it
-title : written into the files
+title : JSON, the text written into the files
 inputs : name=netCDF file, as `disc_model.figures.kind.Kind.render` has it
 """
 
@@ -21,4 +21,4 @@ def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     shown = dict(zip(names, load_inputs([*map(Path, files)]), strict=True))
     figure = kind_of(options["kind"]).model_validate(options).render(shown)
     for path in (png, pdf):
-        save(figure, path, title=title)
+        save(figure, path, title=json.loads(title))
