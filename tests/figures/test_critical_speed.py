@@ -66,7 +66,7 @@ def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
     others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7)), "curves": plane}
     both = draw("critical_speed", speeds, others, paper_points=PAPER_POINTS)
     titles = [ax.get_title(loc="left") for ax in both.axes]
-    assert titles == ["(a) from the static start", "(b) sweeps: 60 s, then 0.5 rad/s further"]
+    assert titles == ["(a) from the static start", "(b) sweeps: 60 to 480 s, then 0.5 rad/s further"]
     assert both.axes[0].get_xlabel() == "Speed Ω (rad/s)"
     shown = lines(both.axes[0])
     assert shown["onset of separation within 1000 s"].get_xdata()[:2].tolist() == [12.4, 12.4]

@@ -209,7 +209,8 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
     _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
     drawing.mark_failed(ax, N[lost], on="y")
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    return f"sweeps: {stated_in(sweep, 'options')['dwell']:g} s, then {step:g} rad/s further"
+    options = stated_in(sweep, "options")
+    return f"sweeps: {options['dwell']:g} to {options['max_dwell']:g} s, then {step:g} rad/s further"
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
