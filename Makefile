@@ -16,7 +16,7 @@ TESTED_validation := tests/validation tests/simulation
 TESTED_stability := tests/stability
 TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
-TESTED_others := tests/paper tests/data tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
+TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
 
 .PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
