@@ -1,13 +1,10 @@
 """What titles say of parameters."""
 
 import json
-import logging
-from pathlib import Path
 
 import pytest
 import xarray as xr
 
-from disc_model.figures import drawing
 from disc_model.figures.curve import CurvePlot
 
 
@@ -30,11 +27,3 @@ def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: 
     assert plot.render({"study": xr.DataTree(study)}).get_suptitle() == f"Made up\n{text}"
     said_below = plot.model_copy(update={"caption": "Said below."})
     assert said_below.render({"study": xr.DataTree(study)}).get_suptitle() == ""
-
-
-def test_reports_on_fonts_do_not_fill_the_log_of_a_figure(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    figure = drawing.new_figure(drawing.COLUMN, 2)
-    figure.suptitle("text")
-    with caplog.at_level(logging.INFO):
-        drawing.save(figure, tmp_path / "figure.pdf")
-    assert not caplog.records

@@ -83,18 +83,6 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     save(figure, tmp_path / "curve.png")
 
 
-@pytest.mark.parametrize(
-    ("status", "name"),
-    [("no_cycle", "no cycle found"), ("at_rest", "permanent stick"), ("paradox", "failed"), ("ok", "no value")],
-)
-def test_a_point_without_a_value_is_called_the_same_in_curve_and_map(study: xr.Dataset, status: str, name: str) -> None:
-    """In a curve all were "failed", and in a heat map "no value"."""
-    study["status"].attrs["flag_meanings"] = f"fine {status}"
-    at = {"normalization": "as_published"}
-    curved = draw("curve", study, variable="drift", x="mu_k", by="c_p", at=at)
-    assert labels(curved) == labels(mapped(study, "drift", at=at)) == [name]
-
-
 def zipped(study: xr.Dataset) -> xr.Dataset:
     """Two models along one dimension, which has no values of its own."""
     return study.rename_dims(normalization="both").assign_coords(contact_force=("both", ["vertical", "normal"]))

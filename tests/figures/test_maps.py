@@ -117,32 +117,10 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     save(figure, tmp_path / "map.png")
 
 
-def test_a_cycle_does_not_end_where_it_was_only_not_followed() -> None:
-    """Any cell without a cycle that was followed was said to be beyond a fold, and the picture showed the tiles."""
-    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
-    for name, code in (
-        ("cycle", regions.CYCLES.index("nearby_only")),  # another is near
-        ("outcome", regions.OUTCOMES_TO_HORIZON.index("quiet")),  # it is inferred to stay quiet
-    ):
-        other = study.copy(deep=True)
-        other[name][2:] = code
-        figure = draw("region_map", other, x="Omega", y="N")
-        assert lengths(figure.axes[0]) == [2, 0]
-        assert "ends" not in " ".join(labels(figure))
-
-
 def test_continued_curves_take_the_place_of_borders(plane: xr.Dataset) -> None:
     study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
     figure = draw("region_map", study, {"curves": plane}, x="Omega", y="N")
     assert lengths(figure.axes[0]) == []
-
-
-def test_what_did_not_vary_is_said() -> None:
-    study = made_up("Omega", [5.0, 10, 20], NORMS[:1]).rename(N="m")
-    study.attrs["base"] = json.dumps({"N": 200.0, "c": 0.0, "contact": "separable", "D_star": 2e-5})
-    figure = draw("region_map", study, x="Omega", y="m", title="Made up")
-    phrase = figure.legends[0].get_title().get_text()  # a title of the figure would lie over this legend
-    assert phrase == "Made up\nN = 200 N, D* = 2e-05 N m s"
 
 
 def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str) -> xr.Dataset:
