@@ -372,11 +372,6 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
     return {name: CaseView(name, node) for name, node in nodes.items() if name != "cases"}
 
 
-def rows(cases: Iterable[CaseView]) -> list[dict[str, Any]]:
-    """One row for each case, under the key ``case`` for sentences."""
-    return [{"case": case} for case in cases]
-
-
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     """Cases with separation, each with the case that ignores separation, if there is one."""
     free = [case for case in cases if not case.bonded]

@@ -24,7 +24,7 @@ from disc_model.analysis.settling import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.errors import DiscModelError
-from disc_model.paper.measures import Absent, CaseView, another_motion, elsewhere, facts, rows, simulate_again
+from disc_model.paper.measures import Absent, CaseView, another_motion, elsewhere, facts, simulate_again
 from disc_model.parameters import Parameters
 
 HOLDS = "holds"
@@ -84,17 +84,18 @@ class Finding:
 
 @dataclass(frozen=True)
 class _Phrase:
-    """Rows in words, said only where a sentence has them: what is not said may lack evidence."""
+    """Rows or cases in words, said only where a sentence has them: what is not said may lack evidence."""
 
     template: str
-    rows: Sequence[dict[str, Any]]
+    rows: Sequence[dict[str, Any] | CaseView]
     values: dict[str, Any]
 
     def __bool__(self) -> bool:
         return bool(self.rows)
 
     def __str__(self) -> str:
-        return "; ".join(fill(self.template, **(self.values | row)) for row in self.rows)
+        rows = (row if isinstance(row, dict) else {"case": row} for row in self.rows)
+        return "; ".join(fill(self.template, **(self.values | row)) for row in rows)
 
 
 Names = Literal[True] | tuple[str, ...]
@@ -208,7 +209,7 @@ class Claim(BaseModel):
         wanted = (*self.scans, *self.beside)
         studies = {name: cases[name].node.to_dataset() if name in cases else None for name in wanted}
         answer = self.check(*needed.values(), *studies.values(), **self.numbers)
-        values = self.numbers | {**needed, "cases": rows(needed.values()), "case": next(iter(needed.values()), None)}
+        values = self.numbers | {**needed, "cases": [*needed.values()], "case": next(iter(needed.values()), None)}
         values |= answer.values | {name: facts(study) for name, study in studies.items() if study is not None}
         if "elsewhere" in self.remarks:
             values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))

@@ -116,8 +116,7 @@ def only_between(
     first = again[0].first_separation(*again[1:])
     beyond = [{"case": again[0], "first": first}, {"case": largest, "first": largest.first_separation()}]
     holds, decides = stable == [True, False, True], largest_stable and not again[0].separates
-    shown = measures.rows((small, middle, large))
-    return Answer(None if holds and not decides else holds, "beyond", loads=shown, beyond=beyond)
+    return Answer(None if holds and not decides else holds, "beyond", loads=[small, middle, large], beyond=beyond)
 
 
 def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
@@ -325,7 +324,7 @@ def not_monotonous(*evidence: Any) -> Answer:
     by_preload = [case.separates for case in cases] == [False, True, False]
     return Answer(
         by_preload and newly.any() and lowered.any() and {-1, 1} <= signs,
-        loads=measures.rows(cases),
+        loads=cases,
         rates=stiffened["text"],
         newly=loads[newly],
         most=damping[-1],
@@ -339,7 +338,7 @@ def inplane_damping_alone(*cases: CaseView) -> Answer:
     damped = [case.separates for case in (weak, shown, strong)]
     return Answer(
         not without.separates and any(damped) and not small.separates,
-        large=measures.rows((without, weak, shown, strong)),
+        large=[without, weak, shown, strong],
         not_all=not all(damped),
         **_effect_of(shown, "c_p", 0.0, shown["c_p"]),
     )
@@ -415,7 +414,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     begun = [case for case in cases if case.from_rest]
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in begun)
-    return Answer(vanishes, shares=measures.rows(begun))
+    return Answer(vanishes, shares=begun)
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:

@@ -170,7 +170,7 @@ def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
-    return Answer(len(stays) < len(apart) if apart else None, "none", cases=measures.rows(apart), stays=stays)
+    return Answer(len(stays) < len(apart) if apart else None, "none", cases=apart, stays=stays)
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
