@@ -3,7 +3,6 @@
 import pickle
 from typing import Any
 
-import numpy as np
 import pytest
 from pydantic import Field
 
@@ -11,7 +10,7 @@ from disc_model import ParameterError, Parameters, Poincare, Record, Status, Win
 from disc_model.errors import DiscModelError, Fault, StatusBase, as_text, script
 from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.sliding import SlidingStatus
-from disc_model.studies.study import StudyError, parse_study
+from disc_model.studies.study import StudyError
 from disc_model.units import Checked, CycleTolerance, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
 
@@ -30,19 +29,12 @@ class Outer(Checked):
     cycle_tol: CycleTolerance = 1e-12
 
 
-@pytest.mark.parametrize("value", [-1, -1.0, "-1", "-1e0", np.float32(-1)])
-def test_a_number_is_shown_alike_however_it_was_written(value: Any) -> None:
-    assert faults_of(Window, **(WINDOW | {"rate": value})) == ["rate=-1: must be > 0"]
-    assert faults_of(Parameters, N=value, Omega=1) == ["N=-1: must be >= 0"]
-    case = {"title": "", "t_end": value, "parameters": {"N": 1, "Omega": 1}}
-    assert faults_of(parse_study, {"study": "s", "cases": {"here": case}}) == ["cases.here.t_end = -1: must be > 0"]
-
-
 @pytest.mark.parametrize(
     ("values", "fault"),
     [
         ({"inner": {"sise": 1}}, "inner.sise=1: unknown key, did you mean size? (known: size)"),
         ({"inner": 3}, "inner=3: must be a mapping"),
+        ({"inner": {"size": 1, 3: 4}}, "inner.3=4: a name must be text"),
         ({"tol": 0.1}, "tol=0.1: must be within 1e-15 and 0.01"),
         ({"cycle_tol": 1e-15}, "cycle_tol=1e-15: must be within 1e-14 and 1e-06"),
         ({"tol": "x" * 99}, f"tol={repr('x' * 99)[:57]}...: must be a number"),

@@ -3,7 +3,10 @@
 import inspect
 import json
 import pickle
-from typing import get_args
+import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +15,6 @@ from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
 from disc_model import Disc, ParameterError, Parameters
-from disc_model.parameters import RESIDUAL
-from disc_model.units import is_number
 from tests.processes import python
 
 
@@ -71,25 +72,36 @@ def test_immutable_hashable_picklable() -> None:
     assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1
 
 
-def test_values_without_names_are_refused_with_the_names_that_they_lack() -> None:
-    """It was a TypeError about an __init__ that nobody had called."""
-    with pytest.raises(ParameterError, match=r"takes named values: Parameters\(N=385, Omega=15.1\)$"):
-        Parameters(385, 15.1)
+def test_help_says_meaning_unit_range_and_default_of_each() -> None:
+    text = inspect.getdoc(Parameters)
+    assert "nu : Poisson's ratio of the disc (> -1, < 0.5, default 0.211)" in text
+    assert "N : preload pressing the slider onto the disc (N, >= 0, required)" in text
+    assert all(f"\n{name} : " in text for name in Parameters.model_fields)
 
 
-SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
+def test_a_notebook_shows_a_table() -> None:
+    page = Parameters(N=385, Omega=15.1, disc=Disc(diameters=[1], omega=[1500.0], amplitude=[2.0]))._repr_html_()
+    rows = re.findall("<tr>(.*?)</tr>", page)
+    assert "<td>Omega</td><td>15.1</td><td>rad/s</td><td>speed of the drive point</td>" in rows
+    assert "<td>disc</td><td>1 modes</td><td></td><td>a disc given by its modes, instead of the plate</td>" in rows
+    assert len(rows) == len(Parameters.model_fields)  # and their head, but no ratio of damping
 
 
-@pytest.mark.parametrize("name", Parameters.model_fields)
-def test_help_says_meaning_unit_range_and_default(name: str) -> None:
-    field = Parameters.model_fields[name]
-    default = "required" if field.is_required() else f"default {field.default:{'g' * is_number(field.default)}}"
-    limits = [
-        f"{SIGNS[sign]} {getattr(rule, sign):g}" for rule in field.metadata for sign in SIGNS if hasattr(rule, sign)
-    ]
-    words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str) and word != RESIDUAL)
-    phrase = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
-    assert f" {name} : {field.description} ({phrase}) " in " ".join(inspect.getdoc(Parameters).split())
+WRONG = ("()", "(N=1, Omega=2, Omga=3)", "(N=1, Omega=2, contact='glued')")
+RIGHT = (
+    "(N='0.2 kN', Omega=2, E='150 GPa', disc=None)",
+    "(N=1, Omega=2).replace(E='1 GPa')",
+    "(**{'N': 1, 'Omega': 2})",
+)
+
+
+@pytest.mark.slow
+def test_a_type_checker_knows_the_parameters(tmp_path: Path) -> None:
+    (tmp_path / "mypy.ini").write_text("[mypy]\nfollow_imports = silent\nignore_missing_imports = true\n")
+    lines = [f"disc_model.Parameters{arguments}" for arguments in (*WRONG, *RIGHT)]
+    (tmp_path / "case.py").write_text("\n".join(["import disc_model", *lines]))
+    shown = subprocess.run([sys.executable, "-m", "mypy", "case.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert {int(line.split(":")[1]) for line in shown.stdout.splitlines() if "error:" in line} == {2, 3, 4}
 
 
 def test_import_is_light() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import difflib
 import enum
 import logging
-import math
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, Self
@@ -142,6 +141,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
     """
     for item in error.errors(include_url=False):
         path, kind, value = _path(item, raw), item["type"], item["input"]
+        if not item["loc"] and kind == "model_type":
+            path = (model.__name__.lower(),)
         context = item.get("ctx", {})
         reason = context.get("error")
         if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
@@ -156,17 +157,16 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             known_rule = _RULES.get(kind)
             rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
             of_name = item["loc"][-1:] == ("[key]",)  # a name at fault is the end of the path
-            yield Fault(path, "" if of_name else _faulty_as_text(kind, value), rule)
+            # the path of a mapping says enough
+            yield Fault(path, "" if of_name or isinstance(value, Mapping | BaseModel) else as_text(value), rule)
 
 
-_BOUNDS = {
+_RULES = {
     "greater_than_equal": "must be >= {ge:g}",
     "greater_than": "must be > {gt:g}",
     "less_than": "must be < {lt:g}",
     "less_than_equal": "must be <= {le:g}",
     "finite_number": "must be finite",
-}
-_RULES = _BOUNDS | {
     "literal_error": "must be {expected}",
     "value_error": "{error}",
     "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # only names have a pattern
@@ -178,18 +178,6 @@ _RULES = _BOUNDS | {
     "string_type": "must be text",
 }
 """Rules by pydantic's kind of fault, in this package's words; pydantic's context of the fault fills the braces."""
-
-
-def _faulty_as_text(kind: str, value: Any) -> str:
-    """The text of a value that breaks a rule; "" for a mapping, whose path says enough."""
-    if isinstance(value, Mapping | BaseModel):
-        return ""
-    if kind not in _BOUNDS or isinstance(value, bool):  # False is a number for pydantic, but not here
-        return as_text(value)
-    try:
-        return as_text(float(value) + 0.0)  # adding zero turns -0.0 into 0.0
-    except OverflowError:  # a whole number beyond the range of floats
-        return as_text(math.inf if value > 0 else -math.inf)
 
 
 def as_text(value: Any) -> str:

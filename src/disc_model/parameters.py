@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import operator
 from collections.abc import Mapping, Sized
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import BaseModel, BeforeValidator, Field, field_validator
+from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, field_validator, model_validator
 
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.units import (
@@ -60,12 +61,12 @@ def _compliance(value: Any) -> Any:
     if value == RESIDUAL:
         return value
     try:
-        found = float(number(value))
+        compliance = float(number(value))
     except ValueError:
         raise ValueError(f"must be a number or {RESIDUAL!r}") from None
-    if not 0 <= found < math.inf:
+    if not 0 <= compliance < math.inf:
         raise ValueError(f"must be finite and >= 0, or {RESIDUAL!r}")
-    return found
+    return compliance
 
 
 # What only study files and the command line accept is refused with the name of the function to use instead.
@@ -73,19 +74,6 @@ _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.
 _READ = must(
     lambda value: not isinstance(value, str), "must be a Disc: disc_model.read_disc reads one from a table of modes"
 )
-
-
-def _disc_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
-    """Faults of parameters of the plate beside a disc, and of two dampings of one plate."""
-    usual = {name: model.model_fields[name].default for name in (*PLATE, "damping_ratio")}
-    given = {name for name, default in usual.items() if data.get(name, default) not in (default, AUTO)}
-    if data.get("disc") is not None:
-        rule = "must be left out where a disc is given: it is a parameter of the plate"
-    elif "damping_ratio" in given:
-        given, rule = given & {"D_star"}, "must be left out where damping_ratio is given"
-    else:
-        return []
-    return [Fault.of((name,), data[name], rule) for name in sorted(given)]
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -131,13 +119,17 @@ class Disc(Checked):
 
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
 
-    def __init__(self, /, *unnamed: Any, **data: Any) -> None:
-        # an empty key of a file leaves a column out
+    @model_validator(mode="wrap")
+    @classmethod
+    def _consistent(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Check the rules between columns; an empty key of a file leaves a column out."""
+        if not isinstance(data, dict):
+            return handler(data)
         data = {name: x for name, x in data.items() if x is not None or name not in ("damping_ratio", "circles")}
-        super().__init__(*unnamed, **data)
-        circles = data.get("circles", ())
+        disc, circles = handler(data), data.get("circles", ())
         counted = isinstance(circles, Sized) and not len(circles)
-        raise_faults(self._more_faults(dict(self)) or self._faults_of_modes(counted))
+        raise_faults(disc._faults_of_columns() or disc._faults_of_modes(counted))
+        return disc
 
     @field_validator("damping_ratio", "circles")
     @classmethod
@@ -151,26 +143,21 @@ class Disc(Checked):
         order = sorted(range(len(omega)), key=omega.__getitem__)
         return tuple(sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega)))
 
-    @classmethod
-    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
+    def _faults_of_columns(self) -> list[str]:
         """Faults of the number of modes, and of columns that lack some or have more."""
-        given = {name: data[name] for name in (*cls._columns, "radii") if isinstance(data.get(name), tuple | list)}
-        faults: list[str] = []
-        count = len(given.get("diameters", ()))
-        if "diameters" in given and not 1 <= count <= MOST_MODES:
+        count, faults = len(self.diameters), list[str]()
+        if not 1 <= count <= MOST_MODES:
             faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
-        for name, column in given.items():
-            needed = column or name in ("omega", "amplitude")
-            if needed and name != "radii" and len(column) != count:
+        for name in self._columns:
+            column = getattr(self, name)
+            if len(column) != count and (column or name in ("omega", "amplitude")):
                 faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
-        radii, shapes = given.get("radii", ()), given.get("shapes", ())
-        lengths = {len(radii)} if radii else set()
-        listed = all(isinstance(shape, tuple | list) for shape in shapes)  # otherwise the fields' types report it
-        if listed and ({*map(len, shapes)} != lengths or lengths == {1}):
+        lengths = {len(self.radii)} if self.radii else set()
+        if {*map(len, self.shapes)} != lengths or lengths == {1}:
             rule = "must be two or more, with a value of the shape of every mode at each"
-            faults.append(Fault(("radii",), f"{len(radii)} radii", rule))
-        elif all(map(is_number, radii)) and any(a >= b for a, b in pairwise(radii)):
-            faults.append(Fault.of(("radii",), list(radii), "must ascend"))
+            faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
+        elif any(a >= b for a, b in pairwise(self.radii)):
+            faults.append(Fault.of(("radii",), [*self.radii], "must ascend"))
         return faults
 
     def _faults_of_modes(self, counted: bool) -> list[str]:
@@ -225,41 +212,11 @@ class Parameters(Checked):
     The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds
     how many modes a tolerance asks for.
 
-    Parameters
-    ----------
-    N : preload pressing the slider onto the disc (N, >= 0, required)
-    Omega : speed of the drive point (rad/s, >= 0, required)
-    D_star : Kelvin-Voigt damping of the disc (N m s, >= 0, default 1e-05)
-    c : damper of the slider, normal to the disc (N s/m, >= 0, default 0)
-    c_p : damper of the slider, in the disc's plane (N s/m, >= 0, default 0)
-    k : spring of the slider, normal to the disc (N/m, >= 0, default 50000)
-    k_p : spring of the slider, in the disc's plane (N/m, >= 0, default 20000)
-    E : Young's modulus of the disc (Pa, > 0, default 1.5e+11)
-    m : mass of the slider (kg, > 0, default 0.1)
-    mu_s : coefficient of static friction (>= 0, default 0.4)
-    mu_k : coefficient of kinetic friction (>= 0, default 0.24)
-    a : inner radius of the disc, clamped (m, > 0, default 0.044)
-    b : outer radius of the disc, free (m, > 0, default 0.12)
-    r_0 : radius at which the slider runs (m, > 0, default 0.1)
-    h : thickness of the disc (m, > 0, default 0.002)
-    nu : Poisson's ratio of the disc (> -1, < 0.5, default 0.211)
-    rho : density of the disc (kg/m^3, > 0, default 7200)
-    n_diameters : highest number of nodal diameters, -1 for a rigid disc (>= -1, <= 60, default 4)
-    n_circles : highest number of nodal circles (>= 0, <= 20, default 0)
-    normalization : scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17) (as_published or orthonormal,
-        default as_published)
-    contact : whether the slider may leave the disc (separable or bonded, default separable)
-    contact_compliance : compliance of the contact, 0 if it is rigid; residual: that of the modes left out (m/N,
-        default 0)
-    contact_force : direction of the contact force: vertical as in the paper, or normal to the bent disc (vertical or
-        normal, default vertical)
-    damping_ratio : damping ratio of every mode of the plate, from 0 to below 1, instead of D_star (default None)
-    disc : a disc given by its modes, instead of the plate (default None)
-
     Raises
     ------
     ParameterError
-        Naming every parameter that breaks a rule, its value and the rule, in one message.
+        Naming every parameter that breaks a rule, its value and the rule, in one message. Rules between parameters are
+        checked where each value by itself is right.
     """
 
     _word: ClassVar[str] = "parameter"
@@ -302,9 +259,50 @@ class Parameters(Checked):
         None, "", "a disc given by its modes, instead of the plate"
     )
 
-    @classmethod
-    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        return cross_faults(cls, data) + _disc_faults(cls, data)
+    if TYPE_CHECKING:  # for type checkers, which know no texts with units from the fields
+
+        def __init__(  # noqa: PLR0913
+            self,
+            *,
+            N: float | str,
+            Omega: float | str,
+            D_star: float | str = ...,
+            c: float | str = ...,
+            c_p: float | str = ...,
+            k: float | str = ...,
+            k_p: float | str = ...,
+            E: float | str = ...,
+            m: float | str = ...,
+            mu_s: float | str = ...,
+            mu_k: float | str = ...,
+            a: float | str = ...,
+            b: float | str = ...,
+            r_0: float | str = ...,
+            h: float | str = ...,
+            nu: float | str = ...,
+            rho: float | str = ...,
+            n_diameters: int | str = ...,
+            n_circles: int | str = ...,
+            normalization: str = ...,
+            contact: str = ...,
+            contact_compliance: float | str = ...,
+            contact_force: str = ...,
+            damping_ratio: float | str | None = ...,
+            disc: Disc | None = ...,
+        ) -> None: ...
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between parameters, what a disc excludes, and that the plate has one damping."""
+        values, fields = dict(self), type(self).model_fields
+        changed = [name for name in (*PLATE, "damping_ratio") if values[name] not in (fields[name].default, AUTO)]
+        if self.disc is not None:
+            rule = "must be left out where a disc is given: it is a parameter of the plate"
+        else:
+            rule = "must be left out where damping_ratio is given"
+            changed = [name for name in changed if name == "D_star" and self.damping_ratio is not None]
+        raise_faults([*cross_faults(values), *(Fault.of((name,), values[name], rule) for name in sorted(changed))])
+        return self
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed; for a disc given by its modes also its `Disc.numbers`."""
@@ -312,6 +310,21 @@ class Parameters(Checked):
             numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}
             changes |= {"disc": self.disc.with_numbers(**numbers)} if numbers else {}
         return super().replace(**changes)
+
+    def _repr_html_(self) -> str:
+        """The case as a table in a notebook."""
+        rows = [("symbol", "value", "unit", "meaning")]
+        for name, field in type(self).model_fields.items():
+            if (value := getattr(self, name)) is not None:
+                text = (
+                    f"{len(value.omega)} modes"
+                    if isinstance(value, Disc)
+                    else f"{value:.15g}"
+                    if is_number(value)
+                    else value
+                )
+                rows.append((name, text, self.unit(name).removeprefix("1"), str(field.description)))
+        return f"<table>{''.join('<tr><td>' + '</td><td>'.join(row) + '</td></tr>' for row in rows)}</table>"
 
     @property
     def D(self) -> float:
@@ -344,6 +357,26 @@ class Parameters(Checked):
 UNITS.update((name, field.json_schema_extra["unit"]) for name, field in Parameters.model_fields.items())  # type: ignore[index, misc, call-overload]
 
 
+DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items() if not field.is_required()}
+"""Values of parameters that are not given."""
+
+
+def _documented() -> str:
+    """The docstring with the fields: meaning, unit, range and default of each."""
+    lines = ["\nParameters\n----------"]
+    for name, field in Parameters.model_fields.items():
+        signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
+        limits = [f"{signs[x]} {getattr(rule, x):g}" for rule in field.metadata for x in signs if hasattr(rule, x)]
+        words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str))
+        default = "required" if field.is_required() else f"default {field.default:{'g' * is_number(field.default)}}"
+        phrase = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
+        lines.append(f"{name} : {field.description} ({phrase})")
+    return inspect.cleandoc(str(Parameters.__doc__)).replace("\nRaises\n", "\n".join([*lines, "\nRaises\n"]))
+
+
+Parameters.__doc__ = _documented()
+
+
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values of a case, with the parameters that follow from the `RATIOS` among them."""
     found = dict(values)
@@ -372,27 +405,21 @@ def _rigidity(E: float, h: float, nu: float) -> float:
 _ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
 
 
-def cross_faults(model: type[BaseModel], data: Mapping[str, Any]) -> list[str]:
-    """Faults by rules between parameters, checked if both are finite numbers, so that no fault hides another."""
-    values: dict[str, float] = {}
-    for name in RELATED:
-        try:
-            value = number(data.get(name, model.model_fields[name].default))
-        except ValueError:
-            continue
-        if math.isfinite(value):
-            values[name] = value
-    faults: list[str] = []
+def cross_faults(values: Mapping[str, Any]) -> list[Fault]:
+    """Faults by rules between parameters that are numbers; a rule on one that is absent, or None, does not count."""
+    faults = []
     # a disc that is given by its modes has other radii than the plate
-    for low, sign, holds, high in _ORDER if data.get("disc") is None else _ORDER[:1]:
-        if low in values and high in values and not holds(values[low], values[high]):
-            faults.append(Fault.of((low,), values[low], f"must be {sign} {high}={as_text(values[high])}"))
-    if values.keys() >= {"E", "h", "nu"} and values["E"] > 0 and values["h"] > 0 and abs(values["nu"]) < 1:
+    for low, sign, holds, high in _ORDER if values.get("disc") is None else _ORDER[:1]:
+        lower, upper = values.get(low), values.get(high)
+        if lower is not None and upper is not None and not holds(lower, upper):
+            faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
+    E, h, nu = (values.get(name) for name in ("E", "h", "nu"))
+    if E is not None and h is not None and nu is not None and E > 0 and h > 0 and abs(nu) < 1:
         try:
-            rigidity = _rigidity(values["E"], values["h"], values["nu"])
+            rigidity = _rigidity(E, h, nu)
         except OverflowError:
             rigidity = math.inf
         if not 0 < rigidity < math.inf:
             rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
-            faults.append(Fault.of(("h",), values["h"], rule))
+            faults.append(Fault.of(("h",), h, rule))
     return faults

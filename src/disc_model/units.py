@@ -11,11 +11,11 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
-from typing import Annotated, Any, Self, TypeGuard, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from disc_model.errors import Fault, ParameterError, as_text, faults_of
+from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
 # ----------------------------------------------------------------------------------------------------
 # Numbers
@@ -48,12 +48,6 @@ UNITS: dict[str, str] = {}
 """Units of parameters by their names, filled by `disc_model.parameters`."""
 
 
-class Unfit(str):
-    """A text with a unit that cannot be converted to the requested one."""
-
-    unit: str
-
-
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
 DECIMAL_COMMA = "; a decimal point is needed, not a comma"
@@ -70,29 +64,32 @@ def _units() -> Any:
     return pint.UnitRegistry()
 
 
-def in_si(value: Any, unit: Units) -> Any:
+def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
     """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
 
-    Results have 15 digits, so that equal decimal numbers in different units are equal.
+    Results have 15 digits, so that equal decimal numbers in different units are equal. A text with a unit of another
+    kind is a fault at its `path`.
     """
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-        return value | {name: in_si(one, units[name]) for name, one in value.items() if name in units}
-    if isinstance(value, list | tuple):
-        return type(value)(in_si(one, unit) for one in value) if type(value) in (list, tuple) else value
-    if not (unit and isinstance(unit, str) and isinstance(value, str) and (found := _WITH_UNIT.fullmatch(value))):
+        named = {name: part for name, part in value.items() if name in units}
+        return value | {name: in_si(part, units[name], faults, (*path, str(name))) for name, part in named.items()}
+    if type(value) in (list, tuple):
+        return type(value)(in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value))
+    if not (unit and isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))):
         return value
     try:
-        if not _UNIT.fullmatch(found[2]):
+        if not _UNIT.fullmatch(match[2]):
             raise ValueError("no unit")
-        if unit.startswith("rad") and not any(word in found[2] for word in _ANGLES):
+        if unit.startswith("rad") and not any(word in match[2] for word in _ANGLES):
             raise ValueError("Hz may mean turns or radians")
-        converted = _units().Quantity(float(found[1]), found[2].replace("^", "**")).to("" if unit == "1" else unit)
+        converted = _units().Quantity(float(match[1]), match[2].replace("^", "**")).to("" if unit == "1" else unit)
         return float(f"{converted.magnitude:.15g}")
     except Exception:  # exceptions of pint and of Python's tokenizer, which have no common base
-        unfit = Unfit(value)
-        unfit.unit = unit
-        return unfit
+        rule = "must be a number " + ("without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind")
+        rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
+        faults.append(Fault.of(path, value, rule))
+        return value
 
 
 def number(value: Any) -> Any:
@@ -101,10 +98,6 @@ def number(value: Any) -> Any:
     Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
     treats it so.
     """
-    if isinstance(value, Unfit):
-        kind = "without a unit" if value.unit == "1" else f"in {value.unit}, or with a unit of its kind"
-        kind += ", such as rpm; Hz may mean turns or radians" * (value.unit == "rad/s")
-        raise ValueError(f"must be a number {kind}")
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -199,19 +192,15 @@ CycleTolerance = Annotated[Real, within(CYCLE_TOLERANCES)]
 # Bases
 
 
-def faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
+def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
     """Faults of names that are not text, at any depth; in a nested model pydantic would raise a `TypeError`."""
-    if isinstance(data, dict):
-        for name, value in data.items():
-            if not isinstance(name, str):
-                comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-                yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
-            if isinstance(value, dict | list | tuple):
-                yield from faults_of_names(value, (*path, str(name)))
-    elif isinstance(data, list | tuple):
-        for i, value in enumerate(data):
-            if isinstance(value, dict | list | tuple):
-                yield from faults_of_names(value, (*path, str(i)))
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list | tuple) else ()
+    for name, value in items:
+        if isinstance(data, dict) and not isinstance(name, str):
+            comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
+            yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
+        if isinstance(value, dict | list | tuple):
+            yield from _faults_of_names(value, (*path, str(name)))
 
 
 @functools.cache
@@ -233,26 +222,30 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
 class Strict(BaseModel):
     """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI.
 
-    Every way to make one raises a single `ParameterError` that lists all faults, those of parts included.
+    Every way to make one raises a single `ParameterError` that lists all faults of its values, those of parts included.
+    Rules between values are checked where each value by itself is right.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    def __init__(self, /, *unnamed: Any, **data: Any) -> None:
-        if unnamed:
-            name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
-            example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
-            raise ParameterError(f"{name} takes named values: {name}({example})")
-        data = in_si(data, self._units(data))
-        faults: list[str] = list(faults_of_names(data))
-        try:
-            if not faults:
+    if not TYPE_CHECKING:  # type checkers have the fields from pydantic
+
+        def __init__(self, /, **data: Any) -> None:
+            try:
                 super().__init__(**data)
-        except ValidationError as error:
-            faults += faults_of(error, data, type(self))
-        faults += self._more_faults(data)
-        if faults:
-            raise ParameterError(*faults) from None
+            except ValidationError as error:
+                raise ParameterError(*faults_of(error, data, type(self))) from None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _in_si(cls, data: Any) -> Any:
+        """Refuse names that are not text, and convert numbers with units."""
+        if not isinstance(data, dict):
+            return data
+        faults = [*_faults_of_names(data)]
+        converted = in_si(data, cls._units(data), faults, ())
+        raise_faults(faults)
+        return converted
 
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
@@ -262,20 +255,13 @@ class Strict(BaseModel):
         return fixed | {name: UNITS.get(str(parameter), "") for name, parameter in named.items()}
 
     @classmethod
-    def _more_faults(cls, data: Mapping[str, Any]) -> list[str]:
-        """Faults by rules that pydantic does not check, for `data` as given."""
-        return []
-
-    @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """Make the model from a mapping, with the same errors as the constructor."""
-        if isinstance(obj, Mapping):
-            if unnamed := [*faults_of_names(obj)]:
-                raise ParameterError(*unnamed)
-            return cls(**obj)
-        if isinstance(obj, cls):
-            return obj
-        raise ParameterError(Fault.of((cls.__name__.lower(),), obj, "must be a mapping of names to values"))
+        raise_faults([*_faults_of_names(obj)])
+        try:
+            return super().model_validate(dict(obj) if isinstance(obj, Mapping) else obj, **kwargs)
+        except ValidationError as error:
+            raise ParameterError(*faults_of(error, obj, cls)) from None
 
 
 def given_values(model: Strict) -> dict[str, Any]:

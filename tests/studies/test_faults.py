@@ -195,7 +195,7 @@ RUN = "run --N 385 --Omega 15.1 --t-end 1 "
         ("run", "N required Omega t_end"),
         (RUN + "--mu-k 0.5", "mu_k=0.5 <= mu_s=0.4"),
         (RUN + "--tol nan", "tol 1e-15"),
-        (RUN + "--window late:last=0,rate=1", "window.late.last=0 > 0"),
+        (RUN + "--window late:last=0,rate=1", "window.late.last='0' > 0"),
         (RUN + "--window w:start=0,stop=3,rate=1", "window.w stop=3 t_end=1"),
         (RUN + "--ramp Omega", "ramp='Omega' KEY=VALUE"),
         (RUN + "--save no/such/r.nc", "save folder"),

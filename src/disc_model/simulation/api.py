@@ -119,7 +119,7 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    asked = _Request(p, in_si(t_end, "s"), tol, initial_state, record, stop_at, ramps, execution)
+    asked = _Request(p, in_si(t_end, "s", [], ()), tol, initial_state, record, stop_at, ramps, execution)
     raise_faults(asked.faults())
     # numbers of other types would make the engine compile again, and would round differently
     start, end, asked.tol = asked.start, float(asked.t_end), float(tol)

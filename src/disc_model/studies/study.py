@@ -37,6 +37,7 @@ from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
     CHOOSING,
+    DEFAULTS,
     PLATE,
     RATIOS,
     RELATED,
@@ -775,7 +776,7 @@ class GridStudy:
             self._add(place, "must be a number along an axis: give it in base, for all points", value)
         elif name not in (START, "disc"):
             try:
-                return getattr(_Varied(**{name: value}), name)  # type: ignore[no-any-return]
+                return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
             except ParameterError as error:
                 self.faults += [Fault(place, fault.value, fault.rule) for fault in error.faults]
         return value
@@ -862,7 +863,7 @@ class GridStudy:
 
     def _check_points(self) -> None:
         """Check the rules between parameters of which some vary; each is reported where it is broken first."""
-        found = [cross_faults(Parameters, with_ratios({**self.base, **point})) for point in self._points(RELATED)]
+        found = [cross_faults(DEFAULTS | with_ratios({**self.base, **point})) for point in self._points(RELATED)]
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
         for fault in first_of_each(chain(*found)):
             name, hint = fault.path[0], ""
@@ -921,13 +922,13 @@ class GridStudy:
                 for end in ends[name]:
                     try:
                         if name in NUMBERS:
-                            SomeParameters(**{name: end})
+                            SomeParameters.model_validate({name: end})
                         else:
                             here["disc"].with_numbers(**{name: end})
                     except ParameterError as error:
                         yield from (Fault((name,), fault.value, fault.rule) for fault in error.faults)
             for corner in product(*(ends[name] for name in related)):
-                yield from cross_faults(Parameters, {**here, **dict(zip(related, corner, strict=True))})
+                yield from cross_faults(DEFAULTS | here | dict(zip(related, corner, strict=True)))
 
     def _check_plots(self) -> None:
         for name, plot in self.plots.items():
