@@ -7,7 +7,7 @@ from disc_model.disc.truncation import ModeRequest
 from disc_model.engine.layout import HALF
 from disc_model.kernels import KINDS, LAWS, PAIRS_OF_A_BLOCK, example, kinds_of, kinds_of_case
 from disc_model.simulation.case import CaseSpec, Prerun, Start
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 
 P = Parameters(N=385, Omega=15)
 RAMP = Ramp(parameter="Omega", to=10.0, start=1.0, end=2.0)

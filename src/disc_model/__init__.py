@@ -30,7 +30,8 @@ _NAMES = {
     "simulation.case": "Record Window Poincare",
     "simulation.deflection": "snapshots deflection",
     "simulation.ramps": "Ramp",
-    "simulation.result": "Result State",
+    "simulation.result": "Result",
+    "simulation.states": "State",
     "stability.cycle": "floquet",
     "stability.sliding": "steady_sliding",
 }
@@ -61,7 +62,8 @@ if TYPE_CHECKING:
     from disc_model.simulation.case import Poincare, Record, Window
     from disc_model.simulation.deflection import deflection, snapshots
     from disc_model.simulation.ramps import Ramp
-    from disc_model.simulation.result import Result, State
+    from disc_model.simulation.result import Result
+    from disc_model.simulation.states import State
     from disc_model.stability.cycle import floquet
     from disc_model.stability.sliding import steady_sliding
 

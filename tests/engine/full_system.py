@@ -4,7 +4,7 @@ import numpy as np
 
 from disc_model import Parameters
 from disc_model.engine import layout, saltation, tangent, variational
-from disc_model.simulation.result import State, engine_case, series_order, write_state
+from disc_model.simulation.states import State, engine_case, series_order, write_state
 
 
 class Full:

@@ -9,7 +9,7 @@ import pytest
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.engine import exit_codes, layout, transitions
 from disc_model.errors import DiscModelError
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)

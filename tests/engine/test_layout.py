@@ -5,7 +5,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.engine import layout
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 
 COMPLIANCES = pytest.mark.parametrize("compliance", [0.0, 1e-7])
 

@@ -7,7 +7,7 @@ from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import dense_output, exit_codes, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.api import _Request, _Run
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
 
 ORDER = 40

@@ -8,8 +8,7 @@ import pytest
 from disc_model import Parameters, simulate
 from disc_model.engine import layout, transitions
 from disc_model.engine.laws import Instant, impact
-from disc_model.simulation.api import static_start
-from disc_model.simulation.result import engine_case, write_state
+from disc_model.simulation.states import engine_case, static_start, write_state
 from tests.contact_laws import COMPILES
 
 

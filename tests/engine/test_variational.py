@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.engine import exit_codes, saltation, tangent, transitions
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full

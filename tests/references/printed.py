@@ -10,7 +10,7 @@ import numpy as np
 
 from disc_model import plate_modes
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from tests.references import stored
 from tests.references.literal import Literal, from_slider_frame
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from disc_model import plate_modes
-from disc_model.simulation.result import State as EngineState
+from disc_model.simulation.states import State as EngineState
 
 DATA = Path(__file__).parent / "data"
 

@@ -4,7 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
 
 
 def same(a: Result, b: Result) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from disc_model import Execution, ParameterError, Parameters, Record, State, Window, load, simulate
 from disc_model.data.dataset import WriteError
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)

@@ -15,9 +15,9 @@ from disc_model.data.variables import PHASES, flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import make_initial_state, perturb, run_case, simulate, static_start, transfer_state
+from disc_model.simulation.api import make_initial_state, run_case, simulate
 from disc_model.simulation.case import CaseSpec, Prerun, Start
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State, perturb, static_start, transfer_state
 from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
 from tests.studies.grids.conftest import computed

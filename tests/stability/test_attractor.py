@@ -13,9 +13,9 @@ from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import perturb, simulate, static_start
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.neighbourhood import (
     NearCycle,

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from disc_model import ParameterError, Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability import branch as branch_module
 from disc_model.stability import continuation
 from disc_model.stability import cycle as cycle_module

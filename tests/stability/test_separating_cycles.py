@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.branch import StepControl
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import CycleStatus, FloquetResult

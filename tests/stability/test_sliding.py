@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes, steady_sliding
 from disc_model.engine import exit_codes
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.sliding import SlidingStatus, SteadySliding
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full

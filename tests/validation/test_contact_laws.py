@@ -8,8 +8,7 @@ import pytest
 from disc_model import Parameters, Record, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
-from disc_model.simulation.api import static_start
-from disc_model.simulation.result import engine_case, write_state
+from disc_model.simulation.states import engine_case, static_start, write_state
 from tests.contact_laws import COMPILES, LAWS
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, P, lively

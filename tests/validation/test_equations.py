@@ -12,7 +12,7 @@ from disc_model.benchmarks.methods import kernels, taylor_heyoka
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES
 from disc_model.engine import layout, transitions
-from disc_model.simulation.result import engine_case, read_state, write_state
+from disc_model.simulation.states import engine_case, read_state, write_state
 from tests import needs
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.simulation.api import static_start
+from disc_model.simulation.states import static_start
 from tests.contact_laws import course_of, turned
 from tests.references import stored, taylor
 from tests.tally import tried

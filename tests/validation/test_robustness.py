@@ -13,8 +13,7 @@ from disc_model import Execution, Parameters, Record, Result, State, Status, Win
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.engine.stepping import LONGEST_STEP
-from disc_model.simulation.api import static_start
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case, static_start
 from tests.tally import tried
 
 # phase left -> (kind, phase entered): the table of switches

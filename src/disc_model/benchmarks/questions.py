@@ -35,8 +35,7 @@ from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import TABLES
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import static_start
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State, static_start
 
 SEPARATING = Parameters(N=385.0, Omega=15.1)
 SETTLED = Parameters(N=300.0, Omega=20.0)

@@ -30,7 +30,7 @@ from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 
 JUDGED = ("stick_slip", "separating")
 """Scenes for short comparisons of methods: a second each."""

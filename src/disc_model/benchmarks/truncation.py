@@ -24,7 +24,7 @@ from disc_model.disc.truncation import BAND, RICH, frequency_error, real_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.cycle import floquet
 
 CASES: dict[str, dict[str, dict[str, Any]]] = TABLES["truncation_cases"]

@@ -15,7 +15,6 @@ import numpy as np
 
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import PHASES
-from disc_model.disc.plate import mode_arrays
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.compile import compiled_for
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
@@ -25,15 +24,18 @@ from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Record, Start, Window
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.recorder import Collector
-from disc_model.simulation.result import (
-    Result,
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import (
     State,
     engine_case,
     is_finite,
+    perturb,
     read_state,
     series_order,
     series_tolerance,
+    static_start,
     take_workspace,
+    transfer_state,
     used_tolerance,
     write_state,
 )
@@ -296,12 +298,6 @@ _ENGINES: dict[tuple[tuple[bool, ...], ...], Callable[..., int]] = {}
 """Compiled engines by blocks of lanes, laws of contact and ramp."""
 
 
-def static_start(p: Parameters) -> State:
-    """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
-    case = engine_case(p)
-    return read_state(case, case.start)
-
-
 def _step_limit(model: layout.Model, duration: float) -> int:
     """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
@@ -368,53 +364,9 @@ def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
     return run.raise_for_status().final_state
 
 
-def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
-    """A state with perturbed coordinates of the slider; the disc under the slider moves with it.
-
-    Parameters
-    ----------
-    u : m, with the disc's deflection under a steady force at the slider: a_l increases by
-        u (psi_l/omega_l^2) / sum psi^2/omega^2
-    u_velocity : m/s, as after a blow at the slider: alpha_l increases by u_velocity psi_l / sum psi^2
-    f : rad/s; a sticking slider then slips, and one whose f becomes 0 sticks
-    """
-    modes = mode_arrays(p)
-    give = modes.psi / modes.omega**2
-    speed = state.f + f
-    phase, direction = state.phase, state.direction
-    if f and phase != "separation":
-        phase, direction = ("slip" if speed else "stick"), int(np.sign(speed))
-    return state.replace(
-        a=state.a + u * give / (modes.psi @ give),
-        alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
-        u=state.u + u,
-        u_velocity=state.u_velocity + u_velocity,
-        f=speed,
-        phase=phase,
-        direction=direction,
-    )
-
-
 @lru_cache(maxsize=8)
 def _end_of(p: Parameters, time: float, tol: float) -> State:
     return simulate(p, time, tol=tol).raise_for_status().final_state
-
-
-def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case, transferred to case `p` at time 0.
-
-    Modal coordinates are kept.  If the modal amplitudes differ, the slider keeps its distance from the disc, which is
-    zero in rigid contact.  A state with another number of modes is passed on, and `simulate` refuses it.
-    """
-    psi, own = mode_arrays(p).psi, state.mode_amplitudes
-    if len(psi) != len(state.a):
-        return state.replace(time=0.0)
-    more = np.zeros_like(psi) if own is None else psi - own
-    u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
-    if state.phase != "separation" and p.contact_compliance == 0:
-        u = float(psi @ state.a)
-    velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
-    return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
 # ----------------------------------------------------------------------------------------------------

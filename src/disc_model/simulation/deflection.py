@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.simulation.api import simulate, static_start
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import Array, State, amplitude_faults, is_finite_array
+from disc_model.simulation.states import Array, State, amplitude_faults, is_finite_array, static_start
 from disc_model.units import is_number
 
 if TYPE_CHECKING:

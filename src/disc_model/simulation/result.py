@@ -1,42 +1,33 @@
-"""States and results of simulations, and their conversion to and from the engine's lanes."""
+"""Results of simulations."""
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 import re
-from collections import defaultdict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from disc_model import errors
 from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS
-from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping, mode_arrays
-from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.engine import layout
 from disc_model.engine.event_loop import EVENT_ROW
-from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
-from disc_model.units import is_number
+from disc_model.simulation.states import Array, State, is_finite_array
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from matplotlib.figure import Figure
 
-
-Array = NDArray[np.float64]
 
 _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.STEP_LIMIT: errors.StepLimit,
@@ -45,112 +36,6 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.NON_FINITE: errors.NonFinite,
 }
 STATUS_OF = {error: status for status, error in _ERRORS.items()}
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class State:
-    """State of the system in the slider's frame.
-
-    Attributes
-    ----------
-    time : s
-    phase : "stick", "slip" or "separation"
-    direction : sgn(f) in slip, 0 otherwise
-    psi : rad, drive point's angle ahead of the slider
-    f : rad/s, the slider's angular speed over the disc
-    u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: an
-        initial state with another u is refused, and its u_velocity is ignored
-    a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
-        along and across the slider's direction; b = beta = 0 for modes without nodal diameter
-    known : multiplicity of the root of the phase's event function at this instant (0 away from an event)
-    case_key : the case in which it was computed; in any other case, phase and `known` of an event are determined anew
-    mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
-        with other amplitudes refuses the state. None if the state was made by hand
-    """
-
-    time: float
-    phase: str
-    direction: int
-    psi: float
-    f: float
-    u: float
-    u_velocity: float
-    a: Array
-    b: Array
-    alpha: Array
-    beta: Array
-    time_low: float = 0.0
-    known: int = 0
-    case_key: str = ""
-    mode_amplitudes: Array | None = None
-
-    def replace(self, **changes: Any) -> State:
-        """A copy with some values changed.
-
-        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the case in which it
-        was computed, and empties `case_key`.
-        """
-        if "time" in changes:
-            changes = {"time_low": 0.0} | changes
-        if not changes.keys() <= {"time", "time_low"}:
-            changes = {"case_key": ""} | changes
-        return dataclasses.replace(self, **changes)
-
-    def __repr__(self) -> str:
-        return (
-            f"State(time={self.time:.9g} s, {self.phase}, psi={self.psi:.6g} rad, f={self.f:.6g} rad/s, "
-            f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
-        )
-
-    def save(self, path: str | Path) -> None:
-        """Write the state as netCDF; `load` reads back the same bits.
-
-        Raises
-        ------
-        disc_model.data.dataset.WriteError
-            If the folder does not exist, or the disk is full.
-        """
-        import xarray as xr
-
-        from disc_model.data import dataset
-
-        modal = {
-            name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in _MODAL.items()
-        }
-        plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in _PLAIN.items()}
-        if self.mode_amplitudes is not None:
-            modal["mode_amplitudes"] = ("mode", np.asarray(self.mode_amplitudes, float), {"units": "kg-1/2"})
-        whole = {name: ((), np.int64(getattr(self, name))) for name in ("direction", "known")}
-        attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
-        dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
-
-    @classmethod
-    def load(cls, path: str | Path) -> State:
-        """Read a file that `save` has written.
-
-        Raises
-        ------
-        ParameterError
-            If the file holds no state.
-        disc_model.data.dataset.UnreadableFile
-            If the file is damaged, or no such file.
-        """
-        from disc_model.data import dataset
-
-        found = dataset.load(path).to_dataset()
-        wanted = (*_MODAL, *_PLAIN, "direction", "known")
-        if "phase" not in found.attrs or not {*wanted} <= found.data_vars.keys():
-            raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
-        held: dict[str, Any] = {name: found[name].values for name in _MODAL}
-        held |= {name: float(found[name]) for name in _PLAIN}
-        held |= {name: int(found[name]) for name in ("direction", "known")}
-        held |= {name: found[name].values for name in ("mode_amplitudes",) if name in found}
-        return cls(phase=str(found.attrs["phase"]), case_key=str(found.attrs.get("case_key", "")), **held)
-
-
-_MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
-_PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
-"""Units of the variables in a state's file: one value a mode, and scalars."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -320,266 +205,3 @@ def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
         rule += "a letter, digit or _ first, no / and no space last, none of them that of a variable"
         raise ParameterError(Fault(("names",), as_text(names), rule))
     return given
-
-
-# ----------------------------------------------------------------------------------------------------
-# Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
-
-Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
-"""Arrays to which the engine writes, for one run at a time: the run's state, the state at a trial time ahead of it, and
-Taylor series of one step, which the next step overwrites."""
-
-
-@dataclass(frozen=True, eq=False)
-class EngineCase:
-    """Constants of a case for the engine.  All runs of the case share them, and none writes to them.
-
-    parameters, model, start : the case, the engine's constants, and the static start
-    amplitudes : `mode_amplitudes` of the states of the case
-    present : indices of the existing coordinates in the sequence a, b, alpha, beta of all modes; modes without nodal
-        diameter have no b and beta
-    places : their indices in `layout.EngineState.disc`
-    point : matrix from `layout.EngineState.disc` to u, u' (without the slope's share) and slope B under the slider
-    idle : workspaces that no run uses at present, by the order of their series; the only field that changes
-    """
-
-    parameters: Parameters
-    model: layout.Model
-    start: layout.EngineState
-    amplitudes: np.ndarray
-    present: np.ndarray
-    places: np.ndarray
-    point: np.ndarray
-    idle: defaultdict[int, list[Workspace]]
-
-    @cached_property
-    def key(self) -> str:
-        """`case_key` of the states of the case."""
-        return self.parameters.key
-
-
-@lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
-def engine_case(p: Parameters) -> EngineCase:
-    """The engine's constants of a case, cached for equal parameters."""
-    warn_of_doubts(p)
-    modes = mode_arrays(p)
-    names = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0")
-    model = layout.build_model(
-        modes.diameters,
-        modes.omega,
-        modes.psi,
-        modal_damping(p),
-        {name: getattr(p, name) for name in names},
-        bonded=p.contact == "bonded",
-        compliance=contact_compliance(p),
-        normal=p.contact_force == "normal",
-    )
-    pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
-    lane, width, n_modes = layout.pair_lanes(len(pairs)), len(model.shift), len(modes.diameters)
-    places = np.full((4, n_modes), -1)
-    places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
-    places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    present, start = np.flatnonzero(places >= 0), layout.build_state(model)
-    point = np.zeros((3, len(start.disc)))
-    point[0, places[0]] = point[1, places[2]] = modes.psi
-    point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
-    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
-
-
-def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace for one run, at the static start; the run gives it back to `EngineCase.idle` at its end.
-
-    Workspaces are reused, because making one takes as long as 30 steps.
-    """
-    if not case.idle[order]:
-        return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
-    found = case.idle[order].pop()
-    for state in found[:2]:
-        state.disc[:], state.x[:] = case.start.disc, case.start.x
-    return found
-
-
-def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
-    """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on ramps."""
-    modal = np.zeros(4 * len(case.amplitudes))
-    modal[case.present] = state.disc[case.places]
-    modal.setflags(write=False)
-    a, b, alpha, beta = modal.reshape(4, -1)
-    x = state.x.tolist()
-    phase, f = int(x[layout.PHASE]), x[layout.SPEED]
-    u, v = x[layout.U], x[layout.U_VELOCITY]
-    if phase != layout.SEPARATION and not case.model.compliant:
-        u, v, slope = case.point.dot(state.disc).tolist()
-        v += f * slope
-    return State(
-        time=x[layout.TIME],
-        time_low=x[layout.TIME_LOW],
-        phase=PHASES[phase],
-        direction=int(x[layout.DIRECTION]),
-        psi=x[layout.PSI],
-        f=f,
-        u=u,
-        u_velocity=v,
-        known=int(x[layout.KNOWN]),
-        case_key=key or case.key,
-        mode_amplitudes=case.amplitudes,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
-    )
-
-
-def write_state(case: EngineCase, given: State, state: layout.EngineState, key: str = "") -> bool:
-    """Write ``given`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
-
-    Returns whether the engine has to determine the phase at this instant first: the state lies at an event of another
-    case.  Raises `ParameterError` if arrays have the wrong shape, numbers are not finite, the phase contradicts the
-    velocities, or the state belongs to other modes.
-    """
-    raise_faults(_faults(given, case))
-    state.disc.fill(0.0)
-    state.x.fill(0.0)
-    state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
-    if given.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
-        _check_height(case, given.u, state)
-    x = state.x
-    x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
-    x[layout.PSI], x[layout.SPEED] = given.psi, given.f
-    x[layout.U], x[layout.U_VELOCITY] = given.u, given.u_velocity
-    x[layout.PHASE] = PHASES.index(given.phase)
-    x[layout.DIRECTION] = given.direction if given.phase == "slip" else 0.0
-    x[layout.KNOWN] = given.known
-    return bool(given.known) and given.case_key != (key or case.key) and _forget_switch(case, state)
-
-
-def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here.
-
-    A slider that touches the disc with zero relative velocity is put into contact, and the engine then determines
-    whether it stays there.  Returns whether that is so.
-    """
-    x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
-    w, velocity, slope = case.point.dot(state.disc)
-    f, compliant, known = x[layout.SPEED], case.model.compliant, x[layout.KNOWN]
-    opening = x[layout.U_VELOCITY] - velocity - f * slope
-    touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
-    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
-    x[layout.KNOWN] = 0.0
-    if x[layout.PHASE] == layout.SEPARATION and touches and not rests:
-        x[layout.KNOWN] = 1.0 if opening > 0 else 0.0
-    elif compliant and touches and known >= TOUCHING:
-        x[layout.KNOWN] = TOUCHING + (1 if f == 0 and x[layout.PHASE] == layout.SLIP else 0)
-    elif touches or x[layout.PHASE] == layout.SLIP:
-        x[layout.PHASE], x[layout.DIRECTION] = layout.SLIP if f else layout.STICK, np.sign(f)
-        return True
-    return False
-
-
-SAME_HEIGHT = 1e-9
-"""Tolerance of heights, relative to the disc's deflection: far above rounding, far below any intended difference."""
-
-
-def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
-    """Refuse another u in contact, where the disc determines the slider's height and u would be ignored silently."""
-    row = case.point[0]
-    w = float(row.dot(state.disc))
-    off = abs(u - w)
-    # the cheap comparison with w itself nearly always suffices
-    if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
-        rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
-        raise ParameterError(Fault(("initial_state", "u"), as_text(u), rule))
-
-
-def _faults(given: State, case: EngineCase) -> list[str]:
-    n_modes = len(case.amplitudes)
-    # in compliant contact, contact and its force can begin at the same instant
-    highest, known = (7, "a whole number from 0 to 7") if case.model.compliant else (3, "0, 1, 2 or 3")
-    rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
-    wrong = [name for name in _MODAL if not is_finite_array(getattr(given, name), n_modes)]
-    faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
-    finite = {name: is_finite(getattr(given, name)) for name in _PLAIN}
-    # the clock's compensation is at most a unit in the last place of the time
-    small = finite["time_low"] and (not finite["time"] or abs(given.time_low) <= math.ulp(given.time))
-    phase = given.phase if isinstance(given.phase, str) else ""
-    f, directed = given.f if finite["f"] else 0.0, _is_among(given.direction, (-1, 1))
-    against = phase == "slip" and directed and f * given.direction < 0
-    rules = (
-        *((finite[name], name, "must be finite") for name in _PLAIN if name != "time_low"),
-        (small, "time_low", "must be less than the last digit of the time"),
-        (_is_among(given.known, range(highest + 1)), "known", f"must be {known}"),
-        (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),
-        (phase != "stick" or f == 0, "f", "must be 0 in stick"),
-        (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),
-        (not against, "f", f"must have the sign of direction={given.direction}"),
-    )
-    faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
-    return faults + violations(
-        *((holds, f"initial_state.{name}", getattr(given, name), rule) for holds, name, rule in rules)
-    )
-
-
-def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) -> list[str]:
-    """Faults of a state's `mode_amplitudes` for a case whose modes have these amplitudes, shape (n_modes,)."""
-    own = given.mode_amplitudes
-    if own is None or own is amplitudes:
-        return []
-    place = (*place, "mode_amplitudes")
-    if not is_finite_array(own, len(amplitudes)):
-        return [Fault(place, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
-    # modes from two processors differ by at most 1e-13 (measured)
-    other = np.abs(own - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-    rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
-    return [
-        Fault((*place, str(i)), as_text(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
-    ]
-
-
-def is_finite(value: object) -> bool:
-    """Whether a value is a finite number."""
-    return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
-
-
-def _is_among(value: object, known: Collection[int]) -> bool:
-    """Whether a value is one of the given whole numbers; a bool does not count as one."""
-    return is_number(value) and value in known
-
-
-def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
-    """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if `flat`."""
-    try:
-        array = np.asarray(values)
-    except (TypeError, ValueError):
-        return False
-    fits = size in (None, array.size) and (array.ndim == 1 or not flat)
-    return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
-
-
-# ----------------------------------------------------------------------------------------------------
-# Order and local tolerance of the series, from the tolerance that a user gives
-
-# Local truncation error for a tolerance of 1.  With it the errors of event times over a second of motion equal the
-# tolerance, as measured against the long-double references (docs/accuracy.md).
-LOCAL = 80.0
-# The same on a compliant contact: it takes three times as many steps, and errors accumulate in the weakly damped
-# vibration of the slider on the contact.
-LOCAL_COMPLIANT = LOCAL / 16
-# A looser tolerance is no cheaper, because the series must reach from event to event anyway, and it may miss events.
-LOOSEST = 1e-5
-
-
-def used_tolerance(tol: float, compliant: bool = False) -> float:
-    """The tolerance with which a run is computed: larger ones count as 1.25e-7, or 2e-6 on a compliant contact."""
-    return min(tol, LOOSEST / (LOCAL_COMPLIANT if compliant else LOCAL))
-
-
-def series_tolerance(tol: float, compliant: bool = False) -> float:
-    """Size of the last terms of a step, relative to the state's scale."""
-    return min((LOCAL_COMPLIANT if compliant else LOCAL) * tol, LOOSEST)
-
-
-@cache
-def series_order(tol: float) -> int:
-    """Degree of the Taylor series, an even number: the cheapest one for the tolerance, as measured (20 at 1e-10)."""
-    digits = -math.log10(series_tolerance(tol))
-    return min(max(2 * round(digits + 1.6), 18), 28)

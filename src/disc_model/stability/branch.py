@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State, is_finite_array
+from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     ENDS,

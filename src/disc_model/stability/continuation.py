@@ -17,7 +17,8 @@ from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
 from disc_model.stability.branch import (
     Branch,
     CorrectorFailed,

@@ -14,7 +14,7 @@ import numpy as np
 from disc_model.errors import DiscModelError, StatusBase, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.progress import compiling
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.return_map import (
     ENDS,
     RETURNED,

@@ -20,7 +20,7 @@ from disc_model.engine import exit_codes, layout, variational
 from disc_model.engine import tangent as columns
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
-from disc_model.simulation.result import State, engine_case, read_state, series_order, series_tolerance, write_state
+from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -25,7 +25,7 @@ from disc_model.disc.plate import Modes, modal_damping, mode_arrays
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import engine_case
+from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import Array, case_faults
 
 

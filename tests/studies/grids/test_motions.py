@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate, static_start
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
+from disc_model.simulation.states import static_start
 from disc_model.stability.cycle import floquet
 from disc_model.studies.document import QUANTITIES, OutcomeOptions
 from disc_model.studies.grids.motions import CYCLES_SHOWN, LONGEST, SAMPLES, cycle_length, run_motions

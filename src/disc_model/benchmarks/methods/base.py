@@ -23,7 +23,7 @@ from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.kernels import Array, Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 
 
 class RunStatus(enum.StrEnum):

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
 

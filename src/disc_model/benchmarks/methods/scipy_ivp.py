@@ -22,7 +22,7 @@ from scipy.integrate import solve_ivp
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, RunStatus, run_phases
 from disc_model.benchmarks.methods.kernels import Array, Physics
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 
 Function = Callable[[float, Array], Any]
 

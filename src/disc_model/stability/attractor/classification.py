@@ -19,9 +19,10 @@ from disc_model.analysis.settling import Settled, Settling, settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import perturb, simulate, static_start
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor.neighbourhood import (
     LARGEST_PERIOD,
     NEAR,

@@ -18,7 +18,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.simulation.result import State, engine_case
+from disc_model.simulation.states import State, engine_case
 from disc_model.stability.cycle import (
     CycleStatus,
     FloquetResult,

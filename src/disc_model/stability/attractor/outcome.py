@@ -17,7 +17,8 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
 from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
     ARRIVED,

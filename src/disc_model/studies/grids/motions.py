@@ -16,7 +16,7 @@ from disc_model.data.variables import PHASES, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.studies.grids.points import STATUS, Coordinate, Point
 from disc_model.studies.grids.run import module_of, run_batch
 

@@ -14,8 +14,8 @@ import numpy as np
 
 from disc_model.analysis.sobol import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
-from disc_model.simulation.api import make_initial_state, static_start
-from disc_model.simulation.result import State
+from disc_model.simulation.api import make_initial_state
+from disc_model.simulation.states import State, static_start
 from disc_model.stability.attractor.classification import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.document import BasinsOptions

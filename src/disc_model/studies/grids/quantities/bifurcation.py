@@ -11,7 +11,7 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIE
 from disc_model.errors import raise_faults, violations
 from disc_model.simulation.api import make_initial_state, simulate, state_after
 from disc_model.simulation.case import Poincare, Record
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.attractor.classification import Regularity, arrival, regularity
 from disc_model.stability.attractor.outcome import FIRST_LEG, shares
 from disc_model.studies.document import BifurcationOptions

@@ -12,7 +12,7 @@ import numpy as np
 from disc_model.analysis.settling import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.attractor.classification import sweep
 from disc_model.stability.attractor.outcome import final_segment
 from disc_model.stability.branch import StepControl

@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from disc_model.data.variables import Variable
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.cycle import CycleStatus, floquet
 from disc_model.studies.document import FloquetOptions
 from disc_model.studies.grids.points import Point

@@ -7,7 +7,8 @@ import numpy as np
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.api import state_after
-from disc_model.simulation.result import STATUS_OF, State
+from disc_model.simulation.result import STATUS_OF
+from disc_model.simulation.states import State
 from disc_model.stability.lyapunov import lyapunov_exponents
 from disc_model.studies.document import LyapunovOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point

@@ -8,7 +8,8 @@ import numpy as np
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.api import make_initial_state
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome
 from disc_model.studies.document import OutcomeOptions
 from disc_model.studies.grids.points import STATUS, Point

@@ -9,7 +9,8 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
-from disc_model.simulation.result import Result, State
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
 from disc_model.studies.document import RampsOptions
 from disc_model.studies.grids.points import STATUS, Coordinate, Point, listed
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import State
+from disc_model.simulation.states import State
 from disc_model.stability.attractor.neighbourhood import (
     AMPLITUDES,
     SAME_POINT,
