@@ -6,7 +6,7 @@ import pytest
 from disc_model import Parameters, Record, Window, simulate
 from disc_model.engine import dense_output, exit_codes, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
-from disc_model.simulation.api import _Request, _Run
+from disc_model.simulation.api import _Run
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
 
@@ -165,7 +165,7 @@ def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -
 def test_samples_of_an_advance_fit_their_buffer() -> None:
     """The engine writes a whole advance before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
-    run = _Run(_Request(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,))))
+    run = _Run(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,)))
     room, width = run.collector.buffers.sample_rows.shape
     rows = np.full((4 * room, width), np.nan)
     run.collector.buffers = run.collector.buffers._replace(sample_rows=rows)

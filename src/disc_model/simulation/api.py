@@ -121,13 +121,13 @@ def simulate(
     """
     record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    asked = _Request(p, in_si(t_end, "s", [], ()), tol, initial_state, record, stop_at, ramps, execution)
-    raise_faults(asked.faults())
+    t_end = in_si(t_end, "s", [], ())
+    raise_faults(_faults(p, t_end, tol, initial_state, record, stop_at, ramps, execution))
     # numbers of other types would make the engine compile again, and would round differently
-    start, end, asked.tol = asked.start, float(asked.t_end), float(tol)
-    asked.t_end, asked.record = end, record.resolved(start, end)
-    run = _Run(asked)
-    for window in asked.record.outside(start, end):
+    start, end = 0.0 if initial_state is None else float(initial_state.time), float(t_end)
+    record = record.resolved(start, end)
+    run = _Run(p, end, float(tol), initial_state, record, stop_at, ramps, execution)
+    for window in record.outside(start, end):
         warnings.warn(f"{window}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     code = run.advance()
     if code == exit_codes.PAUSED or callable(execution.progress):  # a short run has no progress to show
@@ -136,17 +136,45 @@ def simulate(
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
-    result = run.result(_STATUS[code])
-    run.case.idle[run.limits.order].append((run.state, run.probe, run.series))
-    return result
+    return run.result(_STATUS[code])
+
+
+def _faults(
+    p: object, t_end: Any, tol: Any, state: Any, record: Any, stop_at: Any, ramps: object, execution: Any
+) -> list[str]:
+    """Every fault of the arguments of `simulate`, which has made a window a record, and a ramp a tuple."""
+    time = state.time if isinstance(state, State) else 0.0
+    start = time if is_finite(time) else 0.0
+    later, rule = is_number(t_end) and start < t_end < math.inf, ""
+    if not later:
+        rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
+        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    how = execution if isinstance(execution, Execution) else _PLAIN
+    counts = how.max_steps is None or (is_whole(how.max_steps) and how.max_steps >= 1)
+    shows = how.progress is None or isinstance(how.progress, bool) or callable(how.progress)
+    faults = foreign_case(p) + limits_faults("tol", tol, TOLERANCES)
+    faults += violations(
+        (isinstance(record, Record), "record", record, "must be a Record or a Window"),
+        (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
+        (is_finite(time), "initial_state.time", time, "must be finite"),
+        (later, "t_end", t_end, rule),
+        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
+        (how is execution, "execution", execution, "must be an Execution"),
+        (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
+        (shows, "progress", how.progress, "must be a function of the time, or False"),
+    )
+    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
+        faults += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
+    return faults
 
 
 @dataclass(eq=False)
-class _Request:
-    """Arguments of `simulate`, with a `Record` and a tuple of ramps in every case."""
+class _Run:
+    """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that collect rows."""
 
     p: Parameters
-    t_end: Any
+    t_end: float
     tol: float = 1e-10
     initial_state: State | None = None
     record: Record = _EVENTS_ALONE
@@ -154,94 +182,57 @@ class _Request:
     ramps: tuple[Ramp, ...] = ()
     execution: Execution = _PLAIN
 
-    @property
-    def start(self) -> float:
-        """Time at the start, s."""
-        return 0.0 if self.initial_state is None else float(self.initial_state.time)
-
-    def faults(self) -> list[str]:
-        """Every fault of the arguments."""
-        t_end, stop_at, state = self.t_end, self.stop_at, self.initial_state
-        how = self.execution if isinstance(self.execution, Execution) else _PLAIN
-        starts = state is None or isinstance(state, State)
-        time = state.time if isinstance(state, State) else 0.0
-        timed = is_finite(time)
-        start = time if timed else 0.0
-        later, rule = is_number(t_end) and start < t_end < math.inf, ""
-        if not later:
-            rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
-            rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
-        found = foreign_case(self.p) + violations(
-            (isinstance(self.record, Record), "record", self.record, "must be a Record or a Window"),
-            (starts, "initial_state", state, "must be a State"),
-            (timed, "initial_state.time", time, "must be finite"),
-            (later, "t_end", t_end, rule),
-        )
-        stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-        counts = how.max_steps is None or (is_whole(how.max_steps) and how.max_steps >= 1)
-        shows = how.progress is None or isinstance(how.progress, bool) or callable(how.progress)
-        found += limits_faults("tol", self.tol, TOLERANCES) + violations(
-            (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-            (how is self.execution, "execution", self.execution, "must be an Execution"),
-            (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
-            (shows, "progress", how.progress, "must be a function of the time, or False"),
-        )
-        if isinstance(self.p, Parameters) and not (isinstance(self.ramps, tuple) and not self.ramps):
-            found += courses.faults(self.p, self.ramps, poincare=getattr(self.record, "poincare", None) is not None)
-        return found
-
-
-class _Run:
-    """One run: the engine's arrays, and the buffers that collect recorded rows."""
-
-    def __init__(self, asked: _Request) -> None:
-        self.asked, p, ramps, start = asked, asked.p, asked.ramps, asked.start
-        self.pieces = courses.pieces(p, ramps)
-        self.case = case = engine_case(p)
-        self.key = content_key(case.key + repr(ramps)) if ramps else case.key
-        model, order = case.model, series_order(asked.tol)
+    def __post_init__(self) -> None:
+        self.case = case = engine_case(self.p)
+        self.key = content_key(case.key + repr(self.ramps)) if self.ramps else case.key
+        model, order, state = case.model, series_order(self.tol), self.initial_state
         self.state, self.probe, self.series = take_workspace(case, order)
-        at_switch = False
-        if asked.initial_state is not None:
-            at_switch = write_state(case, asked.initial_state, self.state, self.key)
-        longest_step = event_loop.LONGEST_STICK * model.unit
-        self.collector = Collector(p, asked.record, start, asked.t_end, longest_step)
+        at_switch = state is not None and write_state(case, state, self.state, self.key)
+        start, every_step, most = self.time, self.record.audit_every_step, self.execution.max_steps
+        self.collector = Collector(self.p, self.record, start, self.t_end, event_loop.LONGEST_STICK * model.unit)
         self.wall_time = 0.0
-        most, every_step = asked.execution.max_steps, asked.record.audit_every_step
-        tolerance = series_tolerance(asked.tol, compliant=p.contact_compliance != 0)
-        most_steps = min(_step_limit(model, asked.t_end - start) if most is None else int(most), MOST_STEPS)
-        # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
-        pause_after = max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1)))
-        audit_every = 1 if every_step else 256  # a compliant contact takes about four times as many steps per second
         self.limits = event_loop.Limits(
-            order, tolerance, asked.t_end, asked.stop_at is not None, most_steps, pause_after, audit_every
+            order,
+            series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            self.t_end,
+            self.stop_at is not None,
+            min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
+            # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
+            max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1))),
+            1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
         )
+        self.pieces = courses.pieces(self.p, self.ramps)
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
-        for place, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < asked.t_end:
-                self._enter(place)
+        for index, piece in reversed(tuple(enumerate(self.pieces))):
+            if start < piece.end and piece.begin < self.t_end:
+                self._enter(index)
         if at_switch:
             self._begin_at_switch()
 
-    def _enter(self, place: int) -> None:
+    def _enter(self, index: int) -> None:
         """Continue with another piece of the ramps."""
-        self.place, self.model, piece = place, self.case.model, self.pieces[place]
-        if self.asked.ramps:
-            self.limits = self.limits._replace(t_end=min(self.asked.t_end, piece.end))
+        self.index, self.model, piece = index, self.case.model, self.pieces[index]
+        if self.ramps:
+            self.limits = self.limits._replace(t_end=min(self.t_end, piece.end))
         if not piece.constant:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        self.engine = _engine_for(self.model, self._arguments, report=self.asked.execution.progress is not False)
+        # the kind of the model determines the types of all arguments
+        kind = self.model.wide, self.model.compliant, self.model.normal, self.model.ramped
+        if kind not in _ENGINES:
+            with compiling(self.execution.progress is not False):
+                _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
+        self.engine = _ENGINES[kind]
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
-        model, series, state, probe, limits, kept = self._arguments()
+        model, series, state, probe, limits, buffers = self._arguments()
         low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
-        kept = kept._replace(samplers=kept.samplers[:0], sampled=kept.sampled[:0])
-        self.engine(model, series, state, probe, limits._replace(t_end=self.time), kept)
+        buffers = buffers._replace(samplers=buffers.samplers[:0], sampled=buffers.sampled[:0])
+        self.engine(model, series, state, probe, limits._replace(t_end=self.time), buffers)
         state.x[layout.TIME_LOW], state.x[layout.PROPAGATED] = low, 0.0
-        for counted in (kept.counters, kept.phase_times, kept.audit):
-            counted.fill(0)
+        for sums in (buffers.counters, buffers.phase_times, buffers.audit):
+            sums.fill(0)
 
     @property
     def time(self) -> float:
@@ -252,8 +243,8 @@ class _Run:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
-        if code == exit_codes.TIME_OVER and self.limits.t_end < self.asked.t_end:
-            self._enter(self.place + 1)
+        if code == exit_codes.TIME_OVER and self.limits.t_end < self.t_end:
+            self._enter(self.index + 1)
             code = exit_codes.PAUSED
         self.collector.drain()
         self.wall_time += clock.perf_counter() - began
@@ -264,34 +255,26 @@ class _Run:
         return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
 
     def result(self, status: Status) -> Result:
-        """Assemble the result of the run."""
-        asked = self.asked
+        """Assemble the result of the run, which ends here: other runs of the case may use its arrays."""
         samples, poincare = self.collector.finish()
-        return Result(
-            parameters=asked.p,
-            t_end=asked.t_end,
-            tol=used_tolerance(asked.tol, compliant=asked.p.contact_compliance != 0),
-            record=asked.record,
+        result = Result(
+            parameters=self.p,
+            t_end=self.t_end,
+            tol=used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            record=self.record,
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.collector.buffers, asked.record.audit_every_step, self.wall_time),
+            statistics=_statistics(self.collector.buffers, self.record.audit_every_step, self.wall_time),
             samples=samples,
             poincare=poincare,
-            ramps=asked.ramps,
+            ramps=self.ramps,
         )
-
-
-def _engine_for(model: layout.Model, arguments: Callable[[], tuple[object, ...]], report: bool) -> Callable[..., int]:
-    """The engine, compiled for this kind of model: the kind determines the types of all ``arguments`` of a run."""
-    kind = model.wide, model.compliant, model.normal, model.ramped
-    if kind not in _ENGINES:
-        with compiling(report):
-            _ENGINES[kind] = compiled_for(event_loop.run, arguments())
-    return _ENGINES[kind]
+        self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
+        return result
 
 
 _ENGINES: dict[tuple[tuple[bool, ...], ...], Callable[..., int]] = {}
