@@ -7,8 +7,8 @@ import pytest
 from pydantic import Field
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window
+from disc_model.data.variables import CycleStatus
 from disc_model.errors import DiscModelError, Fault, StatusBase, as_text, script
-from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError
 from disc_model.units import Checked, CycleTolerance, Real, Strict, Tolerance

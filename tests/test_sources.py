@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import sources
 from disc_model.sources import ASIDE, PACKAGE, source_files, source_hash
-from disc_model.studies.document import QUANTITIES
+from disc_model.studies.quantity import quantity_names
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
@@ -114,9 +114,9 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     def of(*entries: str | Path) -> set[str]:
         return {path.relative_to(PACKAGE).as_posix() for path in source_files(*entries) if path not in entries}
 
-    for name in QUANTITIES:
-        batch = of(SCRIPTS / "compute_batch.py", f"studies.grids.quantities.{name}")
-        assert {"engine/series.py", "disc/plate.py", f"studies/grids/quantities/{name}.py"} <= batch
+    for name in quantity_names():
+        batch = of(SCRIPTS / "compute_batch.py", f"studies.quantities.{name}")
+        assert {"engine/series.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
         assert not [
             path for path in batch if path.split("/")[0] in ("figures", "paper", "benchmarks", "cli", "explorer")
         ]
@@ -125,8 +125,8 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
             name not in ("campbell", "floquet", "lyapunov", "ramps", "stability_curves")
         )
         # one quantity's code is not another's
-        others = {f"studies/grids/quantities/{other}.py" for other in QUANTITIES} & batch
-        assert others == {f"studies/grids/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
+        others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch
+        assert others == {f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
     case = of(SCRIPTS / "simulate_case.py")
     assert {"engine/event_loop.py", "simulation/recorder.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]

@@ -19,7 +19,6 @@ ASIDE = {
     "disc.plausibility": "warns",
     "progress": "shows progress",
     "simulation.quicklook": "draws for a reader",
-    "studies.document": "a batch's text holds the values of all options",
 }
 """Modules that are not followed where they are imported, since they decide no result, with the reason."""
 

@@ -19,8 +19,8 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.disc.tables import disc_table
 from disc_model.simulation.states import engine_case
-from disc_model.studies.grids.merge import merge_batches
-from disc_model.studies.grids.run import run_batch
+from disc_model.studies.merge import merge_batches
+from disc_model.studies.run import run_batch
 from disc_model.studies.study import GridStudy, StudyError, load_study
 from tests import needs
 from tests.commands import Command

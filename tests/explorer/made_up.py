@@ -7,8 +7,8 @@ import xarray as xr
 
 from disc_model.data.variables import PHASES
 from disc_model.explorer.contents import study_contents
-from disc_model.studies.grids.motions import SAMPLES, Motions
-from disc_model.studies.grids.run import describe
+from disc_model.studies.motions import SAMPLES, Motions
+from disc_model.studies.run import describe
 
 N, OMEGA, MODES = [100.0, 200.0, 385.0], [5.0, 10.0, 15.1, 20.0], ["as_published", "orthonormal"]
 FAILED = {"N": 1, "Omega": 2, "normalization": 0}

@@ -9,9 +9,9 @@ import pytest
 import xarray as xr
 
 from disc_model.explorer.contents import BITS, LEVELS, motion_contents, runs, shortened, study_contents, traces
-from disc_model.studies.grids.motions import SAMPLES
+from disc_model.studies.motions import SAMPLES
 from tests.explorer import made_up
-from tests.studies.grids.quantities import test_sensitivity as uncertain
+from tests.studies.quantities import test_sensitivity as uncertain
 
 
 def numbers(stored, kind: str) -> np.ndarray:

@@ -5,9 +5,9 @@ import pytest
 from matplotlib.text import Annotation
 
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.studies.grids.quantities import branches
+from disc_model.studies.quantities.branches import Branches
 from tests.figures.reading import draw
-from tests.studies.grids.conftest import computed
+from tests.studies.conftest import computed
 
 
 def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -24,7 +24,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "sweep_settled": np.full((2, 5), 2),
         "sliding_growth_rate": [0.1, 0.1, -0.1, -0.1, -0.1],
     }
-    monkeypatch.setattr(branches, "compute_point", lambda *_, **__: (values, ""))
+    monkeypatch.setattr(Branches, "compute_point", lambda *_, **__: (values, ""))
     options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "evaluation_time": 1}
     study = computed(quantity="branches", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
     figure = draw("branches", study, paper_cases={"F11": 12}, title="t")

@@ -14,7 +14,7 @@ from disc_model.figures.critical_speed import branches
 from disc_model.figures.drawing import save
 from disc_model.figures.growth_map import Curve
 from tests.figures.reading import draw, labels, lines
-from tests.studies.grids.conftest import SCAN, computed, growth_over
+from tests.studies.conftest import SCAN, computed, growth_over
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")

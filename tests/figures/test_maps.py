@@ -8,12 +8,13 @@ import xarray as xr
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
+from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.cells import alone, cycles_of, growth_panels, unresolved
 from disc_model.figures.drawing import save
 from disc_model.figures.growth_map import Curve, parted
-from disc_model.studies.grids.quantities import regions
+from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
-from tests.studies.grids.conftest import growth_over
+from tests.studies.conftest import growth_over
 
 NORMS = ["as_published", "orthonormal"]
 STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
@@ -80,10 +81,10 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     followed = np.where(np.isfinite(growth), 1, 0)
     outcome = np.where(np.isnan(growth), "undecided", np.where(growth < 0, "quiet", "separation"))
     outcome[3, 1] = "growing"
-    codes = {"outcome": np.vectorize(regions.OUTCOMES_TO_HORIZON.index)(outcome)}
+    codes = {"outcome": np.vectorize(OUTCOMES_TO_HORIZON.index)(outcome)}
     codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
-        name: (dims, values, {"flag_meanings": " ".join(regions.COLUMNS[name].flags)}) for name, values in codes.items()
+        name: (dims, values, {"flag_meanings": " ".join(Regions.COLUMNS[name].flags)}) for name, values in codes.items()
     }
     data["growth_rate"] = (dims, growth)
     axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}

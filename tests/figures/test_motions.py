@@ -6,11 +6,11 @@ import xarray as xr
 
 from disc_model.figures import ramps as drawn
 from disc_model.figures.growth_map import Curve, crossings
-from disc_model.studies.grids.points import STATUSES
-from disc_model.studies.grids.quantities import ramps
+from disc_model.studies.quantities.ramps import Ramps
+from disc_model.studies.quantity import STATUSES
 from tests.figures.reading import crosses, draw, labels, lines
-from tests.studies.grids.conftest import computed, growth_over, made_up_samples, with_failed
-from tests.studies.grids.quantities.test_basins import Made, made
+from tests.studies.conftest import computed, growth_over, made_up_samples, with_failed
+from tests.studies.quantities.test_basins import Made, made
 
 __all__ = ["made"]
 
@@ -90,7 +90,7 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
         "top_separation_rate": np.array([135.0, 0.0, np.nan]),
         "offset_speed": np.array([9.7, 9.3, np.nan]),
     }
-    monkeypatch.setattr(ramps, "compute_point", lambda *_, **__: (values, ""))
+    monkeypatch.setattr(Ramps, "compute_point", lambda *_, **__: (values, ""))
     options = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
     study = computed(quantity="ramps", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
     folds = [

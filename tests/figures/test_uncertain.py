@@ -8,9 +8,9 @@ import xarray as xr
 
 from disc_model.figures import sensitivity
 from disc_model.figures.campbell import gaps, noted, spread
-from disc_model.studies.grids.summaries.campbell import EFFECTS
+from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.reading import draw
-from tests.studies.grids.quantities import test_sensitivity as uncertain
+from tests.studies.quantities import test_sensitivity as uncertain
 
 
 def test_instability_against_each_parameter() -> None:

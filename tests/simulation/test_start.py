@@ -20,7 +20,7 @@ from disc_model.simulation.case import CaseSpec, Prerun, Start
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
 from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
-from tests.studies.grids.conftest import computed
+from tests.studies.conftest import computed
 
 
 def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:

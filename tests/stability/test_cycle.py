@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability import return_map as return_map_module
 from disc_model.stability.attractor.neighbourhood import cycle_near
-from disc_model.stability.cycle import CycleError, CycleStatus, find_cycle
+from disc_model.stability.cycle import CycleError, find_cycle
 from disc_model.stability.return_map import Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.tally import tried

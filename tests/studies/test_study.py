@@ -174,7 +174,7 @@ def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None
     study = parse_study({"study": "three", "studies": ["*.yaml"], "cases": {"A": CASE}, "overrides": {"six": {}}})
     found = "\n".join(faults_of(study.grids, [tmp_path]))
     for fault in (
-        "one.yaml: axes.Omega: is required",
+        "one.yaml: options.horizon: is required",
         "two.yaml: N: given twice, in lines 3 and 3",
         "study = 'three': is the name of another folder of results",
         "three: figures.elsewhere.overlays.curves = 'elsewhere': no such study (known: five, four, one,",

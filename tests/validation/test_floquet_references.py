@@ -9,8 +9,8 @@ import pytest
 import yaml
 
 from disc_model import Parameters, floquet
+from disc_model.data.variables import CycleStatus
 from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
-from disc_model.stability.cycle import CycleStatus
 from disc_model.stability.resonances import nearest_resonance
 
 pytestmark = pytest.mark.compiled

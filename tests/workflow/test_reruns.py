@@ -80,7 +80,7 @@ def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str,
 
 
 def test_a_value_laid_over_runs_its_own_batch(project: Project) -> None:
-    """Batches of other values that are added: tests/studies/grids/test_batches.py."""
+    """Batches of other values that are added: tests/studies/test_batches.py."""
     before = batches(project, "small_map")
     project.edit(SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:")
     jobs = project.planned()
@@ -132,9 +132,9 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         # multipliers need no simulation
         ("src/disc_model/simulation/api.py", lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project)),
         ("src/disc_model/stability/attractor/outcome.py", whole_map),
-        ("src/disc_model/studies/grids/quantities/floquet.py", whole_growth),
-        ("src/disc_model/studies/grids/quantities/hysteresis.py", lambda _: set()),
-        ("src/disc_model/studies/grids/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
+        ("src/disc_model/studies/quantities/floquet.py", whole_growth),
+        ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
+        ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL),
         ("src/disc_model/studies/cases.py", lambda _: TABLES),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/history.py", lambda _: FIGURES),
@@ -171,7 +171,7 @@ def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None
     # another point of which a motion is kept, of one study of two
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 400]")
     assert explored() == ["build_explorer", "compute_motions"]
-    project.change("src/disc_model/studies/grids/motions.py")
+    project.change("src/disc_model/studies/motions.py")
     assert explored() == ["build_explorer", "compute_motions", "compute_motions"]
     # and a plain run knows nothing of it
     assert "compute_motions" not in project.complete("-n")

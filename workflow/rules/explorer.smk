@@ -1,11 +1,11 @@
 # A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
-from disc_model.studies.document import QUANTITIES
+from disc_model.studies.quantity import quantity_of
 
 # Studies of a whole plane come first.
 EXPLORED = sorted(
-    GRIDS, key=lambda study: list(QUANTITIES).index(GRIDS[study].quantity)
+    GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions")
 )
 
 
@@ -80,7 +80,7 @@ rule build_explorer:
                         "name": study,
                         "data": grid_file(study),
                         "motions": next(iter(motions_of(study)), ""),
-                        "text": QUANTITIES[GRIDS[study].quantity].motion,
+                        "text": quantity_of(GRIDS[study].quantity).motion,
                     }
                     for study in EXPLORED
                 ],

@@ -10,7 +10,7 @@ import xarray as xr
 
 from disc_model.data.dataset import save
 from disc_model.errors import script
-from disc_model.studies.grids.run import run_batch
+from disc_model.studies.run import run_batch
 
 
 @script

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.data.dataset import save
 from disc_model.errors import script
-from disc_model.studies.grids.motions import run_motions
+from disc_model.studies.motions import run_motions
 
 
 @script

@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model.data.dataset import load_inputs, save
 from disc_model.errors import script
-from disc_model.studies.grids.merge import failures, merge_batches
+from disc_model.studies.merge import failures, merge_batches
 
 
 @script

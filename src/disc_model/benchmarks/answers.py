@@ -26,13 +26,13 @@ from disc_model.benchmarks.study import Row, run
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.benchmarks.work_precision import DEFAULT
 from disc_model.data.dataset import json_attribute
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.stability.continuation import continue_cycle
-from disc_model.stability.cycle import CycleStatus, floquet
+from disc_model.stability.cycle import floquet
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 """Tolerances of the search for a cycle."""

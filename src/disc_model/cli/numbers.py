@@ -70,7 +70,7 @@ def floquet(
     parameters, choice = parameters_of(case, faults)
     tolerance = option("tol", tol, CycleTolerance, faults)
     raise_faults(faults)
-    from disc_model.stability.cycle import CycleStatus
+    from disc_model.data.variables import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of
 
     cycle = cycle_of(parameters, tol=tolerance)

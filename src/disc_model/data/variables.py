@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.errors import Status
+from disc_model.errors import Status, StatusBase
 from disc_model.parameters import RATIOS, Parameters
 
 PHASES = ("stick", "slip", "separation")
@@ -42,6 +42,22 @@ class Outcome(enum.StrEnum):
     """in contact at the horizon, after a departure from an unstable cycle"""
     SEPARATION = "separation"
     """contact is lost before the horizon, and the later motion is not examined"""
+
+
+class CycleStatus(StatusBase):
+    """Result of the search for a cycle; `advice` says what it means and what to do."""
+
+    OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
+    NO_CYCLE = (
+        "no_cycle",
+        "The slider sticks and slips, but no cycle of up to three releases exists near the static start, "
+        "as beyond a fold. From parameters that have one disc_model.stability.continuation.continue_cycle follows it.",
+    )
+    SEPARATES = "separates", "Near the static start no cycle keeps contact, and contact is soon lost: simulate."
+    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
+    AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
+    PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
+    NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
 LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))

@@ -26,8 +26,8 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
 
     Parameters
     ----------
-    study : as from `disc_model.studies.grids.merge.merge_batches`
-    motions : as from `disc_model.studies.grids.motions.run_motions`
+    study : as from `disc_model.studies.merge.merge_batches`
+    motions : as from `disc_model.studies.motions.run_motions`
     text : description of the motions
 
     Returns

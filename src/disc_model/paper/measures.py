@@ -523,7 +523,7 @@ def _search_of(p: Parameters) -> FloquetResult:
 
 def cycle_of(p: Parameters) -> FloquetResult:
     """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
-    from disc_model.stability.cycle import CycleStatus
+    from disc_model.data.variables import CycleStatus
 
     found = _search_of(p)
     if found.status is not CycleStatus.OK:

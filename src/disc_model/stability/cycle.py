@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from disc_model.errors import DiscModelError, StatusBase, raise_faults, violations
+from disc_model.data.variables import CycleStatus
+from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.progress import compiling
 from disc_model.simulation.states import State
@@ -36,22 +37,6 @@ RETURNS_TRIED = (1, 2, 3)
 """Numbers of releases in a period of the cycles that are sought."""
 TRANSIENT = 60
 """Returns simulated from the static start before Newton's method is tried again."""
-
-
-class CycleStatus(StatusBase):
-    """Result of the search for a cycle; `advice` says what it means and what to do."""
-
-    OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
-    NO_CYCLE = (
-        "no_cycle",
-        "The slider sticks and slips, but no cycle of up to three releases exists near the static start, "
-        "as beyond a fold. From parameters that have one disc_model.stability.continuation.continue_cycle follows it.",
-    )
-    SEPARATES = "separates", "Near the static start no cycle keeps contact, and contact is soon lost: simulate."
-    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
-    AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
-    PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
-    NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
 class CycleError(DiscModelError):

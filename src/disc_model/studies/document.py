@@ -8,11 +8,9 @@ shipped copy is ``workflow/schemas/study.schema.json``.
 """
 
 import json
-import math
 import re
-from collections.abc import Callable, Collection, Mapping
-from itertools import chain
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union
+from collections.abc import Collection, Mapping
+from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union
 
 from pydantic import (
     AfterValidator,
@@ -23,14 +21,14 @@ from pydantic import (
     PlainValidator,
     StringConstraints,
     Tag,
+    ValidationInfo,
     WithJsonSchema,
     WrapValidator,
     create_model,
-    model_validator,
 )
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
-from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SAMPLE, SCALARS, START, attributes
+from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
 from disc_model.disc.truncation import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kind import Kind, kind_of, library_kinds
@@ -38,20 +36,16 @@ from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
+from disc_model.studies.quantity import quantity_names, quantity_of
+from disc_model.studies.ranges import Blocks, Range
 from disc_model.studies.rules import checked_rule
 from disc_model.units import (
     Count,
-    CycleTolerance,
     Finite,
-    Positive,
-    Real,
     Seconds,
-    Speed,
     Strict,
     Title,
     Tolerance,
-    Unit,
-    Units,
     must,
 )
 
@@ -87,98 +81,8 @@ StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 # ----------------------------------------------------------------------------------------------------
 # Values along an axis: lists, linear and logarithmic ranges, and blocks of them
 
-Value = float | int | str
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
 """A value as given in the file; its parameter determines its meaning."""
-Blocks = tuple[tuple[Value, ...], ...]
-MOST = 100_000
-"""Greatest number of values along one axis; a slip of the pen can ask for more than fit into memory."""
-
-
-Rules = tuple[tuple[Callable[[Any], bool], str], ...]
-
-
-class Ruled(Strict):
-    """A part of a file with conditions between its fields.
-
-    _rules : conditions, each with its message, which may show values of the part
-    """
-
-    _rules: ClassVar[Rules] = ()
-
-    @model_validator(mode="after")
-    def _keep_rules(self) -> Self:
-        for holds, stated in self._rules:
-            if not holds(self):
-                raise ValueError(stated.format(self))
-        return self
-
-
-class Range(Ruled):
-    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`.
-
-    On a logarithmic scale the ratio of neighbours is constant.
-    """
-
-    start: Finite
-    stop: Finite
-    count: Annotated[Count, Field(ge=2)] | None = None
-    step: Positive | None = None
-    scale: Literal["linear", "log"] = "linear"
-
-    _rules = (
-        (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
-        (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
-        (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
-        (
-            lambda r: r.scale == "linear" or (r.count and r.start > 0),
-            "a logarithmic range must give count, and start > 0",
-        ),
-        (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
-        (
-            lambda r: abs(r._steps - r.intervals) <= 1e-9 * r._steps,
-            "stop - start must be a multiple of step={0.step:g}",
-        ),
-    )
-
-    @property
-    def _steps(self) -> float:
-        return (self.stop - self.start) / self.step if self.step else float((self.count or 2) - 1)
-
-    @property
-    def intervals(self) -> int:
-        """Number of intervals: one less than the number of values."""
-        return round(self._steps)
-
-    @property
-    def values(self) -> list[float]:
-        """All values, in ascending order."""
-        return [float(value) for value in self.blocks()[0]]
-
-    def blocks(self, resolution: int = 1) -> Blocks:
-        """The range's own values, then those that divide each interval further.
-
-        A finer grid adds blocks and keeps the existing ones: resolution 4 has the blocks of 2, and one more.
-        """
-        n = self.intervals * resolution
-        if n >= MOST:
-            raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
-        found: dict[int, list[Value]] = {}
-        for i in range(n + 1):
-            # the lowest resolution at which this value is there
-            level = resolution // math.gcd(i, resolution)
-            found.setdefault(level, []).append(self._at(i / n))
-        if len({*chain(*found.values())}) <= n:
-            raise ValueError(f"must be {n + 1} values that differ in their first 12 digits")
-        return tuple(tuple(found[level]) for level in sorted(found))
-
-    def _at(self, share: float) -> float:
-        """The value at a fraction of the range, rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        if share in (0.0, 1.0):
-            return self.stop if share else self.start
-        if self.scale == "log":
-            return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
-        return float(f"{self.start + share * (self.stop - self.start):.12g}")
 
 
 class AxisRange(Range):
@@ -248,452 +152,6 @@ def _described(name: str) -> dict[str, Any]:
 _columns: dict[str, Any] = {name: (Axis, Field(None, **_described(name))) for name in VARIED}
 Columns = create_model("Columns", __base__=_Columns, **_columns)
 """An axis for each of several names of `VARIED`."""
-
-
-# ----------------------------------------------------------------------------------------------------
-# Distributions of uncertain parameters
-
-NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
-"""Parameters that can be distributed."""
-FARTHEST = 6.47
-"""Standard deviations at which a normal distribution is cut off, rounded up: a fraction of 1e-10 lies beyond."""
-
-
-class _Distribution(Ruled):
-    """Of one parameter.
-
-    relative : whether the numbers are multiples of the parameter's own value at the point
-    """
-
-    relative: bool = False
-
-
-class _Bounded(_Distribution):
-    low: Finite
-    high: Finite
-
-    _rules: ClassVar[Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        return self.low, self.high
-
-
-class Uniform(_Bounded):
-    """A uniform distribution: all values from `low` to `high` are equally likely."""
-
-    distribution: Literal["uniform"]
-
-
-class Normal(_Distribution):
-    """A normal distribution, cut off at 6.47 standard deviations."""
-
-    distribution: Literal["normal"]
-    mean: Finite
-    deviation: Positive
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
-
-
-class TruncatedNormal(_Bounded):
-    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
-
-    distribution: Literal["truncated_normal"]
-    mean: Finite
-    deviation: Positive
-
-    _rules = (
-        *_Bounded._rules,
-        (
-            lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation,
-            f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}",
-        ),
-    )
-
-
-Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
-
-# ----------------------------------------------------------------------------------------------------
-# Options of each quantity
-
-Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
-
-
-class EarlyEndOptions(Ruled):
-    """Simulations that may end before the horizon.
-
-    early_end : whether a simulation ends as soon as its outcome is known, see `disc_model.stability.attractor`
-    """
-
-    tol: Tolerance = 1e-10
-    early_end: bool = True
-
-
-class OutcomeOptions(EarlyEndOptions):
-    """Outcome of one simulation at each point, within a horizon.
-
-    horizon : s
-    evaluation_time : s, length of the last stretch, over which ranges and fractions of the phases are taken
-    after_separation : s, simulated after the first separation, so that the late stretch shows the motion it leads to
-    """
-
-    horizon: Seconds
-    evaluation_time: Seconds = 1.0
-    after_separation: Seconds = 5.0
-
-    _rules = (
-        (
-            lambda o: o.evaluation_time <= min(o.after_separation, o.horizon),
-            "evaluation_time must be <= after_separation and <= horizon",
-        ),
-    )
-
-
-class RegionsOptions(Ruled):
-    """Outcomes over a plane of two parameters, computed more densely where they change.
-
-    horizon : s
-    initial_cell_size : initial side of a cell, in intervals of the grid
-    """
-
-    tol: Tolerance = 1e-8
-    horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
-
-
-class CriticalSpeedOptions(EarlyEndOptions):
-    """Scan of the speed, then bisection of each interval in which separation begins or ends.
-
-    horizons : s; each has a critical speed of its own, all from the same simulations
-    scan : rad/s
-    precision : rad/s, width of the last interval; the scan's step must be a multiple
-    max_crossings : room for that many crossings at each horizon
-    """
-
-    horizons: Annotated[tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
-    scan: Annotated[Range, Unit("rad/s")]
-    precision: Speed = 0.1
-    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
-
-    _rules = (
-        (lambda o: o.scan.scale == "linear", "scan must be linear"),
-        (
-            lambda o: 0.5 < o.step < math.inf and abs(o.step - round(o.step)) <= 1e-6,
-            "the scan's step must be a multiple of precision",
-        ),
-    )
-
-    @property
-    def step(self) -> float:
-        """The scan's step as a multiple of the precision."""
-        return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
-
-
-class FloquetOptions(Ruled):
-    """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
-
-    tol: CycleTolerance = 1e-12
-
-
-class HysteresisOptions(Ruled):
-    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
-
-    scan : rad/s
-    dwell : s at each speed; it is doubled until the motion has settled
-    max_dwell : s, greatest length of the stay then
-    evaluation_time : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
-    """
-
-    tol: Tolerance = 1e-10
-    scan: Annotated[Range, Unit("rad/s")]
-    dwell: Seconds
-    max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 5.0
-
-    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
-
-
-class RampsOptions(Ruled):
-    """Slow ramps of the speed, up from the static start and down again, once for each rate.
-
-    low, high : rad/s, ends of the ramps
-    rates : rad/s^2
-    dwell : s, at the highest speed, and at the lowest one at the end
-    """
-
-    tol: Tolerance = 1e-10
-    low: Speed
-    high: Speed
-    rates: Annotated[Range, Unit("rad/s^2")]
-    dwell: Seconds = 60.0
-
-    _rules = (
-        (lambda o: o.low < o.high, "low must be < high"),
-        (lambda o: o.rates.start > 0, "rates must be > 0"),
-    )
-
-
-class BifurcationOptions(Ruled):
-    """Samples of the motion after a transient, for bifurcation diagrams.
-
-    section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
-        motion then shows as many points as its period has events
-    transient : s, left out; at events it is doubled until the motion has settled
-    max_transient : s, greatest length of the transient then
-    samples : number of turns or events sampled after it
-    theta : rad, the disc's point whose displacement is sampled once a turn
-    """
-
-    tol: Tolerance = 1e-10
-    section: Literal["stroboscopic", "event"] = "stroboscopic"
-    transient: Seconds
-    max_transient: Seconds = 480.0
-    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = 1.0
-
-
-class LyapunovOptions(Ruled):
-    """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
-
-    transient : s, left out
-    duration : s, averaging time of the rates
-    exponents : number of exponents, 1 to 7
-    interval : s, between orthonormalisations; exponents below -400/s need a shorter one
-    """
-
-    tol: Tolerance = 1e-10
-    transient: Seconds
-    duration: Seconds
-    exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = 0.05
-
-
-class BasinsOptions(Ruled):
-    """Attractors, basin fractions and critical energy, from many starts.
-
-    energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
-    n_starts : number of starts at each energy
-    seed : whole number; a direction depends on it, on the place of the energy, and on the number of the start
-    horizon : s
-    attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
-        approaches it. 0: every motion is simulated to the horizon
-    confidence : confidence level of the intervals of fractions
-    n_bisection_directions : number of directions for the critical energy, those of the separating starts with the least
-        energies
-    precision : relative precision of the critical energy
-    """
-
-    tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
-    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
-    seed: Annotated[Count, Field(ge=0)] = 1
-    horizon: Seconds = 200.0
-    attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
-    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
-    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
-    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
-
-    _rules = (
-        (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
-        (
-            lambda o: o.n_starts == 1 or 0.0 not in o.energies,
-            "n_starts must be 1 where an energy is 0, since no direction tells them apart",
-        ),
-    )
-
-
-Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
-
-
-class StabilityCurvesOptions(Ruled):
-    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
-
-    x, y : the parameters
-    x_range : from, to; cycles are searched for at `points` values in it
-    y_lines : values of y for this search; curves are followed from the first to the last, widened by `margin`
-    margin : fraction of the range of y, beyond the lines at both ends
-    max_step : arclength of the longest step along a curve
-    max_points : greatest number of points of a curve in each direction
-    max_curves : room for that many
-    """
-
-    x: Free = "Omega"
-    y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
-    y_lines: Annotated[Range, Unit(of="y")]
-    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
-    max_step: Positive = 0.1
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
-    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
-    tol: CycleTolerance = 1e-12
-
-    _rules = (
-        (lambda o: o.x != o.y, "x and y must differ"),
-        (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
-    )
-
-
-class BranchesOptions(Ruled):
-    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
-
-    parameter : the one that varies
-    scan : its values in the sweep; each cycle found is followed between the first and the last
-    dwell : s at each value; it is doubled until the motion has settled
-    max_dwell : s, greatest length of the stay then
-    evaluation_time : s, the last stretch of it, over which the range is taken
-    releases : greatest number of releases of a cycle that is followed
-    max_step : arclength of the longest step along a branch
-    max_points : greatest number of points of a branch in each direction
-    max_branches : room for that many
-    """
-
-    parameter: Free = "Omega"
-    scan: Annotated[Range, Unit(of="parameter")]
-    dwell: Seconds
-    max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 2.0
-    releases: Annotated[Count, Field(ge=1, le=100)] = 4
-    max_step: Positive = 0.05
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
-    max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
-    tol: Tolerance = 1e-10
-
-    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
-
-
-class SensitivityOptions(Ruled):
-    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start.
-
-    distributions : by parameter; for a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
-        damping_ratio_2_0 for two nodal diameters and no circle
-    samples : number of samples, a power of two; more samples keep the existing ones
-    seed : whole number; a sample depends only on it and on the sample's own number
-    simulated_samples : number of samples, from the first on, whose motion is simulated as well
-    horizon : s, of this simulation
-    growth_rate_cap : 1/s; larger growth rates count as this in their indices, since a few would dominate the variance
-    tol : tolerance of the cycles; motion_tol : tolerance of the motions
-    """
-
-    distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
-    # the grid contains it: the result of a sample does not depend on their number
-    samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
-    seed: Annotated[Count, Field(ge=0)] = 0
-    simulated_samples: Annotated[Count, Field(ge=0)] = 0
-    horizon: Seconds = 500.0
-    growth_rate_cap: Annotated[Positive, Unit("1/s")] = 0.5
-    tol: CycleTolerance = 1e-12
-    motion_tol: Tolerance = 1e-10
-
-    @classmethod
-    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
-        given = data.get("distributions")
-        names = map(str, given if isinstance(given, Mapping) else ())
-        of_modes = {name: "rad/s" for name in names if name.startswith("omega_")}
-        return super()._units(data) | {"distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes}
-
-    _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
-
-
-class CampbellOptions(Ruled):
-    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
-
-    modes : room for that many, the lowest in frequency
-    half_bandwidth : Hz, on either side of a crossing, within which growth rates are compared
-    min_rise : 1/s, least rise of a growth rate within the window above those at its ends
-    max_crossings : room for that many
-    """
-
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
-    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
-    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
-    tol: CycleTolerance = 1e-12
-
-
-class Entry(NamedTuple):
-    """Properties of a quantity: its options, the cost of a point, and its grids and motions.
-
-    options : model of the key ``options`` in a study file
-    seconds : approximate processor time of a point with given options, s, measured at points of the paper's study
-    scans : parameters that the quantity varies by itself, or the options that name them
-    motions : number of values of each axis for which a motion is stored; smaller if a motion is expensive. 0: none
-    motion : description of the motions, which begin at the quantity's ``state_at``
-    tiled : whether the quantity needs a whole tile of a plane at once
-    over : the required dimension over which a merged study is summarised
-    tasks : the tasks of `disc_model.kernels` for which kernels are needed
-    """
-
-    options: type[Strict]
-    seconds: Callable[[Any], float]
-    scans: tuple[str, ...] = ()
-    motions: int = 0
-    motion: str = ""
-    tiled: bool = False
-    over: str = ""
-    tasks: tuple[str, ...] = ("simulate", "floquet")
-
-    def scanned(self, options: Strict | None) -> tuple[str, ...]:
-        """Parameters that the quantity varies by itself; the default ones if the options are not known."""
-        usual = {name: field.default for name, field in self.options.model_fields.items()}
-        return tuple(getattr(options, name, usual.get(name, name)) for name in self.scans)
-
-    def batch_size(self, options: Strict) -> int:
-        """Number of points in a batch if a study does not state it."""
-        return max(1, round(WORK / self.seconds(options)))
-
-
-def _with_start(options: type[Strict]) -> type[Strict]:
-    """Options of a quantity whose motions may begin elsewhere than at the static start: the file gives it as one."""
-    return create_model(options.__name__, __base__=(Start, options), __doc__=options.__doc__)
-
-
-WORK = 20.0
-"""Processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm."""
-# Measured costs, s. A new value changes the batches of all studies of a quantity without `batch.size`.
-SIMULATED = 7e-4
-"""Cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation."""
-CYCLE = 2.5e-3
-"""Cost of finding a cycle and its multipliers, s."""
-COME_TO = (
-    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
-)
-AFTER_TRANSIENT: dict[str, Any] = {"motions": 8, "motion": "After the transient."}
-QUANTITIES = {
-    "outcome": Entry(_with_start(OutcomeOptions), lambda o: SIMULATED * o.horizon / 2, motions=4, motion=COME_TO),
-    "regions": Entry(RegionsOptions, lambda o: WORK, motions=4, motion=COME_TO, tiled=True),
-    "critical_speed": Entry(
-        CriticalSpeedOptions, lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9, scans=("Omega",)
-    ),
-    "floquet": Entry(FloquetOptions, lambda o: CYCLE, motions=7, motion="The stick-slip cycle itself, stable or not."),
-    "hysteresis": Entry(HysteresisOptions, lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell, scans=("Omega",)),
-    "ramps": Entry(
-        RampsOptions,
-        lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values),
-        scans=("Omega",),
-        tasks=("simulate", "ramp"),
-    ),
-    "basins": Entry(_with_start(BasinsOptions), lambda o: SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6),
-    "bifurcation": Entry(
-        _with_start(BifurcationOptions), lambda o: SIMULATED * (o.transient + o.max_transient / 2), **AFTER_TRANSIENT
-    ),
-    "lyapunov": Entry(
-        _with_start(LyapunovOptions),
-        lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration),
-        **AFTER_TRANSIENT,
-    ),
-    "stability_curves": Entry(StabilityCurvesOptions, lambda o: WORK, scans=("x", "y")),
-    "branches": Entry(BranchesOptions, lambda o: WORK, scans=("parameter",)),
-    "sensitivity": Entry(
-        SensitivityOptions,
-        # independent of the number of samples, so that more samples keep the batches
-        lambda o: CYCLE * (2 + len(o.distributions)) + SIMULATED * o.horizon / 4 * (o.simulated_samples > 0),
-        over=SAMPLE,
-    ),
-    "campbell": Entry(CampbellOptions, lambda o: 1.5 * CYCLE, over="Omega"),
-}
 
 
 class BatchSpec(Strict):
@@ -857,7 +315,9 @@ Figure = Annotated[
     Kind,
     PlainValidator(
         _figure,
-        json_schema_input_type=Annotated[Union[*library_kinds().values()], Field(discriminator="kind")]
+        json_schema_input_type=Annotated[
+            Union[*(kind for _, kind in sorted(library_kinds().items()))], Field(discriminator="kind")
+        ]
         | Annotated[Any, WithJsonSchema(_OTHER_KIND)],
     ),
 ]
@@ -880,6 +340,21 @@ Figures = Annotated[
 def _several(value: Any) -> Any:
     """A list, also of a single value."""
     return value if isinstance(value, list | tuple) else [value]
+
+
+def _known(name: str | None) -> str | None:
+    if name is not None:
+        quantity_of(name)
+    return name
+
+
+def _options(raw: Any, info: ValidationInfo) -> Any:
+    """The quantity with its options; what is given for an unknown one is checked once it is known."""
+    if (quantity := info.data.get("quantity")) is None:
+        return raw
+    if not isinstance(raw, Mapping):
+        raise ValueError("must be a mapping")
+    return quantity_of(quantity).model_validate(raw)
 
 
 class Document(Strict):
@@ -909,8 +384,8 @@ class Document(Strict):
     record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
     claims: bool = False
-    quantity: Annotated[str | None, WithJsonSchema({"enum": list(QUANTITIES)})] = None
-    options: Annotated[Any, WithJsonSchema({"type": "object"})] = None
+    quantity: Annotated[str | None, AfterValidator(_known), WithJsonSchema({"enum": quantity_names()})] = None
+    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
     where: Annotated[
         tuple[Annotated[str, AfterValidator(checked_rule)], ...],
@@ -923,13 +398,6 @@ class Document(Strict):
     studies: tuple[str, ...] = ()
     overrides: dict[str, dict[str, Any]] = Field({})
     resolution: Annotated[Count, Field(ge=1)] = 1
-
-
-DOCUMENTS: dict[str, type[Document]] = {
-    name: create_model(f"Study_of_{name}", __base__=Document, options=(entry.options, ...))
-    for name, entry in QUANTITIES.items()
-}
-"""Models of files that give a quantity."""
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -960,7 +428,7 @@ class _Plain(GenerateJsonSchema):
 
 def schema_text() -> str:
     """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
-    options = {name: quantity.options for name, quantity in QUANTITIES.items()}
+    options = {name: quantity_of(name) for name in quantity_names()}
     models: tuple[type[BaseModel], ...] = (Document, *options.values())
     refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
     schema = {

@@ -50,22 +50,17 @@ from disc_model.parameters import (
 )
 from disc_model.simulation.case import CaseSpec, SomeParameters, Start
 from disc_model.studies.document import (
-    DOCUMENTS,
-    NUMBERS,
-    QUANTITIES,
     STATIC,
     VARIED,
     BatchSpec,
-    Blocks,
     Document,
-    SensitivityOptions,
-    Value,
     blocks_of,
 )
-from disc_model.studies.grids.merge import summary_of
-from disc_model.studies.grids.run import module_of, own_coordinates
+from disc_model.studies.quantities.sensitivity import NUMBERS, Sensitivity
+from disc_model.studies.quantity import Quantity
+from disc_model.studies.ranges import Blocks, Value
 from disc_model.studies.rules import holds, names_in
-from disc_model.units import Finite, Positive, Strict, canonical_json, content_key, given_values, is_number
+from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 """Keys of a study file that concern the grid alone."""
@@ -435,21 +430,17 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
     """The document without its faulty parts, and the faults at their places in the file."""
     if not isinstance(raw, Mapping):
         return None, [Fault.of(("study",), raw, "must be a mapping")]
-    whole, asked = dict(raw), raw.get("quantity")
+    whole = dict(raw)
     if isinstance(raw.get("cases"), Mapping):
         whole["cases"] = {
             name: {"parameters": {}} | inherit(_inherited(raw), own) if isinstance(own, Mapping) else own
             for name, own in raw["cases"].items()
         }
-    if asked is not None:
+    if raw.get("quantity") is not None:
         whole.setdefault("options", {})
-    faults, model = [], Document
-    if isinstance(asked, str):
-        model = DOCUMENTS.get(asked, Document)
-        if model is Document:
-            faults.append(Fault.of(("quantity",), asked, f"unknown quantity{suggestion(asked, QUANTITIES)}"))
+    faults: list[Fault] = []
     try:
-        return model.model_validate(whole), faults
+        return Document.model_validate(whole), faults
     except ParameterError as error:
         found = error.faults
     places = {fault.path for fault in found}
@@ -457,7 +448,7 @@ def _checked(raw: Any) -> tuple[Document | None, list[Fault]]:
     for fault in found:
         _drop(whole, fault.path)
     try:
-        return (model if "options" in whole else Document).model_validate({"study": "nameless"} | whole), faults
+        return Document.model_validate({"study": "nameless"} | whole), faults
     except ParameterError:
         return None, faults
 
@@ -590,9 +581,8 @@ class GridStudy:
         self.document, self.raw, self.plots, self.faults = document, raw, plots, faults
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
-        self.entry = QUANTITIES.get(self.quantity)
-        self.options: Any = document.options if self.entry else None
-        self.scanned = self.entry.scanned(self.options) if self.entry else ()
+        self.options: Any = document.options if isinstance(document.options, Quantity) else None
+        self.scanned: tuple[str, ...] = self.options.scanned if self.options else ()
         self.wanted = {str(name) for group in _groups(raw) for name in mapping(group)}
         self.base, self.asked = self._base()
         self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *self._samples())
@@ -602,18 +592,18 @@ class GridStudy:
     @cached_property
     def batches(self) -> dict[str, str]:
         """JSON text of each batch by its name, 12 hexadecimal digits."""
-        entry, batch = QUANTITIES[self.quantity], self.document.batch
-        if entry.tiled:
+        batch = self.document.batch
+        if self.options.tiled:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
             return self._texts(self.dims, _tiles(self.dims, batch, marked))
-        size = batch.size or entry.batch_size(self.options)
+        size = batch.size or self.options.batch_size
         return self._texts(self.dims, ({"points": cut} for cut in _chunks(self.dims, batch.over, size)))
 
     @cached_property
     def motions(self) -> dict[str, str]:
         """JSON text, by its name, of the batch of points whose motions are stored; empty for some quantities."""
-        most = QUANTITIES[self.quantity].motions
+        most = self.options.motions
         if not most:
             return {}
         few = [dim.thinned(most) for dim in self.dims]
@@ -640,11 +630,11 @@ class GridStudy:
     def sources(self) -> tuple[str, ...]:
         """Modules by which its points are computed and that are loaded by name, as `disc_model.sources` has them."""
         by_motion = self.asked is not None and self.asked.quantity != FREQUENCIES
-        return f"studies.grids.quantities.{self.quantity}", *["mode_choice"] * by_motion
+        return f"studies.quantities.{self.quantity}", *["mode_choice"] * by_motion
 
     @property
     def grid(self) -> list[dict[str, Any]]:
-        """Dimensions with their values, for `disc_model.studies.grids.merge`."""
+        """Dimensions with their values, for `disc_model.studies.merge`."""
         return [{"names": dim.names, "values": dim.values} for dim in self.dims]
 
     @property
@@ -657,7 +647,7 @@ class GridStudy:
         """Kinds of kernels that its points need, named as in `disc_model.kernels`."""
         deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
         cases = [case_of({**self.base, **point}, self.discs) for point in points(deciding)]
-        return kinds_of(cases, QUANTITIES[self.quantity].tasks)
+        return kinds_of(cases, self.options.tasks)
 
     @property
     def n_points(self) -> int:
@@ -783,7 +773,7 @@ class GridStudy:
 
     def _samples(self) -> tuple[Dimension, ...]:
         """The dimension of samples, the last one: a block of 64, and blocks that each double their number."""
-        if not isinstance(self.options, SensitivityOptions):
+        if not isinstance(self.options, Sensitivity):
             return ()
         ends = [0, min(64, self.options.samples)]
         while ends[-1] < self.options.samples:
@@ -814,19 +804,19 @@ class GridStudy:
                 self._add(("axes", name), f"needs {other}, which {asked} varies")
             if name in base:
                 self._add(("base", name), "varies as well: give it in base or as an axis, not both", base[name])
-        if self.entry is None:
+        if self.options is None:
             return
         for name in REQUIRED:
             if name not in {*wanted, *base, *scanned}:
                 self._add(("axes", name), "is required, here, in a zip or in base")
-        if self.entry.over not in ("", SAMPLE, *names, *wanted):
-            self._add(("axes", self.entry.over), f"is required: {asked} looks along it")
+        if self.options.over not in ("", SAMPLE, *names, *wanted):
+            self._add(("axes", self.options.over), f"is required: {asked} looks along it")
         if self.faults:
             return
         for name in over or ():
             if name not in names:
                 self._add(("batch", "over"), f"must name dimensions (known: {', '.join(names)})", name)
-        if self.entry.tiled and not self.faults and len(_plane(self.dims, over)) != 2:
+        if self.options.tiled and not self.faults and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             self._add(("batch", "over"), rule, over and list(over))
 
@@ -837,7 +827,7 @@ class GridStudy:
             coordinate = name.removeprefix("perturbation_")
             if name not in self.wanted:
                 continue
-            if self.entry is not None and not issubclass(self.entry.options, Start):
+            if self.options is not None and not isinstance(self.options, Start):
                 self._add(("axes", name), f"the quantity {self.quantity} follows no motion from a start")
             if coordinate in mapping(options.get("perturbation")):
                 self._add(("options", "perturbation", coordinate), f"is given, and varies as axes.{name}")
@@ -881,7 +871,7 @@ class GridStudy:
 
         Each rule is reported where it is broken first.
         """
-        if not isinstance(options := self.options, SensitivityOptions):
+        if not isinstance(options := self.options, Sensitivity):
             return
         place, numbers = ("options", "distributions"), self._numbers()
         varied = {*self.varied, *({*numbers}.difference(NUMBERS) if "disc" in self.varied else ())}
@@ -909,7 +899,7 @@ class GridStudy:
         common = [name for name in discs[0].numbers if all(name in disc.numbers for disc in discs)]
         return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
-    def _out_of_reach(self, options: SensitivityOptions) -> Iterator[str]:
+    def _out_of_reach(self, options: Sensitivity) -> Iterator[str]:
         """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
         related = [name for name in sorted(options.distributions) if name in RELATED]
         every = (point.items() for point in self._points([*options.distributions, *RELATED]))
@@ -940,7 +930,7 @@ class GridStudy:
         meant = sorted(self.wanted.difference(self.varied))
         values: Values = {**dict.fromkeys(meant, ()), **self.values}
         if isinstance(plot, General):
-            return () if self.options is None else _general(plot, self.quantity, self.options, values)
+            return () if self.options is None else _general(plot, self.options, values)
         if self.quantity in plot.quantities:
             return plot.faults(values)
         return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
@@ -961,15 +951,21 @@ def _own(name: str, values: Mapping[str, Any]) -> Any:
     return values[name] if name in values else getattr(Parameters.model_fields.get(name), "default", None)
 
 
-def _general(plot: General, quantity: str, options: Strict, values: Values) -> Iterator[Fault]:
-    """Faults of a general figure, checked against the variables and dimensions of the quantity's module."""
+def _general(plot: General, quantity: Quantity, values: Values) -> Iterator[Fault]:
+    """Faults of a general figure, checked against the variables and dimensions of the quantity."""
+    # reads xarray, which other figures do not need
+    from disc_model.studies.run import coordinates_of
+
     grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
     own: dict[str, list[Any]] = {}
     variables: dict[str, Any] = {}
-    others = [name for name in grid if name != QUANTITIES[quantity].over]
-    for module, dims in ((module_of(quantity), [*grid]), (summary_of(quantity), others)):
-        variables |= {name: (*dims, *column.dims) for name, column in getattr(module, "COLUMNS", {}).items()}
-        own |= {name: along.values.tolist() for name, along in own_coordinates(module, options).items()}
+    others = [name for name in grid if name != quantity.over]
+    for columns, coordinates, dims in (
+        (quantity.COLUMNS, quantity.COORDINATES, [*grid]),
+        (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
+    ):
+        variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
+        own |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
     return plot.faults_among(grid | own, variables)
 
 

@@ -1,1 +1,0 @@
-"""Grids of parameters: their batches of points, the merged dataset and its figures."""

@@ -1,1 +1,0 @@
-"""Quantities that a grid study can compute at each point, one module each; see `Quantity` of `grids.run`."""

@@ -1,0 +1,74 @@
+"""Short histories of the motion at a few points of a grid, for the explorer page.
+
+A history begins at the end of the quantity's own computation: after the late stretch of an outcome, on the cycle whose
+stability is computed, or after the transient.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import PHASES, SERIES, Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record, Window
+from disc_model.simulation.states import State
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity
+from disc_model.studies.run import run_batch
+
+SAMPLES = 256
+"""Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
+CYCLES_SHOWN = 2
+"""Number of stick-slip cycles in a history."""
+LONGEST = 0.05
+"""Greatest length of a cycle, s, where stick is very long or nothing pulls the slider back."""
+SHOWN = ("P", "u", "psi")
+
+
+class Motions:
+    """A quantity for `run` that computes histories instead of the study's own quantity."""
+
+    COLUMNS: Mapping[str, Variable] = {
+        "status": STATUS,
+        "length": Variable("s", "length of the history"),
+        **{name: SERIES[name]._replace(dims=("sample",)) for name in SHOWN},
+        "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=("sample",)),
+    }
+    COORDINATES: Mapping[str, Coordinate] = {
+        "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
+    }
+
+    def __init__(self, quantity: Quantity) -> None:
+        self.quantity = quantity
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """The history at one point."""
+        start = self.quantity.state_at(point).replace(time=0.0, time_low=0.0)
+        p = point.parameters
+        length = CYCLES_SHOWN * cycle_length(p, start)
+        record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
+        result = simulate(p, length, initial_state=start, record=record).raise_for_status()
+        samples = result.samples[0]
+        values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
+        return values | {name: samples[name] for name in SHOWN}, ""
+
+
+def run_motions(text: str) -> xr.Dataset:
+    """Histories along `point` and `sample`, for a text from `disc_model.studies.study.GridStudy.motions`."""
+    found = run_batch(text, Motions)
+    return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
+
+
+def cycle_length(p: Parameters, state: State) -> float:
+    """Mean time between the releases of 0.5 s after a state (time 0), s; at least the in-plane free period.
+
+    The free period is returned where the slider no longer sticks.
+    """
+    free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
+    events = simulate(p, 0.5, initial_state=state).events
+    released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
+    between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
+    return min(max(float(between), free), LONGEST)

@@ -1,0 +1,218 @@
+"""Basins of attraction at one point, from many starts: attractors, basin fractions and the critical energy.
+
+Start i of each energy is perturbed in a random direction. The direction depends only on the study's seed, the place of
+the energy in its list, and i. The first starts of all energies come first, then all second ones, so that further starts
+leave the earlier ones unchanged.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.simulation.case import Start
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed, with_ends
+from disc_model.studies.ranges import MOST
+from disc_model.units import Count, Real, Seconds, Tolerance, Unit
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+    from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
+
+Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
+CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
+"""Outcomes of a start."""
+SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
+"""Statistics of a stretch on an attractor."""
+SMALLEST = 2.0**-40
+"""Fraction of the least separating energy of the sample, below which the bisection gives up."""
+_EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
+
+
+def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
+    ends = ("", ", lower end of its confidence interval", ", upper end of it")
+    return with_ends(what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends))
+
+
+class AttractorBasins(Start, Quantity):
+    """Attractors, basin fractions and critical energy, from many starts.
+
+    energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
+    n_starts : number of starts at each energy
+    seed : whole number; a direction depends on it, on the place of the energy, and on the number of the start
+    horizon : s
+    attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
+        approaches it. 0: every motion is simulated to the horizon
+    confidence : confidence level of the intervals of fractions
+    n_bisection_directions : number of directions for the critical energy, those of the separating starts with the least
+        energies
+    precision : relative precision of the critical energy
+    """
+
+    tol: Tolerance = 1e-10
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
+    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
+    seed: Annotated[Count, Field(ge=0)] = 1
+    horizon: Seconds = 200.0
+    attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+
+    _rules = (
+        (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
+        (
+            lambda o: o.n_starts == 1 or 0.0 not in o.energies,
+            "n_starts must be 1 where an energy is 0, since no direction tells them apart",
+        ),
+    )
+
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
+        "attractor_index": Variable("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
+        "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
+        "lost_contact": Variable("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
+        **_share("basin_fraction_by_energy", _SHARES),
+        **_share("basin_fraction", ("attractor_class",)),
+        **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
+        "critical_energy": Variable("J", "least energy found that leads to lasting separation, by bisection"),
+        "critical_energy_lower": Variable("J", "greatest energy below it, in the same direction, that does not"),
+        "critical_energy_sampled": Variable("J", "least energy among the starts that come to lasting separation"),
+        "attractor_kind": Variable("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
+        "attractor_starts": Variable("1", "number of starts that reach it", dims=_KNOWN, whole=True),
+        "attractor_range": Variable("m", "range of the slider's height on it", dims=_KNOWN),
+        "attractor_separation_rate": Variable("s-1", "separations per second on it", dims=_KNOWN),
+        "attractor_stick_fraction": Variable("1", "share of the time spent sticking on it", dims=_KNOWN),
+        "attractor_separation_fraction": Variable("1", "share of the time spent separated on it", dims=_KNOWN),
+        "attractor_releases": Variable("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
+        "attractor_period": Variable("s", "its period, nan if not periodic", dims=_KNOWN),
+        "attractor_growth_rate": Variable("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
+        "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
+        "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
+        # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
+        "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * len(self.energies) * self.n_starts * self.horizon / 6
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
+        from disc_model.analysis.sobol import share
+
+        sample = _Sample(point, self)
+        found = sample.found
+        rows = [reached for row in found for reached in row]
+        starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
+        attractors = [attractor for attractor, _ in starts.most_common()]
+        numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
+        failed = [reached for reached in rows if reached.outcome is None]
+        values: dict[str, Any] = {
+            "status": failed[0].status if len(failed) == len(rows) else "ok",
+            "kind": [[reached.word for reached in row] for row in found],
+            "attractor_index": [[numbers[reached.attractor] for reached in row] for row in found],
+            "simulated_time": [[reached.simulated for reached in row] for row in found],
+            "lost_contact": [
+                ["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in found
+            ],
+        }
+        values |= _shares("basin_fraction_by_energy", found, self.confidence)
+        values |= {name: one for name, (one,) in _shares("basin_fraction", [rows], self.confidence).items()}
+        shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
+        values |= with_ends("separating_fraction", shown)
+        values |= sample.critical_energy() | _described(starts)
+        message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
+        return values, message
+
+
+class _Sample:
+    """The starts of a point; their outcomes are indexed by the number of the energy, then by that of the start."""
+
+    def __init__(self, point: Point, options: AttractorBasins) -> None:
+        from disc_model.simulation.api import make_initial_state
+        from disc_model.simulation.states import static_start
+        from disc_model.stability.attractor.classification import Basins
+
+        p = point.parameters
+        self.p, self.options = p, options
+        self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
+        self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
+        energies = list(enumerate(options.energies))
+        all_of = [[self._outcome_of(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
+        self.found = list(zip(*all_of, strict=True))
+
+    def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
+        """The outcome of a perturbation of any energy in the direction of a start."""
+        from disc_model.stability.attractor.classification import random_perturbation
+
+        return self.basins.reached(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
+
+    def critical_energy(self) -> dict[str, float]:
+        """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
+        energies = self.options.energies
+        reached = ((energies[j], i, j, one) for j, row in enumerate(self.found) for i, one in enumerate(row))
+        separating = sorted((energy, i, j) for energy, i, j, one in reached if one.separates)
+        if not separating:
+            return {}
+        least = {"critical_energy_sampled": separating[0][0]}
+        if separating[0][0] == 0 or not self.options.n_bisection_directions:
+            return least
+        if self._outcome_of(0.0, 0, 0).separates:
+            return least | {"critical_energy": 0.0}
+        ends = [self._bisected(*one) for one in separating[: self.options.n_bisection_directions]]
+        low, high = min(ends, key=lambda pair: pair[1])
+        return least | {"critical_energy_lower": low, "critical_energy": high}
+
+    def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
+        """Energies without and with lasting separation, closer to each other than the required precision."""
+        low, first = high / 4, high
+        while self._outcome_of(low, j, i).separates:
+            low, high = low / 4, low
+            if low < SMALLEST * first:
+                return math.nan, high
+        while high > low * (1 + self.options.precision):
+            middle = math.sqrt(low * high)
+            if self._outcome_of(middle, j, i).separates:
+                high = middle
+            else:
+                low = middle
+        return low, high
+
+
+def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
+    """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
+    from disc_model.analysis.sobol import share
+
+    shares = [
+        [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
+        for row in found
+    ]
+    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
+
+
+def _described(starts: Counter[Attractor]) -> dict[str, Any]:
+    """Attractors by decreasing number of starts; of equal numbers the one reached first comes first."""
+    described = [
+        {
+            "attractor_kind": attractor.kind,
+            "attractor_starts": count,
+            "attractor_releases": attractor.releases,
+            "attractor_period": attractor.period,
+            "attractor_growth_rate": attractor.growth_rate,
+            **{f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN},
+        }
+        for attractor, count in starts.most_common()
+    ]
+    return listed(described)

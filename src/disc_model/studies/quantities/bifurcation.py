@@ -1,0 +1,172 @@
+"""Samples of the settled motion, once a turn of the drive or at events."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.analysis.settling import ANSWER, Settling, settling
+from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
+from disc_model.errors import raise_faults, violations
+from disc_model.simulation.case import Poincare, Record, Start
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity
+from disc_model.studies.ranges import MOST
+from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+
+SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
+
+
+class Bifurcation(Start, Quantity):
+    """Samples of the motion after a transient, for bifurcation diagrams.
+
+    section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
+        motion then shows as many points as its period has events
+    transient : s, left out; at events it is doubled until the motion has settled
+    max_transient : s, greatest length of the transient then
+    samples : number of turns or events sampled after it
+    theta : rad, the disc's point whose displacement is sampled once a turn
+    """
+
+    tol: Tolerance = 1e-10
+    section: Literal["stroboscopic", "event"] = "stroboscopic"
+    transient: Seconds
+    max_transient: Seconds = 480.0
+    samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
+    theta: Annotated[Finite, Unit("rad")] = 1.0
+
+    motions: ClassVar = 8
+    motion: ClassVar = "After the transient."
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
+        "phase": Variable("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
+        "first_separation": SCALARS["first_separation"],
+        "separations": Variable("1", "number of separations, transient included", whole=True),
+        "transient_time": Variable("s", "time left out before the samples"),
+        "settled": ANSWER,
+        "change_rate": Variable("s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"),
+        "least_rate": Variable("s-1", "least rate of change that the record shows, 0 where multipliers decide"),
+        "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
+        "period_events": Variable(
+            "1", "number of events after which the motion repeats, 0 if that is not shown", whole=True
+        ),
+        "period_residual": Variable(
+            "s", "largest difference between an interval and the one a period later: what is left of the approach"
+        ),
+        "stick_fraction": Variable(
+            "1", "share of the time spent sticking: at switches on the cycle or in the later half, otherwise of all"
+        ),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "sample": Coordinate("1", "number of the turn after the transient", lambda o: range(o.samples))
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * (self.transient + self.max_transient / 2)
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Sample the motion from the static start or from the point's own start."""
+        return _once_a_turn(point, self) if self.section == "stroboscopic" else _at_switches(point, self)
+
+    def state_at(self, point: Point) -> State:
+        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
+        from disc_model.simulation.api import state_after
+
+        return state_after(point.parameters, point.start, self.transient, self.tol)
+
+
+def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
+    """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are missing."""
+    from disc_model.simulation.api import make_initial_state, simulate
+
+    p = point.parameters
+    raise_faults(violations((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn")))
+    turn = 2 * math.pi / p.Omega
+    first = math.ceil(options.transient / turn)
+    # both ends lie between samples, so that rounding neither adds one nor leaves one out
+    end = (first + options.samples - 0.5) * turn
+    record = Record(poincare=Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta))
+    start = make_initial_state(p, point.start, options.tol)
+    run = simulate(p, end, tol=options.tol, initial_state=start, record=record)
+    reached, taken = run.final_state.time, run.poincare
+    assert taken is not None
+    answer = settling(taken["time"], taken["psi"]) if run.status.complete else Settling()
+    values = (
+        _answer(answer)
+        | {name: taken[name] for name in SAMPLED}
+        | {
+            "phase": taken["phase"] + 1,  # after "none"
+            "status": run.status.value,
+            "first_separation": run.first_separation,
+            "separations": int(run.statistics["separations"]),
+            "stick_fraction": run.statistics["time_stick"] / reached if reached else math.nan,
+            "transient_time": options.transient,
+        }
+    )
+    return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
+
+
+def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
+    """Sample at separations if there are any, else at releases; double the transient until the motion has settled."""
+    from disc_model.analysis.classify import closure
+    from disc_model.simulation.api import make_initial_state, simulate
+    from disc_model.stability.attractor.classification import Regularity, arrival, regularity
+    from disc_model.stability.attractor.outcome import FIRST_LEG, shares
+
+    p = point.parameters
+    state, transient = make_initial_state(p, point.start, options.tol), options.transient
+    first, separations = math.nan, 0
+    while True:
+        run = simulate(p, transient, tol=options.tol, initial_state=state)
+        first = run.first_separation if math.isnan(first) else first
+        separations += int(run.statistics["separations"])
+        if not run.status.complete:
+            known = {"status": run.status.value, "first_separation": first, "separations": separations}
+            return known, f"the simulation ended early: {run.status}"
+        state, reached = run.final_state, arrival(p, run, options.tol)
+        if reached.settled or 2 * transient > options.max_transient:
+            break
+        transient *= 2
+    answer, near, stick = reached.settling, reached.near, shares(run)[0]
+    if near is not None:  # the attractor is known exactly
+        assert near.cycle.state is not None
+        state, stick = near.cycle.state, near.cycle.stick_fraction
+    events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
+    kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
+    taken = events[events["kind"] == kind]
+    found = Regularity(reached.calm or Outcome.UNDECIDED)
+    if near is not None:
+        n = near.cycle.separations or near.cycle.releases
+        times = run.events["time"][run.events["kind"] == kind]
+        intervals = np.diff(times[times > transient - FIRST_LEG])
+        found = Regularity(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
+    elif reached.settled and reached.calm is None:
+        found = regularity(p, state, options.tol)
+    shown = taken.iloc[-options.samples :]
+    columns = {"psi": shown["psi"], "psi_velocity": p.Omega - shown["f"], "P": shown["P"], "u": shown["u"]}
+    values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
+    values |= _answer(answer) | {
+        "kind": found.kind,
+        "period_events": found.period,
+        "period_residual": found.closure,
+        "status": "ok",
+        "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
+        "first_separation": first,
+        "separations": separations,
+        "stick_fraction": stick,
+        "transient_time": transient,
+    }
+    return values, "" if reached.settled else f"not settled after {transient:g} s: {answer}"
+
+
+def _answer(settling: Settling) -> dict[str, Any]:
+    return {"settled": settling.answer.value, "change_rate": settling.rate, "least_rate": settling.least}

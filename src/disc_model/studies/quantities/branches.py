@@ -1,0 +1,175 @@
+"""Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
+
+The sweep up and down starts at each value from the motion at the last one. Each cycle that the sweep reaches, and the
+cycle near the static start, is continued in both directions, unless a known branch passes there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.analysis.settling import ANSWER
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.studies.quantity import DIRECTION, NUMERICAL, STATUS, WORK, Coordinate, Free, Point, Quantity, listed
+from disc_model.studies.ranges import Range
+from disc_model.units import Count, Positive, Seconds, Tolerance, Unit
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+    from disc_model.stability.cycle import FloquetResult
+
+_ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
+
+
+class Branches(Quantity):
+    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
+
+    parameter : the one that varies
+    scan : its values in the sweep; each cycle found is followed between the first and the last
+    dwell : s at each value; it is doubled until the motion has settled
+    max_dwell : s, greatest length of the stay then
+    evaluation_time : s, the last stretch of it, over which the range is taken
+    releases : greatest number of releases of a cycle that is followed
+    max_step : arclength of the longest step along a branch
+    max_points : greatest number of points of a branch in each direction
+    max_branches : room for that many
+    """
+
+    parameter: Free = "Omega"
+    scan: Annotated[Range, Unit(of="parameter")]
+    dwell: Seconds
+    max_dwell: Seconds = 480.0
+    evaluation_time: Seconds = 2.0
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4
+    max_step: Positive = 0.05
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
+    tol: Tolerance = 1e-10
+
+    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
+
+    scans: ClassVar = ("parameter",)
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "n_branches": Variable("1", "number of branches found", whole=True),
+        "n_continuation_failures": Variable("1", "number of cycles that could not be followed", whole=True),
+        "releases": Variable("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
+        "separations": Variable("1", "separations in a period of the branch", dims=_ONE, whole=True),
+        "value": Variable("", "parameter along the branch, SI units", dims=_EACH),
+        "period": Variable("s", "period of the cycle", dims=_EACH),
+        "range": Variable("m", "range of the slider's height over a period", dims=_EACH),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
+        "sweep_range": Variable("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
+        "sweep_separation_rate": Variable(
+            "s-1", "separations per second at the end of the stay at a value", dims=_SWEEP
+        ),
+        "sweep_settled": ANSWER._replace(dims=_SWEEP),
+        "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "direction": DIRECTION,
+        "sweep_value": Coordinate("", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values),
+        "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
+        "branch_point": Coordinate("1", "number of the point along the branch", lambda o: range(2 * o.max_points)),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return WORK
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute the sweep and the branches; the point's own value of the parameter is not used."""
+        from disc_model.stability.attractor.classification import sweep
+        from disc_model.stability.cycle import find_cycle
+        from disc_model.stability.sliding import steady_sliding
+
+        values, unfollowed = self.scan.values, []
+        rows: list[dict[str, Any]] = []
+        swept = {name: column.empty((2, len(values))) for name, column in self.COLUMNS.items() if column.dims == _SWEEP}
+        message = ""
+
+        def follow(cycle: FloquetResult, reached: bool) -> None:
+            assert cycle.state is not None
+            value = getattr(cycle.parameters, self.parameter)
+            size = _range(cycle.parameters, cycle.state, cycle.period)
+            if len(rows) < self.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
+                try:
+                    rows.append(_branch(cycle, reached, self))
+                except NUMERICAL as error:
+                    unfollowed.append(str(error))
+
+        dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
+        for (way, i), result, late, reached in sweep(
+            point.parameters, self.parameter, values, dwell, longest, evaluated, self.tol
+        ):
+            if late is None:
+                message = f"{self.parameter}={values[i]:g}: {result.message}"
+                break
+            swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
+            swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
+            if way == 0 and (own := find_cycle(result.parameters)).state is not None:
+                follow(own, False)
+            if reached.near is not None and reached.near.cycle.releases <= self.releases:
+                follow(reached.near.cycle, True)
+        sliding = [steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate for v in values]
+        counts = {"n_branches": len(rows), "n_continuation_failures": len(unfollowed)}
+        known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
+        return listed(rows) | swept | counts | known, message
+
+
+SAME = np.array([2e-4, 0.4])
+"""Greatest differences of the logarithms of period and range for two cycles of one branch at one value. Periods
+distinguish branches; ranges between points of a steep branch are known roughly."""
+
+
+def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
+    """Continue a cycle in both directions by arclength: the one near the static start, or one that a motion reached."""
+    from disc_model.stability.branch import StepControl
+    from disc_model.stability.continuation import continue_cycle
+    from disc_model.stability.return_map import ReturnMap
+
+    p, name = cycle.parameters, options.parameter
+    bounds = options.scan.values[0], options.scan.values[-1]
+    near = cycle.state if reached else None
+    steps = StepControl(longest=options.max_step, max_points=options.max_points)
+    down, up = (
+        continue_cycle(p, name, bounds, direction=way, steps=steps, guess=near, releases=cycle.releases if near else 1)
+        for way in (-1, 1)
+    )
+    values, points, period, growth_rate = (
+        np.concatenate([getattr(down, column)[::-1], getattr(up, column)[1:]])
+        for column in ("values", "points", "period", "growth_rate")
+    )
+    row = {"value": values[:, 0], "period": period, "growth_rate": growth_rate}
+    own = ReturnMap(p)
+    ranges = []
+    for value, x, time in zip(row["value"], points, period, strict=True):
+        case = p.replace(**{name: float(value)})
+        map_ = ReturnMap(case)
+        ranges.append(_range(case, map_.state(x / own.scale * map_.scale), time))
+    return row | {"range": np.array(ranges), "releases": cycle.releases, "separations": cycle.separations}
+
+
+def _range(p: Parameters, state: State, period: float) -> float:
+    """Range of the slider's height over a period, m; nan if it cannot be simulated."""
+    from disc_model.stability.attractor.outcome import final_segment
+
+    _, stretch = final_segment(p, state, period, period, 1e-10)
+    return math.nan if stretch is None else stretch.range
+
+
+def _passes(row: dict[str, Any], value: float, *of: float) -> bool:
+    """Whether a branch passes a value of the parameter with about this period and this range of the slider's height."""
+    x, y = row["value"], np.log([row["period"], row["range"]])
+    for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
+        share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0
+        if np.all(np.abs(y[:, i] + share * (y[:, i + 1] - y[:, i]) - np.log(of)) <= SAME):
+            return True
+    return False

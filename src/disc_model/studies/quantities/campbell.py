@@ -1,0 +1,201 @@
+"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams.
+
+Crossings of mode frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
+
+At a crossing the frequency of a mode equals that of a line, by linear interpolation between two speeds. The mode's
+frequency is that of the cycle's multiplier. Without a multiplier of the mode's shape, as in a resonance, it is that of
+steady sliding, with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
+The effect is read, mode by mode, from the cycle's growth rates within a window about the crossing, compared with those
+at its ends.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from itertools import chain
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
+from disc_model.studies.quantities.floquet import CYCLE_STATUSES
+from disc_model.studies.quantity import CYCLE, Coordinate, Point, Quantity, listed
+from disc_model.units import Count, CycleTolerance, Positive, Unit
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+KINDS = ("none", "disc", "slider")
+_EACH = ("mode",)
+Array = NDArray[np.float64]
+LINES = ("none", "stick_slip", "rotation")
+EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
+"""At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
+there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
+_CROSSING = ("crossing",)
+
+
+class Campbell(Quantity):
+    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
+
+    modes : room for that many, the lowest in frequency
+    half_bandwidth : Hz, on either side of a crossing, within which growth rates are compared
+    min_rise : 1/s, least rise of a growth rate within the window above those at its ends
+    max_crossings : room for that many
+    """
+
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
+    tol: CycleTolerance = 1e-12
+
+    over: ClassVar = "Omega"
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+        "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
+        "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
+        "mode_kind": Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
+        "diameters": Variable("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
+        "forward_wave_fraction": Variable(
+            "1", "share of their energy in waves that travel with the slider", dims=_EACH
+        ),
+        "sliding_frequency": Variable("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
+        "sliding_growth_rate": Variable("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
+        "cycle_frequency": Variable("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
+        "cycle_growth_rate": Variable("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
+        "mac": Variable("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))
+    }
+    SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "n_crossings": Variable("1", "number of crossings found", whole=True),
+        "crossing_Omega": Variable("rad s-1", "speed of the crossing", dims=_CROSSING),
+        "crossing_frequency": Variable("Hz", "frequency of the crossing", dims=_CROSSING),
+        "crossing_mode": Variable("1", "number of the mode", dims=_CROSSING, whole=True),
+        "crossing_line": Variable("1", "what the line is a multiple of", LINES, dims=_CROSSING),
+        "crossing_multiple": Variable("1", "which multiple; half-integer where a period may double", dims=_CROSSING),
+        "crossing_growth_rate": Variable("s-1", "largest growth rate of the cycle within the window", dims=_CROSSING),
+        "crossing_rise": Variable(
+            "s-1", "largest rise of a mode's growth rate within the window over that at its ends", dims=_CROSSING
+        ),
+        "crossing_growing_mode": Variable(
+            "1", "number of the mode whose growth rate rises most", dims=_CROSSING, whole=True
+        ),
+        "crossing_effect": Variable("1", "what the growth rates do at the crossing", EFFECTS, dims=_CROSSING),
+    }
+    SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return 1.5 * CYCLE
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
+        from disc_model.stability.campbell import frequencies
+
+        found = frequencies(point.parameters, tol=self.tol)
+        cycle = found.cycle
+        values: dict[str, Any] = {
+            "status": cycle.status.value,
+            "growth_rate": cycle.growth_rate,
+            "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
+            "rotation_frequency": point.parameters.Omega / (2 * math.pi),
+            "mode_kind": np.where(found.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
+            "diameters": np.maximum(found.diameters, 0),
+            "forward_wave_fraction": found.forward,
+            "sliding_frequency": found.frequency,
+            "sliding_growth_rate": found.growth_rate,
+            "cycle_frequency": found.cycle_frequency,
+            "cycle_growth_rate": found.cycle_growth_rate,
+            "mac": found.mac,
+        }
+        return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
+
+    def summarise(self, cell: xr.Dataset) -> dict[str, Any]:
+        """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
+        left = flag_names(cell["status"]) != EXCLUDED
+        stretches = np.split(np.arange(len(left)), np.flatnonzero(np.diff(left)) + 1)
+        axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if left[stretch[0]]]
+        found = chain.from_iterable(crossings(axis, self) for axis in axes)
+        rows = sorted(found, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
+        columns = listed(rows[: self.max_crossings])
+        return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
+
+
+def crossings(cell: xr.Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
+    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
+    growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
+    speeds = cell["Omega"].values
+    releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
+    turns = cell["rotation_frequency"].values
+    highest = int(cell["diameters"].max())
+    for i, mode in enumerate(cell["mode"].values):
+        own = frequency_of(cell.isel(mode=i))
+        if not np.isfinite(own).any():
+            continue
+        most = math.floor(2 * np.nanmax(own) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
+        lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
+        lines += [("rotation", float(l), l * turns) for l in range(1, highest + 1)]
+        for line, multiple, frequency in lines:
+            detuning = frequency - own
+            for place in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+                if detuning[place] == detuning[place + 1] or (detuning[place + 1] == 0 and place + 2 < len(speeds)):
+                    continue  # the next interval begins there
+                part = detuning[place] / (detuning[place] - detuning[place + 1])
+                yield {
+                    "Omega": float(speeds[place] + part * (speeds[place + 1] - speeds[place])),
+                    "frequency": float(own[place] + part * (own[place + 1] - own[place])),
+                    "mode": int(mode),
+                    "line": line,
+                    "multiple": multiple,
+                    **effect_of(detuning, int(place), growth, leading, options),
+                }
+
+
+def frequency_of(mode: xr.Dataset) -> Array:
+    """Frequency of a mode at all speeds, Hz, as the module's docstring describes."""
+    sliding = mode["sliding_frequency"].values
+    more = mode["cycle_frequency"].values - sliding
+    # From this mac on a multiplier belongs to the mode. A real multiplier, in a resonance, resembles the conjugate as
+    # much, and has 0.5 at most.
+    known = np.isfinite(more) & (mode["mac"].values >= 0.75)
+    speeds = mode["Omega"].values
+    return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
+
+
+def effect_of(detuning: Array, place: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
+    """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
+    number, as far as they are known.
+
+    detuning : Hz, (speeds,), frequency of the line less that of the mode; place : index of the speed before it
+    growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
+    """
+    outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
+    first = outside.max(initial=-1, where=outside <= place)
+    last = outside.min(initial=len(detuning), where=outside > place)
+    within = slice(first + 1, last)
+    if first < 0 or last >= len(detuning) or last - first - 1 < 3:
+        return {"effect": "unresolved"}
+    highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
+    if not np.isfinite(leading[first : last + 1]).all():
+        return {"effect": "no_cycle", "growth_rate": highest}
+    ends = np.array([growth[first], growth[last]])
+    rises = growth[within].max(axis=0) - ends.max(axis=0)
+    if not np.isfinite(rises).any():
+        return {"effect": "unresolved", "growth_rate": highest}
+    mode = int(np.nanargmax(rises))
+    rise = float(rises[mode])
+    beside, least = max(leading[first], leading[last]), options.min_rise
+    effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
+    if highest > 0 >= beside:
+        effect = "destabilises"
+    return {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode + 1}

@@ -1,0 +1,64 @@
+"""The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of simulation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from disc_model.data.variables import CycleStatus, Variable
+from disc_model.studies.quantity import CYCLE, Point, Quantity
+from disc_model.units import CycleTolerance
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+
+CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
+
+
+class Floquet(Quantity):
+    """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
+
+    tol: CycleTolerance = 1e-12
+
+    motions: ClassVar = 7
+    motion: ClassVar = "The stick-slip cycle itself, stable or not."
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+        "period": Variable("s", "period of the stick-slip cycle"),
+        "stick_fraction": Variable("1", "share of the period spent sticking"),
+        "multiplier_re": Variable("1", "real part of the leading multiplier"),
+        "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
+        "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return CYCLE
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute the cycle of this point, without a neighbour's cycle as initial guess."""
+        from disc_model.stability.cycle import floquet
+
+        cycle = floquet(point.parameters, tol=self.tol)
+        leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
+        values = {
+            "status": cycle.status.value,
+            "growth_rate": cycle.growth_rate,
+            "period": cycle.period,
+            "stick_fraction": cycle.stick_fraction,
+            "multiplier_re": leading.real,
+            "multiplier_im": leading.imag,
+            "sliding_growth_rate": cycle.sliding.growth_rate,
+        }
+        return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
+
+    def state_at(self, point: Point) -> State:
+        """A state on the cycle, stable or not; raises `CycleError` if there is none."""
+        from disc_model.stability.cycle import floquet
+
+        state = floquet(point.parameters, tol=self.tol).raise_for_status().state
+        assert state is not None
+        return state

@@ -1,0 +1,97 @@
+"""Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+
+from disc_model.analysis.settling import ANSWER
+from disc_model.data.variables import Variable
+from disc_model.studies.quantity import DIRECTION, SIMULATED, STATUS, STATUSES, Coordinate, Point, Quantity
+from disc_model.studies.ranges import Range
+from disc_model.units import Seconds, Tolerance, Unit
+
+if TYPE_CHECKING:
+    pass
+
+_DIMS = ("direction", "sweep_Omega")
+
+
+class Hysteresis(Quantity):
+    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
+
+    scan : rad/s
+    dwell : s at each speed; it is doubled until the motion has settled
+    max_dwell : s, greatest length of the stay then
+    evaluation_time : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
+    """
+
+    tol: Tolerance = 1e-10
+    scan: Annotated[Range, Unit("rad/s")]
+    dwell: Seconds
+    max_dwell: Seconds = 480.0
+    evaluation_time: Seconds = 5.0
+
+    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
+
+    scans: ClassVar = ("Omega",)
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "sweep_status": STATUS._replace(dims=_DIMS),
+        "sweep_settled": ANSWER._replace(dims=_DIMS),
+        "separation_rate": Variable("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
+        "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
+        "P_max": Variable("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
+        "stick_fraction": Variable("1", "share of the time spent sticking", dims=_DIMS),
+        "slip_fraction": Variable("1", "share of the time spent slipping", dims=_DIMS),
+        "separation_fraction": Variable("1", "share of the time spent separated", dims=_DIMS),
+        "onset_speed": Variable("rad s-1", "speed at which separation first is found on the way up"),
+        "offset_speed": Variable("rad s-1", "lowest speed to which it persists without a gap on the way down"),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "direction": DIRECTION,
+        "sweep_Omega": Coordinate("rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * 2 * self.scan.intervals * self.dwell
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Sweep the speed up and down; the point's own Omega is not used."""
+        from disc_model.stability.attractor.classification import sweep
+
+        speeds = self.scan.values
+        shape = 2, len(speeds)
+        values: dict[str, Any] = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims}
+        status, message = "ok", ""
+        dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
+        for place, result, late, reached in sweep(
+            point.parameters, "Omega", speeds, dwell, longest, evaluated, self.tol
+        ):
+            if late is None:
+                status, message = result.status.value, f"Omega={speeds[place[1]]:g}: {result.message}"
+            values["sweep_status"][place] = STATUSES.index(status)
+            values["sweep_settled"][place] = ANSWER.flags.index(reached.settling.answer)
+            for name, number in asdict(late).items() if late else ():
+                if name in values:
+                    values[name][place] = number
+        done = values["sweep_status"] == STATUSES.index("ok")
+        values |= _ends(np.array(speeds), values["separation_rate"] > 0, done) | {"status": status}
+        return values, message
+
+
+def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
+    """Speeds at which separation begins on the way up and ends on the way down, if the sweep reached them."""
+    found: dict[str, float] = {}
+    if separates[0].any():
+        found["onset_speed"] = float(speeds[separates[0].argmax()])
+    if separates[1, -1]:
+        quiet = np.flatnonzero(~separates[1])
+        if not quiet.size or done[1, quiet[-1]]:
+            found["offset_speed"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
+    return found

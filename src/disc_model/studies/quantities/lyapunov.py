@@ -1,0 +1,103 @@
+"""The largest Lyapunov exponents of the motion, across all its events."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.data.variables import Variable
+from disc_model.errors import SimulationError
+from disc_model.simulation.case import Start
+from disc_model.studies.quantity import (
+    SIMULATED,
+    STATUS,
+    Coordinate,
+    Point,
+    Quantity,
+)
+from disc_model.units import Count, Seconds, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+
+CONVERGED = ("unknown", "no", "yes")
+_EACH = ("exponent_number",)
+
+
+class Lyapunov(Start, Quantity):
+    """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
+
+    transient : s, left out
+    duration : s, averaging time of the rates
+    exponents : number of exponents, 1 to 7
+    interval : s, between orthonormalisations; exponents below -400/s need a shorter one
+    """
+
+    tol: Tolerance = 1e-10
+    transient: Seconds
+    duration: Seconds
+    exponents: Annotated[Count, Field(ge=1, le=7)] = 2
+    interval: Seconds = 0.05
+
+    motions: ClassVar = 8
+    motion: ClassVar = "After the transient."
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "exponent": Variable(
+            "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
+        ),
+        "exponent_error": Variable(
+            "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
+        ),
+        "converged": Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
+        "trivial_exponent": Variable("s-1", "exponent along the motion: 0 but for what the time is too short for"),
+        "averaging_time": Variable("s", "time over which the rates are averaged"),
+        "separations": Variable("1", "number of separations in that time", whole=True),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * (self.transient + 20 * self.exponents * self.duration)
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute the exponents after the transient."""
+        from disc_model.simulation.result import STATUS_OF
+        from disc_model.stability.lyapunov import lyapunov_exponents
+
+        try:
+            start = self.state_at(point)
+        except SimulationError as error:
+            return {"status": STATUS_OF[type(error)].value}, str(error)
+        found = lyapunov_exponents(
+            point.parameters,
+            self.duration,
+            count=self.exponents,
+            interval=self.interval,
+            initial_state=start,
+            tol=self.tol,
+            leave_out_trivial=True,
+        )
+        known = np.isfinite(found.exponents)
+        values = {
+            "status": found.status.value,
+            "exponent": found.exponents,
+            "exponent_error": found.errors,
+            "converged": np.where(known, 1 + found.converged, 0),
+            "trivial_exponent": found.trivial_exponent,
+            "averaging_time": found.duration,
+            "separations": found.separations,
+        }
+        return values, "" if found.status.complete else found.status.advice
+
+    def state_at(self, point: Point) -> State:
+        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
+        from disc_model.simulation.api import state_after
+
+        return state_after(point.parameters, point.start, self.transient, self.tol)

@@ -1,0 +1,129 @@
+"""Outcome of the static start within a horizon: the motion stays quiet, grows in contact, or separates."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
+from disc_model.simulation.case import Start
+from disc_model.studies.quantity import COME_TO, SIMULATED, STATUS, EarlyEnd, Point
+from disc_model.units import Seconds
+
+if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
+    from disc_model.simulation.states import State
+    from disc_model.stability.attractor.outcome import OutcomeResult, Segment
+
+FEWEST = 4
+"""Least number of checks of a motion that give a rate."""
+
+
+class HorizonOutcome(Start, EarlyEnd):
+    """Outcome of one simulation at each point, within a horizon.
+
+    horizon : s
+    evaluation_time : s, length of the last stretch, over which ranges and fractions of the phases are taken
+    after_separation : s, simulated after the first separation, so that the late stretch shows the motion it leads to
+    """
+
+    horizon: Seconds
+    evaluation_time: Seconds = 1.0
+    after_separation: Seconds = 5.0
+
+    _rules = (
+        (
+            lambda o: o.evaluation_time <= min(o.after_separation, o.horizon),
+            "evaluation_time must be <= after_separation and <= horizon",
+        ),
+    )
+
+    motions: ClassVar = 4
+    motion: ClassVar = COME_TO
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "outcome": Variable("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+        "first_separation": SCALARS["first_separation"],
+        "settling_time": Variable("s", "time at which the motion was left because it had settled, nan if it was not"),
+        "time_reached": SCALARS["time_reached"],
+        "cycle_distance": Variable("1", "relative distance from the cycle where the motion was left for it"),
+        "return_map_residual": Variable("1", "relative difference of successive cycles at the last probe"),
+        "return_map_residual_rate": Variable("s-1", "growth rate of that difference over the last probes"),
+        "P_min": Variable("N", "least contact force over the late stretch"),
+        "P_max": Variable("N", "greatest contact force over the late stretch"),
+        "u_min": Variable("m", "lowest position of the slider over the late stretch, from static equilibrium"),
+        "u_max": Variable("m", "highest position of the slider over the late stretch, from static equilibrium"),
+        "stick_fraction": Variable("1", "share of the late stretch spent sticking"),
+        "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
+        "separation_fraction": Variable("1", "share of the late stretch spent separated"),
+        "separation_rate": Variable("s-1", "separations per second over the late stretch"),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * self.horizon / 2
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute one point; if it separates, its late stretch lies ``after_separation`` later."""
+        reached, result, late = _late(point, self)
+        last = reached if result is None else result
+        values: dict[str, Any] = {
+            "status": "ok" if last.status.complete else last.status.value,
+            "outcome": reached.word,
+            "first_separation": reached.first_separation,
+            "time_reached": reached.time,
+            "return_map_residual_rate": _rate(reached),
+            "cycle_distance": reached.distance,
+        }
+        if reached.changes:
+            values["return_map_residual"] = reached.changes[-1]
+        if reached.outcome is Outcome.SEPARATION and result is not None:
+            values["time_reached"] = result.final_state.time
+        elif reached.outcome is not None and reached.time < self.horizon:
+            values["settling_time"] = reached.time
+        if late is not None:
+            values |= asdict(late)
+        return values, "" if last.status.complete else last.message
+
+    def state_at(self, point: Point) -> State:
+        """State at the end of the late stretch; raises `SimulationError` if the motion does not reach it."""
+        reached, result, _ = _late(point, self)
+        last = reached.failed or result
+        state = reached.state if last is None else last.raise_for_status().final_state
+        assert state is not None
+        return state
+
+
+def _late(point: Point, options: HorizonOutcome) -> tuple[OutcomeResult, Result | None, Segment | None]:
+    """The outcome, the run beyond it, if any, and the late stretch."""
+    from disc_model.simulation.api import make_initial_state
+    from disc_model.stability.attractor.outcome import final_segment, find_outcome
+
+    p = point.parameters
+    reached = find_outcome(
+        p,
+        options.horizon,
+        tol=options.tol,
+        furthest=0.0,
+        start=make_initial_state(p, point.start, options.tol),
+        early=options.early_end,
+        late=options.evaluation_time,
+    )
+    if reached.outcome is Outcome.SEPARATION:
+        return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
+    if reached.outcome is None or reached.segment is not None:
+        return reached, None, reached.segment
+    # a stable cycle is known exactly; on a torus, and in steady sliding, the motion is steady
+    on = reached.near.cycle.state if reached.near is not None and reached.near.cycle.stable else reached.state
+    return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
+
+
+def _rate(reached: OutcomeResult) -> float:
+    """Growth rate of the changes between the last checks, 1/s; nan if there are too few."""
+    t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
+    return float(np.polyfit(t, np.log(d), 1)[0]) if len(t) == FEWEST and np.all(d > 0) else math.nan

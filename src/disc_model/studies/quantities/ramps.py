@@ -1,0 +1,120 @@
+"""Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.simulation.case import Record
+from disc_model.simulation.ramps import Ramp
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed
+from disc_model.studies.ranges import Range
+from disc_model.units import Seconds, Speed, Tolerance, Unit
+
+if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
+    from disc_model.simulation.states import State
+
+_DIMS = ("rate",)
+
+
+class Ramps(Quantity):
+    """Slow ramps of the speed, up from the static start and down again, once for each rate.
+
+    low, high : rad/s, ends of the ramps
+    rates : rad/s^2
+    dwell : s, at the highest speed, and at the lowest one at the end
+    """
+
+    tol: Tolerance = 1e-10
+    low: Speed
+    high: Speed
+    rates: Annotated[Range, Unit("rad/s^2")]
+    dwell: Seconds = 60.0
+
+    _rules = (
+        (lambda o: o.low < o.high, "low must be < high"),
+        (lambda o: o.rates.start > 0, "rates must be > 0"),
+    )
+
+    scans: ClassVar = ("Omega",)
+    tasks: ClassVar = ("simulate", "ramp")
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "rate_status": STATUS._replace(dims=_DIMS),
+        "onset_speed": Variable(
+            "rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS
+        ),
+        "top_separation_rate": Variable("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
+        "offset_speed": Variable(
+            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
+        ),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return SIMULATED * sum(2 * ((self.high - self.low) / rate + self.dwell) for rate in self.rates.values)
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Simulate one run for each rate; the point's own Omega is not used."""
+        rows: list[dict[str, Any]] = []
+        status, message = "ok", ""
+        for rate in self.rates.values:
+            found, failed = _run(point.parameters.replace(Omega=self.low), rate, self)
+            rows.append({"rate_status": failed.status.value if failed else "ok", **found})
+            if failed:
+                status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
+        return listed(rows) | {"status": status}, message
+
+
+def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
+    """One run: up from the lowest speed, a dwell at the highest, down again, and a dwell at the lowest.
+
+    Returns values of the columns, as far as they are known, and the part of the run that failed, if any.
+    """
+    from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
+    from disc_model.simulation.api import simulate
+
+    time, kind = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
+    top = (options.high - options.low) / rate
+    down = top + options.dwell
+    bottom = down + top
+    up_and_down = (
+        Ramp(parameter="Omega", to=options.high, start=0.0, end=top),
+        Ramp(parameter="Omega", to=options.low, start=down, end=bottom),
+    )
+
+    def on(state: State | None, until: float, stop_at: str | None = None, events: bool = False) -> Result:
+        """Continue the motion to a later time."""
+        record = Record(events=events)
+        return simulate(
+            p, until, tol=options.tol, initial_state=state, record=record, stop_at=stop_at, ramps=up_and_down
+        )
+
+    run = on(None, top, stop_at="first_separation")
+    values = {"onset_speed": options.low + rate * run.first_separation}
+    if run.status.value == "stopped":
+        run = on(run.final_state, top)
+    if run.status.complete:
+        run = on(run.final_state, down)
+    if not run.status.complete:
+        return values, run
+    values["top_separation_rate"] = run.statistics["separations"] / options.dwell
+    last, end = math.nan, bottom + options.dwell
+    while run.final_state.time < end:
+        # events of all of the way would fill hundreds of MB
+        run = on(run.final_state, min(run.final_state.time + 100.0, end), events=True)
+        lost = run.event_rows[run.event_rows[:, kind] == LOSS_OF_CONTACT, time]
+        last = float(lost[-1]) if lost.size else last
+        if not run.status.complete:
+            return values, run
+    if last < bottom:
+        values["offset_speed"] = options.high - rate * (last - down)
+    return values, None

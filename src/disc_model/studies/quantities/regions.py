@@ -1,0 +1,94 @@
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
+
+A batch is a tile of the plane; `disc_model.studies.refinement` computes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, ClassVar, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from disc_model.data.variables import (
+    OUTCOMES_TO_HORIZON,
+    SCALARS,
+    Variable,
+)
+from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, Row
+from disc_model.units import Count, Seconds, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+
+Array = NDArray[np.float64]
+T = TypeVar("T")
+Place = tuple[int, int]
+METHODS = ("none", "multipliers", "simulation", "inferred")
+JOINED = ("no", "yes")
+CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
+
+
+class Regions(Quantity):
+    """Outcomes over a plane of two parameters, computed more densely where they change.
+
+    horizon : s
+    initial_cell_size : initial side of a cell, in intervals of the grid
+    """
+
+    tol: Tolerance = 1e-8
+    horizon: Seconds
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+
+    motions: ClassVar = 4
+    motion: ClassVar = COME_TO
+    tiled: ClassVar = True
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "outcome": Variable("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+        "method": Variable("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
+        "first_separation": SCALARS["first_separation"],
+        "simulated_time": Variable("s", "simulated time"),
+        "cycle": Variable("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle that the static start follows"),
+        "period": Variable("s", "period of the cycle"),
+        "releases": Variable("1", "number of stick releases in its period", whole=True),
+        "period_ratio": Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
+        "branch_continues_first": Variable(
+            "1", "whether the cycle continues into the next point's along the plane's first dimension", JOINED
+        ),
+        "branch_continues_second": Variable(
+            "1", "whether the cycle continues into the next point's along the plane's second dimension", JOINED
+        ),
+        "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return WORK
+
+    def state_at(self, point: Point) -> State:
+        """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""
+        from disc_model.simulation.api import simulate
+        from disc_model.stability.attractor.outcome import find_outcome
+
+        p = point.parameters
+        found = find_outcome(p, self.horizon, tol=self.tol)
+        if found.near is not None and found.near.cycle.stable:
+            state = found.near.cycle.state
+            assert state is not None
+            return state
+        # to the horizon, or to what the separation leads to
+        end = self.horizon if found.state is None else found.state.time + 5.0
+        return simulate(p, end, tol=self.tol, initial_state=found.state).raise_for_status().final_state
+
+    def compute_tile(
+        self, points: Sequence[Sequence[Made]], sampled: Collection[tuple[int, int]]
+    ) -> list[list[tuple[Row, str]]]:
+        """Compute a tile; the outcome at the places `sampled` is computed in any case."""
+        from disc_model.studies.refinement import Tile
+
+        return Tile(points, sampled, **self.model_dump()).rows()

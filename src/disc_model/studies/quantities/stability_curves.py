@@ -1,0 +1,114 @@
+"""Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from pydantic import Field
+
+from disc_model.data.variables import Variable
+from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, listed
+from disc_model.studies.ranges import Range
+from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
+
+if TYPE_CHECKING:
+    pass
+
+KINDS = ("none", "neutral", "fold")
+SIDES = ("no", "yes")
+_ONE, _EACH = ("curve",), ("curve", "curve_point")
+
+
+class StabilityCurves(Quantity):
+    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
+
+    x, y : the parameters
+    x_range : from, to; cycles are searched for at `points` values in it
+    y_lines : values of y for this search; curves are followed from the first to the last, widened by `margin`
+    margin : fraction of the range of y, beyond the lines at both ends
+    max_step : arclength of the longest step along a curve
+    max_points : greatest number of points of a curve in each direction
+    max_curves : room for that many
+    """
+
+    x: Free = "Omega"
+    y: Free = "N"
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
+    y_lines: Annotated[Range, Unit(of="y")]
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    max_step: Positive = 0.1
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    tol: CycleTolerance = 1e-12
+
+    _rules = (
+        (lambda o: o.x != o.y, "x and y must differ"),
+        (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
+    )
+
+    scans: ClassVar = ("x", "y")
+    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+        "status": STATUS,
+        "n_curves": Variable("1", "number of curves found", whole=True),
+        "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
+        "kind": Variable(
+            "1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE
+        ),
+        "x": Variable("", "first parameter along the curve, SI units", dims=_EACH),
+        "y": Variable("", "second parameter along the curve, SI units", dims=_EACH),
+        "adjoins_stable_cycle": Variable("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
+        "period": Variable("s", "period of the cycle on the curve", dims=_EACH),
+        "multiplier_re": Variable("1", "real part of the leading multiplier", dims=_EACH),
+        "multiplier_im": Variable("1", "imaginary part of the leading multiplier", dims=_EACH),
+        "resonance_harmonic": Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
+        "resonance_frequency": Variable("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
+        "resonance_diameters": Variable("1", "l of that resonance", dims=_ONE, whole=True),
+        "resonance_sign": Variable("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
+        "resonance_detuning": Variable(
+            "Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE
+        ),
+    }
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+        "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
+        "curve_point": Coordinate("1", "number of the point along the curve", lambda o: range(2 * o.max_points)),
+    }
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of a point, s."""
+        return WORK
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Compute the curves of the plane; the point's own values of its two parameters are not used."""
+        from disc_model.stability.curves import stability_curves
+
+        lines = self.y_lines
+        margin = self.margin * (lines.stop - lines.start)
+        curves, notes = stability_curves(
+            point.parameters,
+            (self.x, self.y),
+            {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)},
+            lines.values,
+            points=self.points,
+            max_points=self.max_points,
+            longest=self.max_step,
+            tol=self.tol,
+        )
+        # the array holds the longest curve
+        rows = [
+            {
+                "kind": curve.kind,
+                "x": curve.values[:, 0],
+                "y": curve.values[:, 1],
+                "adjoins_stable_cycle": curve.adjoins_stable_cycle,
+                "period": curve.period,
+                "multiplier_re": curve.multipliers.real,
+                "multiplier_im": curve.multipliers.imag,
+                **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
+            }
+            for curve in sorted(curves, key=lambda curve: -len(curve.period))
+        ]
+        return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_continuation_failures": len(notes)}, ""

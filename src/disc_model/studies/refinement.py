@@ -1,0 +1,315 @@
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
+
+A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. Its multipliers give the
+outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else within the
+horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/algorithms.md,
+Regions, describes. Neutral curves and folds are thus resolved point by point, borders of separation to the grid's own
+intervals. In an undivided cell, points not decided by multipliers take the outcome of the simulated ones.
+"""
+
+import math
+from collections.abc import Callable, Collection, Sequence
+from itertools import pairwise, product
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.stability.attractor.neighbourhood import (
+    AMPLITUDES,
+    SAME_POINT,
+    NearCycle,
+    cycle_of_static_start,
+    departs_after,
+)
+from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
+from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.resonances import modes_at_rest
+from disc_model.stability.return_map import newton
+from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
+
+Array = NDArray[np.float64]
+T = TypeVar("T")
+Place = tuple[int, int]
+
+GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
+CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
+
+
+class Tile:
+    """A tile of the plane; the outcome at the places `sampled` is computed in any case."""
+
+    def __init__(
+        self,
+        points: Sequence[Sequence[Made]],
+        sampled: Collection[Place] = (),
+        *,
+        horizon: float,
+        tol: float,
+        initial_cell_size: int,
+    ) -> None:
+        self.horizon, self.tol, self.initial_cell_size = horizon, tol, initial_cell_size
+        self.shape = len(points), len(points[0])
+        self.points = {(i, j): point for i, row in enumerate(points) for j, point in enumerate(row)}
+        self.starts = {
+            place: point if isinstance(point, Exception) else _result_or_error(cycle_of_static_start, point)
+            for place, point in self.points.items()
+        }
+        self.results: dict[Place, OutcomeResult | Exception] = {}
+        self.filled: dict[Place, str] = {}
+        self.presumed: dict[Place, str] = {}
+        self.trends = {place: self._trend(place) for place in self.starts}
+        for place in sampled:
+            self.outcome(place)
+        rows, columns = (_edges(size, initial_cell_size) for size in self.shape)
+        known = -1
+        # a result on its edge may require a cell to be divided
+        while known < len(self.results) or self._confirm():
+            known = len(self.results)
+            self.filled.clear()
+            self.presumed.clear()
+            for across, along in product(pairwise(rows), pairwise(columns)):
+                self._refine(across, along)
+        self._check_what_is_filled()
+
+    def _own(self, place: Place) -> NearCycle | None:
+        """The cycle that the static start follows from its beginning."""
+        start = self.starts[place]
+        return start if isinstance(start, NearCycle) and start.follows_cycle else None
+
+    def _check_what_is_filled(self) -> None:
+        """Compute the points that their cell's corners do not decide.
+
+        Their start follows a growing cycle and yet was taken to stay quiet, or follows none though most neighbours do.
+        """
+        for (i, j), outcome in (self.presumed | self.filled).items():
+            beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
+            doubtful = outcome in CALM
+            if self._own((i, j)) is None:
+                # the strip of points without a cycle is thinner than the grid
+                doubtful = sum(self._own(there) is None for there in beside) <= 1
+            if doubtful:
+                self.outcome((i, j))
+
+    def _confirm(self) -> bool:
+        """Whether an outcome changes if its departure is simulated as a whole, where both points beside have another.
+
+        Multipliers do not keep the phase of a departure. Near a border it may decide about separation.
+        """
+        changed = False
+        for (i, j), found in list(self.results.items()):
+            if not isinstance(found, OutcomeResult) or found.departed is None:
+                continue
+            sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
+            beside = {self._shown(one) for one, other in sides if self._shown(one) == self._shown(other)}
+            if any(both != found.word and {both, found.word} - GROWN == {Outcome.SEPARATION} for both in beside):
+                whole = self._result((i, j), furthest=0.0)
+                self.results[i, j] = whole.after(found) if isinstance(whole, OutcomeResult) else whole
+                changed |= self.outcome((i, j)) != found.word
+        return changed
+
+    def _shown(self, place: Place) -> str | None:
+        """The outcome at a point as far as it is known."""
+        if place in self.results:
+            return self.outcome(place)
+        return self.trends.get(place) or self.filled.get(place, self.presumed.get(place))
+
+    def outcome(self, place: Place) -> str:
+        """Outcome of the static start at a point, computed once."""
+        if place not in self.results:
+            self.results[place] = self._result(place)
+        found = self.results[place]
+        return found.word if isinstance(found, OutcomeResult) else "failed"
+
+    def _result(self, place: Place, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
+        start = self.starts[place]
+        if isinstance(start, Exception):
+            return start
+        how = {"tol": self.tol, "near": start, "furthest": furthest}
+        return _result_or_error(find_outcome, self.points[place], self.horizon, **how)
+
+    def _trend(self, place: Place) -> str:
+        """The outcome at a point from the multipliers, or "" if they leave it open."""
+        start = self._own(place)
+        if start is None:
+            return ""
+        if start.cycle.stable:
+            return Outcome.QUIET
+        return Outcome.GROWING if departs_after(start, self.horizon) else ""
+
+    def _refine(self, rows: Place, columns: Place) -> None:
+        """Divide a cell, given by the indices of its edges, or fill it."""
+        inside = list(product(range(rows[0], rows[1] + 1), range(columns[0], columns[1] + 1)))
+        undecided = [place for place in inside if not self.trends[place]]
+        if not undecided:
+            return
+        corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
+        for place in corners or ([] if any(place in self.results for place in undecided) else [_middle(undecided)]):
+            if place not in self.presumed:
+                self.outcome(place)
+        # Between slow growth and separation there may be faster growth, still without separation. If all corners show
+        # only that, stripes of separation may lie between them: these cells are divided once more.
+        outcomes = {self.outcome(place) for place in undecided if place in self.results}
+        outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
+        outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
+        halves = [_halves(*edges) for edges in (rows, columns)]
+        side = max(rows[1] - rows[0], columns[1] - columns[0])
+        most = max(1, self.initial_cell_size // 2)
+        if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
+            # late separations depend on rounding: all corners may miss them by chance
+            outcomes.add(self.outcome(_middle(undecided)))
+        if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
+            self.filled |= {place: next(iter(outcomes)) for place in undecided}
+        elif len(halves[0]) * len(halves[1]) > 1:
+            if side <= 2:
+                self._presume(rows, columns)
+            for i, j in product(*halves):
+                self._refine(i, j)
+
+    def _presume(self, rows: Place, columns: Place) -> None:
+        """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside it may differ."""
+        edges = [((row, columns[0]), (row, columns[1])) for row in rows]
+        edges += [((rows[0], column), (rows[1], column)) for column in columns]
+        for one, two in edges:
+            middle = (one[0] + two[0]) // 2, (one[1] + two[1]) // 2
+            if middle not in (one, two) and not self.trends[middle] and self._format(one) == self._format(two):
+                self.presumed.setdefault(middle, self._format(one))
+
+    def _format(self, place: Place) -> str:
+        """The outcome at a corner, computed or presumed."""
+        if self.trends[place]:
+            return self.trends[place]
+        return self.presumed[place] if place not in self.results else self.outcome(place)
+
+    def rows(self) -> list[list[tuple[Row, str]]]:
+        """Values and message of each point."""
+        others = self._others()
+        self.followed = {place: self._follow(place) for place in self.starts}
+        return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
+
+    def _follow(self, place: Place) -> NearCycle | None:
+        """The cycle that the static start follows at a point, if that is known.
+
+        This is the point's own cycle as long as the motion departs from it. The later motion is known at simulated
+        points only, which would then differ from their neighbours.
+        """
+        own, found = self._own(place), self.results.get(place)
+        if not isinstance(found, OutcomeResult):
+            return own
+        return own if own is not None and found.outcome is not Outcome.QUIET else found.near
+
+    def _joined(self, here: Place, ahead: Place) -> str:
+        """Whether, and how, a point's cycle continues into the cycle of the next point."""
+        one, two = self.followed.get(here), self.followed.get(ahead)
+        if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
+            return "no"
+        size = two.map.deflection
+        # in units of the static deflection, which varies with the parameters
+        x = one.x * size / one.map.deflection
+        if np.linalg.norm(x - two.x) <= 0.002 * size:  # smoothly
+            return "yes"
+        found = newton(two.map, x, releases=two.cycle.releases)
+        return "yes" if found is not None and np.linalg.norm(found.start - two.x) <= SAME_POINT * size else "no"
+
+    def _row(self, place: Place, others: int) -> tuple[Row, str]:
+        start, found = self.starts[place], self.results.get(place)
+        if isinstance(start, Exception):
+            return failed(start)
+        if isinstance(found, Exception):
+            return failed(found)
+        row: dict[str, Any] = {
+            "status": "ok",
+            "other_cycles": others,
+            "branch_continues_first": self._joined(place, (place[0] + 1, place[1])),
+            "branch_continues_second": self._joined(place, (place[0], place[1] + 1)),
+        }
+        if found is None:
+            row |= {"outcome": self._shown(place), "method": "multipliers" if self.trends[place] else "inferred"}
+        else:
+            row |= {
+                "status": found.status,
+                "outcome": found.word,
+                "method": "simulation" if found.simulated else "multipliers",
+                "first_separation": found.first_separation,
+                "simulated_time": found.simulated,
+            }
+        followed = self.followed[place]
+        if followed is None:
+            row["cycle"] = _without(start, found)
+        else:
+            cycle = followed.cycle
+            lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
+            row |= {
+                "cycle": "followed",
+                "growth_rate": cycle.growth_rate,
+                "period": cycle.period,
+                "releases": cycle.releases,
+                "period_ratio": cycle.period * lowest,
+            }
+        return row, "" if found is None else found.message
+
+    def _others(self) -> dict[Place, int]:
+        """Number of known cycles at each point besides the one nearest to the start.
+
+        Each row is followed in both directions. A cycle that does not continue into the next point's own cycle is
+        searched for there.
+        """
+        known = {place: [start.x] if isinstance(start, NearCycle) else [] for place, start in self.starts.items()}
+        for i in range(self.shape[0]):
+            row = [(i, j) for j in range(self.shape[1])]
+            for before, here in (*pairwise(row), *pairwise(row[::-1])):
+                self._carry(known, before, here)
+        return {place: max(0, len(cycles) - 1) for place, cycles in known.items()}
+
+    def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:
+        start, there = self.starts[here], self.starts[before]
+        if not (isinstance(start, NearCycle) and isinstance(there, NearCycle)) or start.x.shape != there.x.shape:
+            return
+        size = start.map.deflection
+        # in units of the static deflection, which varies with the parameters
+        scale = size / there.map.deflection
+        for cycle in known[before]:
+            if len(known[here]) >= 4:  # further ones cost too much
+                return
+            if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= 0.02 * size:  # not another one
+                continue
+            found = newton(start.map, scale * cycle, releases=there.cycle.releases)
+            if found is not None and min(np.linalg.norm(found.start - x) for x in known[here]) > SAME_POINT * size:
+                known[here].append(found.start)
+
+
+def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
+    try:
+        return compute(*arguments, **named)
+    except NUMERICAL as error:
+        return error
+
+
+def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> str:
+    """The flag of a point whose motion follows no cycle."""
+    if found is not None and found.outcome is Outcome.STEADY_SLIDING:
+        return "steady_sliding"
+    if isinstance(start, NearCycle):
+        return "nearby_only"
+    if start.status is CycleStatus.AT_REST:
+        return "at_rest"
+    return "steady_sliding" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "no_cycle"
+
+
+def _middle(places: Sequence[Place]) -> Place:
+    """The place nearest to the middle of several places; the first of equally near ones."""
+    middle = np.mean(places, axis=0)
+    return min(places, key=lambda place: (float(np.sum((np.array(place) - middle) ** 2)), place))
+
+
+def _edges(size: int, coarse: int) -> list[int]:
+    """Indices of the edges of coarse cells along `size` points; a single point is both edges of its cell."""
+    cells = max(1, math.ceil((size - 1) / coarse))
+    return [round(i * (size - 1) / cells) for i in range(cells + 1)]
+
+
+def _halves(first: int, last: int) -> list[Place]:
+    """The two halves of an interval of indices, or the interval itself if it cannot be divided."""
+    middle = (first + last) // 2
+    return [(first, middle), (middle, last)] if middle > first else [(first, last)]

@@ -1,0 +1,168 @@
+"""Computation of one batch of a grid study: a quantity at each point, as variables with units."""
+
+import json
+import logging
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.provenance import git_commit, versions
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
+from disc_model.disc.plate import mode_arrays
+from disc_model.disc.truncation import read_asked
+from disc_model.errors import DiscModelError
+from disc_model.mode_choice import chosen_modes
+from disc_model.parameters import AUTO, case_of
+from disc_model.simulation.case import Start
+from disc_model.sources import source_hash
+from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
+
+# ----------------------------------------------------------------------------------------------------
+# Batches
+
+log = logging.getLogger(__name__)
+POINT = "point"
+
+
+def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
+    """Compute a batch, given as a text from `disc_model.studies.study.GridStudy.batches`.
+
+    The dataset has the quantity's variables along `point`, and the parameters that vary beside them. A function `of`
+    the quantity makes what is computed instead of it.
+    """
+    data = json.loads(text)
+    quantity = quantity_of(data["quantity"]).model_validate(data["options"])
+    computed = quantity if of is None else of(quantity)
+    names, points = data["names"], data["points"]
+    own_start = Start.model_fields.keys() & type(quantity).model_fields.keys()
+    start = Start(**{name: getattr(quantity, name) for name in own_start})
+    varied = [dict(zip(names, point, strict=True)) for point in points]
+    chosen = data["base"].get("n_diameters") == AUTO
+    # a tile makes its own
+    parameters = [_made(data, values) for values in varied] if chosen or "tile" not in data else []
+    began = time.process_time()
+    if "tile" in data and of is None:
+        found = list(_over_tile(quantity, data))
+    else:
+        starts = {name: Start.model_validate(stated) for name, stated in data.get("starts", {}).items()}
+        each = zip(parameters, varied, strict=True)
+        found = [compute(computed, _point(p, values, start, starts)) for p, values in each]
+    log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
+    rows, messages = zip(*found, strict=True)
+    for values, message in zip(varied, messages, strict=True):
+        if message:
+            log.warning("%s: %s", values, message)
+    own = coordinates_of(computed.COORDINATES, quantity)
+    variables = variables_of(computed.COLUMNS, own, rows, {POINT: len(rows)})
+    if chosen:
+        for name in ("diameters", "circles"):  # -1 without a choice
+            highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
+            variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
+    variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"})
+    coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
+    attrs = {
+        "Conventions": CONVENTIONS,
+        "specification": text,
+        "source_hash": source_hash(__name__, type(quantity).__module__),
+        "git_commit": git_commit(),
+        "versions": json_attribute(versions()),
+    }
+    return xr.Dataset(variables, coords | own, attrs)
+
+
+def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
+    """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order.
+
+    Each combination of the other varying parameters is a tile of its own.
+    """
+    (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
+    tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
+    for point in data["points"]:
+        others = dict(zip(data["names"], point, strict=True))
+        i, j = rows.index(others.pop(first)), columns.index(others.pop(second))
+        key = tuple(others.values())
+        if key not in tiles:
+            made = [[_made(data, others | {first: y, second: x}) for x in columns] for y in rows]
+            tiles[key] = quantity.compute_tile(made, [(a, b) for a, b in data["tile"]["sampled"]])
+        yield tiles[key][i][j]
+
+
+def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str, Start]) -> Point | DiscModelError:
+    """A point with its parameters and everything else that varies."""
+    if isinstance(p, DiscModelError):
+        return p
+    start = starts[varied[START]] if START in varied else start
+    whole: dict[str, float] = {str(name): value for name, value in start.perturbation.items()}
+    for name in varied.keys() & PERTURBATIONS.keys():
+        coordinate = name.removeprefix("perturbation_")
+        whole[coordinate] = whole.get(coordinate, 0.0) + varied[name]
+    return Point(p, start.model_copy(update={"perturbation": whole}), varied.get(SAMPLE, 0))
+
+
+def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
+    """The parameters of a point, or the error if no number of modes meets the tolerance."""
+    values = case_of({**data["base"], **varied}, data.get("discs", {}))
+    try:
+        p, asked = read_asked(values)
+        return p if asked is None else chosen_modes(p, asked).parameters
+    except DiscModelError as error:
+        return error
+
+
+def describe(name: str) -> dict[str, Any]:
+    """Attributes of a varying parameter as a coordinate; choices are stored as words, without unit."""
+    described = attributes(name)
+    return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
+
+
+# ----------------------------------------------------------------------------------------------------
+# Quantities: rows of results, one for each point, as arrays
+
+
+def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
+    """Values along a quantity's own dimensions, beyond those of the grid."""
+    variables = {}
+    for name, (units, long_name, values) in coordinates.items():
+        described = Variable(units, long_name.format(quantity))
+        variables[name] = xr.Variable(name, np.array(values(quantity)), described.attributes)
+    return variables
+
+
+def compute(quantity: Any, point: Point | DiscModelError) -> tuple[Row, str]:
+    """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
+    if isinstance(point, DiscModelError):
+        return failed(point)
+    return tried("status", quantity.compute_point, point)
+
+
+def variables_of(
+    columns: Mapping[str, Variable], own: Mapping[str, xr.Variable], rows: Sequence[Row], sizes: Mapping[str, int]
+) -> dict[str, xr.Variable]:
+    """Rows as variables along dimensions of these sizes, the last one fastest, and along the quantity's own."""
+    variables = {}
+    for name, column in columns.items():
+        array = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
+        for i, row in enumerate(rows):
+            if name in row:
+                _store(row[name], array, (i,), column)
+        array = array.reshape((*sizes.values(), *array.shape[1:]))
+        variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
+    return variables
+
+
+def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Variable) -> None:
+    """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
+    room = array.shape[len(place) :]
+    if isinstance(value, list):
+        for i, item in enumerate(value[: room[0]]):
+            _store(item, array, (*place, i), column)
+    elif isinstance(value, np.ndarray) and value.ndim:
+        kept = value[tuple(map(slice, room))]
+        array[place][tuple(map(slice, kept.shape))] = kept
+    elif value is not None:
+        array[place] = column.flags.index(value) if isinstance(value, str) else value

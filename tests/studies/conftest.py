@@ -1,0 +1,152 @@
+"""Followed motions, sweeps and curves whose outcome is known, and what quantities make of them."""
+
+import json
+import math
+from collections.abc import Iterable
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.analysis.settling import Settled, Settling
+from disc_model.errors import Status
+from disc_model.stability.attractor import classification
+from disc_model.stability.attractor.outcome import OutcomeResult, Segment
+from disc_model.studies import run
+from disc_model.studies.merge import merge_batches
+from disc_model.studies.quantities import critical_speed
+from disc_model.studies.quantity import STATUSES
+from disc_model.studies.run import run_batch
+from tests.stability.toy_map import fold_at, outside, toy
+from tests.studies.refused import parse_grid
+
+__all__ = ["toy"]
+SMALL = {"n_diameters": 1}
+
+
+def study(**changes: Any) -> dict[str, Any]:
+    """A small study, with some keys changed."""
+    raw = {
+        "study": "small",
+        "quantity": "outcome",
+        "options": {"horizon": 2, "evaluation_time": 0.2, "after_separation": 0.2},
+        "axes": {"N": [100, 200, 300], "Omega": {"start": 10, "stop": 20, "count": 3}},
+        "batch": {"over": ["Omega"], "size": 2},
+    }
+    return {**raw, **changes}
+
+
+def computed(**raw) -> xr.Dataset:
+    study = parse_grid({"study": "small", **raw})
+    return merge_batches([run_batch(text) for text in study.batches.values()], study.grid, study.attrs)
+
+
+class Table(NamedTuple):
+    """Arrays by variable, shape (points, ...), and a message for each point, empty without an error."""
+
+    arrays: dict[str, np.ndarray]
+    messages: list[str]
+
+
+def compute(quantity: Any, points: Iterable[Any]) -> Table:
+    """A quantity at some points."""
+    rows, messages = zip(*(run.compute(quantity, point) for point in points), strict=True)
+    own = run.coordinates_of(quantity.COORDINATES, quantity)
+    variables = run.variables_of(quantity.COLUMNS, own, rows, {"point": len(rows)})
+    return Table({name: found.values for name, found in variables.items()}, list(messages))
+
+
+SCAN = {"start": 12, "stop": 15, "step": 0.5}
+
+
+@pytest.fixture
+def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
+    def motion(p, options):
+        """Separation never comes below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
+        never = p.Omega < 12.35 or 14.15 < p.Omega < 14.45
+        first, horizon = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12), options.horizons[-1]
+        first_separation = first if first <= horizon else math.nan
+        return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
+
+    def arrival(p, leg, tol):
+        """All have settled."""
+        return classification.Arrival(Settling(Settled.SETTLED))
+
+    def carried_on(p, until, *, tol, initial_state):
+        """Separation begins at 14 rad/s on the way up, and stays down to 13."""
+        apart = p.Omega >= 14 or (initial_state is not None and initial_state.apart and p.Omega >= 13)
+        state = SimpleNamespace(time=until, apart=apart)
+        return SimpleNamespace(final_state=state, status=Status.OK, message="")
+
+    def final_segment(p, state, duration, late, tol):
+        assert (duration, late) == (2, 2)
+        apart = state.apart
+        share = 0.25 if apart else 0.0
+        values = dict.fromkeys(Segment.__dataclass_fields__, 0.0)
+        found = Segment(
+            **values | {"separation_fraction": share, "slip_fraction": 1 - share, "separation_rate": 40 * share}
+        )
+        return SimpleNamespace(final_state=state, status=Status.OK, message=""), found
+
+    monkeypatch.setattr(critical_speed, "motion", motion)
+    for name, fake in (("arrival", arrival), ("simulate", carried_on), ("final_segment", final_segment)):
+        monkeypatch.setattr(classification, name, fake)
+
+
+@pytest.fixture
+def speeds(fake_motions: None) -> xr.Dataset:
+    options = {"horizons": [900, 1000], "scan": SCAN, "precision": 0.1}
+    return computed(
+        quantity="critical_speed", options=options, axes={"N": [200, 400], "normalization": ["as_published"]}
+    )
+
+
+@pytest.fixture
+def sweep(fake_motions: None) -> xr.Dataset:
+    options = {"scan": SCAN, "dwell": 60, "evaluation_time": 2}
+    return computed(quantity="hysteresis", options=options, axes={"N": [200, 400], "normalization": ["as_published"]})
+
+
+@pytest.fixture
+def plane(toy: None) -> xr.Dataset:
+    options = {"x_range": [3, 18], "y_lines": {"start": 180, "stop": 420, "count": 3}, "points": 9, "max_points": 60}
+    return computed(quantity="stability_curves", options=options, axes={"normalization": ["as_published"]})
+
+
+def growth_over(N, Omega) -> xr.Dataset:
+    """Growth of the toy's cycle; nan beyond the fold."""
+    load, speed = np.meshgrid(N, Omega, indexing="ij")
+    rate = np.where(speed < fold_at(load), outside(speed, load), np.nan)[..., None]
+    axes = {"N": np.asarray(N, float), "Omega": np.asarray(Omega, float), "normalization": ["as_published"]}
+    return xr.Dataset({"growth_rate": (("N", "Omega", "normalization"), rate)}, axes)
+
+
+def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
+    """The study with one point that failed; numbers that it has are not to be believed."""
+    study = study.copy(deep=True)
+    study["status"].loc[place] = STATUSES.index("failed")
+    return study
+
+
+def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
+    """Samples and exponents over three loads, for base values with this normalization."""
+    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(STATUSES)})
+    axes = {"N": ("N", [1.0, 2, 3], {"units": "N"})}
+    attrs = {"base": json.dumps({"normalization": normalization}), "options": json.dumps({"section": "stroboscopic"})}
+    known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
+    samples = {"phase": (("N", "sample"), np.ones((3, 2), np.int8)), "psi": (("N", "sample"), np.ones((3, 2)))}
+    answers = {"flag_meanings": "undecided changing settled"}
+    samples |= {"settled": ("N", np.full(3, 2, np.int8), answers), "period_events": ("N", np.zeros(3, int))}
+    samples["kind"] = ("N", np.zeros(3, np.int8), {"flag_meanings": "failed undecided steady_sliding"})
+    exponents = {name: (each, np.ones((3, 1))) for name in ("exponent", "exponent_error")}
+    exponents["converged"] = (each, np.zeros((3, 1), np.int8), known)
+    one, other = (xr.Dataset(values | {"status": status}, axes, attrs) for values in (samples, exponents))
+    return one, other
+
+
+def in_base(study: xr.Dataset) -> xr.Dataset:
+    """The study as if its one normalization were given in base."""
+    attrs = {"base": json.dumps({"normalization": str(study["normalization"].item())})}
+    return study.squeeze("normalization", drop=True).assign_attrs(attrs)

@@ -1,0 +1,116 @@
+"""Shares of what many starts come to, and the critical energy of separation."""
+
+from types import SimpleNamespace
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import Outcome
+from disc_model.errors import Status
+from disc_model.parameters import Parameters
+from disc_model.stability.attractor import classification
+from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
+from disc_model.studies.quantities import basins
+from disc_model.studies.quantities.basins import AttractorBasins
+from disc_model.studies.quantity import STATUSES, Point
+from tests.stability.test_attractor import stretch
+from tests.studies.conftest import compute, computed
+
+CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
+QUIET = Attractor(Outcome.QUIET, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
+APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
+
+
+class Made:
+    """Of a start i, what is kicked by more than `least` separates, in J; further starts are as said."""
+
+    classes: ClassVar[dict[int, OutcomeResult]] = {}
+
+    def __init__(self, p, horizon, **_) -> None:
+        self.p, self.known = p, [QUIET, APART]
+
+    @staticmethod
+    def least(p: Parameters, i: int) -> float:
+        return 0.02 * (i + 1)
+
+    def reached(self, state: tuple[float, int]) -> OutcomeResult:
+        energy, i = state
+        if i in self.classes:
+            return self.classes[i]
+        attractor = APART if energy > self.least(self.p, i) else QUIET
+        return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(classification, "Basins", Made)
+    monkeypatch.setattr(classification, "random_perturbation", lambda p, state, energy, key: (energy, key[2]))
+
+
+def found(**options):
+    return compute(AttractorBasins.model_validate(options), [Point(Parameters(N=385, Omega=14))])
+
+
+def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
+    """Three of ten: 0.108 to 0.603 (Wilson 1927, at 95 %)."""
+    table = found(energies=[0.07], n_starts=10).arrays
+    classes = list(basins.CLASSES)
+    place = (0, classes.index("separating"))
+    assert table["basin_fraction"][place] == 0.3
+    assert table["basin_fraction_low"][place] == pytest.approx(0.1078, abs=1e-4)
+    assert table["basin_fraction_high"][place] == pytest.approx(0.6032, abs=1e-4)
+    assert table["basin_fraction"][0, classes.index("quiet")] == 0.7
+    assert table["basin_fraction_low"][0, classes.index("undecided")] == pytest.approx(0, abs=1e-12)
+    assert table["basin_fraction_by_energy"][0, 0].sum() == 1
+    assert table["attractor_starts"][0, :3].tolist() == [7, 3, 0]
+    assert table["attractor_index"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
+
+
+def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
+    table = found(energies=[0.05, 1.0], n_starts=3, n_bisection_directions=2, precision=0.01).arrays
+    assert table["critical_energy_sampled"] == 0.05
+    low, high = table["critical_energy_lower"][0], table["critical_energy"][0]
+    assert low <= 0.02 < high <= low * 1.01
+    assert np.isnan(found(energies=[0.01], n_starts=3).arrays["critical_energy"][0])
+
+
+def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    lost = OutcomeResult(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
+    monkeypatch.setattr(Made, "classes", {1: lost, 2: OutcomeResult(Outcome.UNDECIDED, 200.0)})
+    table = found(energies=[0.1], n_starts=4)
+    classes = list(basins.CLASSES)
+    assert STATUSES[table.arrays["status"][0]] == "ok"
+    assert table.arrays["basin_fraction"][0, classes.index("failed")] == 0.25
+    assert table.arrays["basin_fraction"][0, classes.index("undecided")] == 0.25
+    assert table.messages == ["1 of 4 starts failed, such as paradox: at t = 3 s"]
+    assert (table.arrays["attractor_index"][0, 0] > 0).tolist() == [True, False, False, True]
+    monkeypatch.setattr(Made, "classes", dict.fromkeys(range(4), lost))
+    assert STATUSES[found(energies=[0.1], n_starts=4).arrays["status"][0]] == "paradox"
+
+
+@pytest.mark.compiled
+def test_shares_are_the_same_to_the_last_digit_whatever_the_batch() -> None:
+    """And more starts leave those before as they are."""
+    study = {
+        "quantity": "basins",
+        "options": {"energies": [0.1, 1.0], "n_starts": 2, "seed": 7, "horizon": 60, "n_bisection_directions": 0},
+        "base": {"N": 385},
+        "axes": {"Omega": [14.5, 15]},
+    }
+    one, two = (computed(**study, batch={"size": size}) for size in (1, 2))
+    for name in one.data_vars:
+        assert np.array_equal(one[name].values, two[name].values, equal_nan=one[name].dtype.kind == "f"), name
+    more = computed(**study | {"options": study["options"] | {"n_starts": 3}})
+    assert np.array_equal(more["kind"].sel(start=[0, 1]).values, one["kind"].values)
+    assert np.array_equal(more["simulated_time"].sel(start=[0, 1]).values, one["simulated_time"].values)
+
+
+@pytest.mark.compiled
+def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
+    """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
+    axes = {"perturbation_u": [1e-4, 3e-4], "perturbation_u_velocity": [0.0]}
+    options = {"horizon": 200, "n_bisection_directions": 0}
+    plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
+    kinds = plane["kind"].squeeze().values
+    assert [basins.LONG_TERM_OUTCOMES[kind] for kind in kinds] == ["quiet", "separating"]

@@ -1,0 +1,159 @@
+"""What a motion settles to, sampled at switches or once a turn of the drive."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import Outcome
+from disc_model.errors import ParameterError
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import make_initial_state, simulate
+from disc_model.simulation.case import Poincare, Record, Start
+from disc_model.studies.quantities.bifurcation import Bifurcation
+from disc_model.studies.quantity import Point
+from tests.stability.test_attractor import SMALL, paradox
+
+APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
+
+
+def test_samples_are_those_of_the_simulator() -> None:
+    p = Parameters(N=200, Omega=50, n_diameters=1)
+    values, _ = Bifurcation(transient=0.1, samples=2, tol=1e-9).compute_point(Point(p))
+    turn = 2 * math.pi / p.Omega
+    run = simulate(p, 2.6 * turn, tol=1e-9, record=Record(poincare=Poincare(start=0.9 * turn)))
+    np.testing.assert_allclose(values["psi"], run.poincare["psi"], rtol=0, atol=1e-7)
+    assert values["status"] == "ok"
+
+
+@pytest.mark.parametrize("section", ["stroboscopic", "event"])
+def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatch, section: str) -> None:
+    p, start = paradox()
+    monkeypatch.setattr("disc_model.simulation.api.make_initial_state", lambda *_: start)
+    options = Bifurcation(transient=0.1, samples=2, section=section)
+    values, message = options.compute_point(Point(p))
+    assert (values["status"], len(values.get("psi", ())), len(values.get("phase", ()))) == ("paradox", 0, 0)
+    assert message == "the simulation ended early: paradox"
+
+
+def test_without_a_drive_there_is_no_turn_to_sample_once() -> None:
+    p = Parameters(N=200, Omega=0, n_diameters=1)
+    with pytest.raises(ParameterError, match="Omega=0: must be > 0, because samples are taken once a turn"):
+        Bifurcation(transient=0.1, samples=2).compute_point(Point(p))
+
+
+def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
+    """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
+    options = Bifurcation(section="event", samples=samples, **how)
+    values, message = options.compute_point(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)))
+    assert (message == "") == (values["settled"] == "settled")
+    return values
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("p", "kind", "transient"),
+    [
+        (SMALL, Outcome.QUIET, 2.0),
+        (Parameters(N=200, Omega=0), Outcome.AT_REST, 2.0),
+        (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, 2.0),
+        # contact is first lost at 11 s; the cycle that it comes to has 86 separations
+        (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATING, 32.0),
+    ],
+)
+def test_a_transient_is_doubled_until_the_motion_has_settled(p: Parameters, kind: Outcome, transient: float) -> None:
+    options = Bifurcation(section="event", transient=2, max_transient=600, samples=5)
+    values, message = options.compute_point(Point(p))
+    assert (values["kind"], values["transient_time"], message) == (kind, transient, "")
+    assert len(values["psi"]) == (0 if kind in (Outcome.AT_REST, Outcome.STEADY_SLIDING) else 5)
+
+
+def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_limit() -> None:
+    p = Parameters(N=385, Omega=15.1, n_diameters=-1)
+    values, _ = Bifurcation(section="event", transient=600, samples=5).compute_point(Point(p))
+    assert (values["period_events"], values["settled"]) == (1, "settled")
+    assert values["psi"] == pytest.approx([p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9)  # at a tolerance of 1e-10
+
+
+@pytest.mark.compiled
+def test_a_motion_on_a_torus_has_no_period() -> None:
+    """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus is unstable."""
+    options = Bifurcation(transient=600, section="event", max_transient=600, samples=50)
+    values, _ = options.compute_point(Point(Parameters(N=516.666666667, Omega=12.734375)))
+    assert (values["separations"], values["period_events"], values["settled"]) == (0, 0, "settled")
+    assert values["kind"] is Outcome.QUASI_PERIODIC
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+def test_a_slow_approach_to_a_cycle_is_not_taken_for_a_torus() -> None:
+    """At 200 N disturbances die out by 0.009/s; the 0-1 test takes what is left of them for a torus."""
+    options = Bifurcation(section="event", transient=120, max_transient=120)
+    values, _ = options.compute_point(Point(Parameters(N=200, Omega=15), Start(prerun=APART)))
+    assert (values["period_events"], values["kind"]) == (0, Outcome.SEPARATING)
+
+
+@pytest.mark.compiled
+def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
+    """At 120 s intervals repeat to 1e-12 s, and the angle still drifts, by 1e-5 rad/s: it takes minutes more."""
+    early, late = (at_switches(7.5, transient=transient, max_transient=transient) for transient in (120, 480))
+    assert (early["settled"], early["period_events"]) == ("changing", 0)
+    assert (late["settled"], late["period_events"]) == ("settled", 1)
+
+
+@pytest.mark.compiled
+def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
+    """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
+    values = at_switches(20, transient=15)
+    assert (values["period_events"], values["settled"]) == (21, "settled")
+    assert values["transient_time"] < 100
+    assert 1e-11 < values["period_residual"] < 1e-6
+    # what is shown is the cycle itself
+    assert np.ptp(np.reshape(values["psi"][-42:], (2, 21)), axis=0).max() < 1e-9
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("Omega", "period", "phase"), [(9.5, 1, "stick"), (14.5, 2, "separation")])
+def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: float, period: int, phase: str) -> None:
+    values = at_switches(Omega, transient=60, samples=100)
+    assert (values["settled"], values["period_events"]) == ("settled", period)
+    assert len(np.unique(np.round(values["psi"], 5))) == period
+    assert set(values["phase"]) == {phase}
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+def test_a_motion_that_repeats_after_a_thousand_separations_is_periodic() -> None:
+    """It was said to have no period: a stretch of 5 s has 677 separations, and cycles were looked for in half of it."""
+    start = Start(prerun={"parameters": {"N": 385, "Omega": 15.1, "c_p": 0}, "time": 70})
+    options = Bifurcation(section="event", transient=120, max_transient=120)
+    values, _ = options.compute_point(Point(Parameters(N=385, Omega=15, c_p=0.15), start))
+    assert (values["period_events"], values["settled"], values["kind"]) == (1066, "settled", Outcome.SEPARATING)
+    assert values["period_residual"] < 1e-8
+
+
+@pytest.mark.compiled
+def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
+    """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
+    values = at_switches(22.25, transient=30, max_transient=30)
+    assert (values["period_events"], values["settled"]) == (40, "settled")
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+@pytest.mark.parametrize("N", np.random.default_rng(55).choice(np.linspace(100, 600, 201), 10, False).tolist())
+def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settled(N: float) -> None:
+    """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of 5 s hid."""
+    p, start = Parameters(N=N, Omega=15.1), Start(prerun=APART)
+    options = Bifurcation(section="event", transient=15, max_transient=1920, samples=200)
+    values, _ = options.compute_point(Point(p, start))
+    if values["settled"] != "settled":
+        return
+    later = simulate(p, values["transient_time"] + 2000, initial_state=make_initial_state(p, start, 1e-10)).final_state
+    events = simulate(p, later.time + 5, initial_state=later).events
+    kind = {"separation": "separation", "stick": "stick_to_slip"}[values["phase"][0]]
+    psi = events["psi"][events["kind"] == kind].to_numpy()[-200:]
+    ends = [(angles.min(), angles.max()) for angles in (psi, values["psi"])]
+    # settled: the width changes by less than 5 % in 1000 s, or is below a thousandth of the angle
+    assert ends[0] == pytest.approx(ends[1], abs=max(0.1 * np.ptp(values["psi"]), 1e-3 * psi.max()))

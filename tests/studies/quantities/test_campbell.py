@@ -1,0 +1,156 @@
+"""Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do there."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.optimize import brentq
+
+from disc_model.data.variables import flag_names
+from disc_model.parameters import Parameters
+from disc_model.stability.campbell import frequencies
+from disc_model.studies.merge import summarised
+from disc_model.studies.quantities.campbell import Campbell
+from tests.studies.conftest import SMALL, computed
+
+
+def words(study: xr.Dataset, name: str) -> list[str]:
+    return flag_names(study[name]).tolist()
+
+
+@pytest.mark.compiled
+def test_a_crossing_is_where_root_finding_says() -> None:
+    """Between speeds f_s is almost straight."""
+    base = {"N": 200, **SMALL}
+    found = computed(quantity="campbell", options={}, base=base, axes={"Omega": {"start": 9, "stop": 13, "step": 0.25}})
+    assert set(words(found, "status")) == {"ok"}
+    count = int(found["n_crossings"])
+    assert count
+    for i in range(count):
+        one = found.isel(crossing=i)
+        mode, multiple = int(one["crossing_mode"]) - 1, float(one["crossing_multiple"])
+
+        def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
+            there = frequencies(Parameters(Omega=speed, **base))
+            own = there.cycle_frequency if np.isfinite(there.cycle_frequency[mode]) else there.frequency
+            return multiple / there.cycle.period - float(own[mode])
+
+        speed = float(one["crossing_Omega"])
+        # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s
+        assert speed == pytest.approx(brentq(detuning, speed - 0.25, speed + 0.25, xtol=1e-6), abs=0.02)
+        assert words(one, "crossing_line") == "stick_slip"
+
+
+def test_a_row_has_the_modes_of_its_point() -> None:
+    found = computed(quantity="campbell", options={"modes": 5}, base={"N": 200, **SMALL}, axes={"Omega": [0, 20]})
+    assert words(found, "status") == ["at_rest", "ok"]
+    there = frequencies(Parameters(N=200, Omega=20, **SMALL))
+    n = len(there.frequency)
+    one = found.sel(Omega=20)
+    np.testing.assert_array_equal(one["sliding_frequency"][:n], there.frequency)
+    np.testing.assert_array_equal(one["cycle_growth_rate"][:n], there.cycle_growth_rate)
+    assert words(one, "mode_kind") == ["slider", "disc", "disc", "disc", "none"]
+    assert float(one["rotation_frequency"]) == pytest.approx(20 / (2 * math.pi))
+    assert np.isnan(found.sel(Omega=0)["sliding_frequency"]).all()
+
+
+def made_up(**changes: Any) -> xr.Dataset:
+    """f_s = 10 Omega, a mode at 100 Hz with l = 1: crossings of n f_s at 20 / 2 n, of f_Omega at 200 pi."""
+    speeds = np.linspace(8, 12, 401)
+    rate = -0.2 + 0.1 / (1 + ((speeds - 10) / 0.02) ** 2)
+    values = {
+        "growth_rate": rate,
+        "stick_slip_frequency": 10 * speeds,
+        "rotation_frequency": speeds / (2 * np.pi),
+        "diameters": np.ones((401, 1), int),
+        "sliding_frequency": np.full((401, 1), 100.0),
+        "cycle_frequency": np.full((401, 1), 100.0),
+        "mac": np.ones((401, 1)),
+        "cycle_growth_rate": rate[:, None],
+    } | changes
+    dims = {1: "Omega", 2: ("Omega", "mode")}
+    made = {name: (dims[value.ndim], value) for name, value in values.items()}
+    made["status"] = ("Omega", np.zeros(401, int), {"flag_meanings": "ok excluded"})
+    return xr.Dataset(made, {"Omega": speeds, "mode": [1]})
+
+
+def effects(cell: xr.Dataset, **options: Any) -> list[str]:
+    return Campbell(**options).summarise(cell)["crossing_effect"]
+
+
+def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not() -> None:
+    """The line meets the mode at 10 rad/s; the window of 1 Hz is 0.1 rad/s there on either side."""
+    peak = made_up()
+    found = Campbell().summarise(peak)
+    assert found["n_crossings"] == 1
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
+    assert found["crossing_line"] == ["stick_slip"]
+    assert found["crossing_multiple"][0] == 1
+    assert found["crossing_growth_rate"][0] == pytest.approx(-0.1)
+    # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
+    assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
+    assert effects(peak) == ["rises"]
+    assert effects(peak, min_rise=0.2) == ["no_rise"]
+    rate = peak["growth_rate"].values
+    raised = made_up(growth_rate=rate + 0.15, cycle_growth_rate=rate[:, None] + 0.15)
+    assert effects(raised) == ["destabilises"]
+    assert effects(made_up(growth_rate=np.full(401, -0.05))) == ["mode_rises"]
+    flat = made_up(growth_rate=np.full(401, -0.1), cycle_growth_rate=np.full((401, 1), -0.1))
+    assert effects(flat) == ["no_rise"]
+    assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
+    assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
+
+
+def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
+    gone = made_up()
+    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate"):
+        gone[name][195:210] = np.nan
+    found = Campbell().summarise(gone)
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
+    assert effects(gone) == ["no_cycle"]
+    gone["stick_slip_frequency"][195:] = np.nan
+    assert Campbell().summarise(gone)["n_crossings"] == 0, "nothing is known beyond the last cycle"
+
+
+def test_speeds_that_a_rule_leaves_out_are_an_end_of_the_axis() -> None:
+    """The window reaches beyond them; the effect was that of a lost cycle."""
+    study = made_up()
+    left_out = study["Omega"].values > 10.05
+    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate", "sliding_frequency"):
+        study[name][left_out] = np.nan
+    study["status"][:] = left_out.astype(int)
+    found = summarised(study, Campbell())
+    assert words(found, "crossing_effect")[0] == "unresolved"
+
+
+def test_no_crossing_lies_between_speeds_of_which_a_rule_leaves_those_between_out() -> None:
+    """The modes' frequencies were interpolated over the gap, and crossings found where no speed is."""
+    study = made_up()
+    gap = abs(study["Omega"].values - 10) < 1
+    for left_out in (gap, np.ones(401)):
+        study["status"][:] = left_out.astype(int)
+        assert summarised(study, Campbell())["n_crossings"] == 0
+
+
+def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
+    """f_Omega = 100 Hz at 200 pi rad/s, the speed of a moving load."""
+    speeds = np.linspace(500, 700, 401)
+    cell = made_up(rotation_frequency=speeds / (2 * np.pi), stick_slip_frequency=np.full(401, 70.0))
+    cell = cell.assign_coords(Omega=speeds)
+    found = Campbell().summarise(cell)
+    assert found["crossing_line"] == ["rotation"]
+    assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
+
+
+def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:
+    """It was missed: 10 f_s at 23.85 rad/s, orthonormal modes, 1.8 Hz below the frequency of sliding."""
+    speeds = np.linspace(8, 12, 401)[:, None]
+    locked = np.abs(speeds - 10) < 0.05
+    own, mac = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
+    cell = made_up(cycle_frequency=own, mac=mac, sliding_frequency=np.full((401, 1), 130.0))
+    found = Campbell().summarise(cell)
+    # where the multiplier is bound to the line it says nothing of the mode
+    assert found["n_crossings"] == 1
+    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)

@@ -1,0 +1,101 @@
+"""What becomes of a motion."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.studies.quantities.floquet import Floquet
+from disc_model.studies.quantities.outcome import HorizonOutcome
+from disc_model.studies.quantity import STATUSES, Point
+from tests.studies.conftest import SMALL, compute, computed
+
+
+def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.ndarray], list[str]]:
+    table = compute(HorizonOutcome(**{"horizon": 1000, **options}), map(Point, cases))
+    words = HorizonOutcome.COLUMNS["outcome"].flags
+    return table.arrays, [words[i] for i in table.arrays["outcome"]]
+
+
+QUIET = [
+    {"N": 385, "Omega": 15},  # -0.105/s, next to a fold
+    {"N": 50, "Omega": 15},  # -0.0083/s
+    {"N": 200, "Omega": 5},
+    {"N": 200, "Omega": 20, "c": 0.5},
+    {"N": 200, "Omega": 15, "normalization": "orthonormal"},
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", QUIET, ids=str)
+def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> None:
+    p = Parameters(**case)
+    left, words = outcomes([p])
+    whole, whole_words = outcomes([p], early_end=False)
+    assert left["time_reached"][0] < 400
+    assert whole["time_reached"][0] == 1000
+    assert words == whole_words == ["quiet"]
+    for name in ("P_min", "P_max"):
+        assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.02)
+    assert left["stick_fraction"][0] == pytest.approx(whole["stick_fraction"][0], abs=0.01)
+
+
+@pytest.mark.compiled
+def test_the_late_stretch_after_an_early_end_on_a_torus_is_that_of_the_torus() -> None:
+    p = Parameters(N=520, Omega=14)
+    left, words = outcomes([p], horizon=1600, tol=1e-8)
+    whole, whole_words = outcomes([p], horizon=1600, tol=1e-8, early_end=False)
+    assert left["time_reached"][0] < 1000
+    assert words == whole_words == ["growing"]
+    # within 10 s the motion comes near all of its torus, but not to the very extremes
+    for name in ("P_min", "P_max"):
+        assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.05)
+
+
+@pytest.mark.compiled
+def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
+    p = Parameters(N=50, Omega=15)
+    found, words = outcomes([p], horizon=300, early_end=False)
+    rate = compute(Floquet(), [Point(p)]).arrays["growth_rate"][0]
+    assert words == ["quiet"]
+    assert found["return_map_residual_rate"][0] == pytest.approx(rate, rel=0.2)
+    assert found["cycle_distance"][0] < 1e-2
+
+
+@pytest.mark.compiled
+def test_following_does_not_move_the_first_separation() -> None:
+    p = Parameters(N=385, Omega=15.1)
+    arrays, words = outcomes([p], horizon=100)
+    alone = simulate(p, 100, stop_at="first_separation").first_separation
+    assert words == ["separation"]
+    assert arrays["first_separation"][0] == pytest.approx(alone, abs=1e-6)
+    assert arrays["separation_rate"][0] > 100
+    assert arrays["P_min"][0] == 0
+
+
+def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
+    # the package shows the function under the module's name
+    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "_step_limit", lambda model, duration: 100)
+    arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=20)
+    assert words == ["failed"]
+    assert STATUSES[arrays["status"][0]] == "step_limit"
+
+
+def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
+    options = {"horizon": 3.0, "evaluation_time": 0.05, "after_separation": 0.05, "tol": 1e-9}
+    base = SMALL | {"c": 20.0, "D_star": 1e-3}
+    damped = computed(quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}).squeeze()
+    assert flag_names(damped["outcome"]) == "quiet"
+    assert damped["settling_time"] == damped["time_reached"] < 3.0
+    assert 0 < damped["cycle_distance"] < 0.1
+    # the late stretch is the cycle itself
+    assert damped["stick_fraction"] + damped["slip_fraction"] == pytest.approx(1)
+    base = SMALL | {"mu_s": 1.4, "mu_k": 0.2, "k": 0}
+    apart = computed(quantity="outcome", options=options, base=base, axes={"N": [700], "Omega": [50]}).squeeze()
+    assert flag_names(apart["outcome"]) == "separation"
+    assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
+    assert np.isnan(apart["settling_time"])
+    assert apart["P_min"] == 0

@@ -1,0 +1,352 @@
+"""Regions of outcomes: which cells are divided, and how tiles make a plane."""
+
+import json
+import math
+from collections.abc import Callable
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.data.variables import CycleStatus, Outcome, flag_names
+from disc_model.errors import DiscModelError
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Record
+from disc_model.stability.attractor.neighbourhood import NearCycle
+from disc_model.stability.attractor.outcome import OutcomeResult
+from disc_model.stability.cycle import floquet
+from disc_model.studies import refinement
+from disc_model.studies.quantities.regions import Regions
+from disc_model.studies.quantity import Point
+from tests.stability.test_attractor import SMALL
+from tests.studies.conftest import computed
+from tests.studies.refused import parse_grid
+
+ROUND = {"Omega": (28.0, 14.0), "N": (300.0, 160.0)}
+"""Middle and half axis of the ellipse within which the made-up motion separates."""
+PLANE = ["N", "Omega"]
+
+
+def separates(p: Parameters) -> bool:
+    return math.hypot(*((getattr(p, name) - at) / size for name, (at, size) in ROUND.items())) < 1
+
+
+def wrong(study: xr.Dataset) -> np.ndarray:
+    """Where a plane says otherwise than the made-up motion does."""
+    speeds = study["Omega"].values
+    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in speeds] for N in study["N"].values]
+    return (flag_names(study["outcome"].transpose("N", "Omega")) == "separation") != expected
+
+
+@pytest.fixture
+def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
+    """Motions that separate within an ellipse and stay quiet outside, of which multipliers say nothing; those asked."""
+    asked: list[Parameters] = []
+
+    def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
+        asked.append(p)
+        return OutcomeResult(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
+
+    nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
+    monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
+    monkeypatch.setattr(refinement, "find_outcome", find_outcome)
+    return asked
+
+
+def raw(**changes) -> dict:
+    study = {
+        "study": "small",
+        "quantity": "regions",
+        "options": {"horizon": 10, "initial_cell_size": 8},
+        "axes": {
+            "Omega": {"start": 5, "stop": 50, "count": 65},
+            "N": {"start": 50, "stop": 600, "count": 49},
+            "normalization": ["as_published"],
+        },
+        "batch": {"over": PLANE, "tile": 32},
+    }
+    return study | changes
+
+
+@pytest.mark.parametrize("tile", [16, 32, 64])
+def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up, tile: int) -> None:
+    study = computed(**raw(batch={"over": PLANE, "tile": tile})).isel(normalization=0)
+    assert not wrong(study).any()
+    origin = flag_names(study["method"])
+    assert set(np.unique(origin)) == {"simulation", "inferred"}
+    assert (origin == "simulation").sum() < 0.3 * origin.size
+    # what was not computed has no time of its own
+    assert (np.isfinite(study["first_separation"].values) == (origin == "simulation")).all()
+
+
+def test_a_plane_may_have_one_value_along_a_dimension(made_up) -> None:
+    study = computed(**raw(axes=raw()["axes"] | {"N": [300]})).isel(normalization=0)
+    assert not wrong(study).any()
+    assert set(np.unique(flag_names(study["method"]))) == {"simulation", "inferred"}
+
+
+def test_normalisations_may_share_batches(made_up) -> None:
+    axes = raw()["axes"] | {"normalization": ["as_published", "orthonormal"]}
+    axes["Omega"]["count"], axes["N"]["count"] = 33, 25  # a quarter of the points, still in two tiles
+    ways = [raw(axes=axes, batch={"tile": 32} | over) for over in ({"over": PLANE}, {})]
+    apart, together = map(parse_grid, ways)
+    assert len(apart.batches) == 2 * len(together.batches)
+    one, two = (computed(**way) for way in ways)
+    assert one.equals(two)
+
+
+def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
+    axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
+    rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
+    options = Regions(horizon=10, initial_cell_size=4)
+    found = options.compute_tile(rows, [])
+    mirrored = options.compute_tile([row[::-1] for row in rows[::-1]], [])
+    assert [[row["outcome"] for row, _ in line] for line in found] == [
+        [row["outcome"] for row, _ in line[::-1]] for line in mirrored[::-1]
+    ]
+
+
+def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
+    marks = {"here": {"x": 12.03125, "y": 187.5, "paper_outcome": "quiet"}}
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
+    study = parse_grid(raw(figures={"map": plot}))
+    texts = [json.loads(text) for text in study.batches.values()]
+    assert len(texts) == 2 * 2
+    points = [tuple(point) for text in texts for point in text["points"]]
+    assert len(points) == len(set(points)) == study.n_points
+    sampled = [
+        [along[i] for along, i in zip(text["tile"]["along"], place, strict=True)]
+        for text in texts
+        for place in text["tile"]["sampled"]
+    ]
+    assert sampled == [[187.5, 12.03125]]
+    # only the tile in which the mark lies is another batch
+    assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
+
+
+def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
+    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper_outcome": "quiet"}}}
+    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper_outcome": "quiet"}
+    study = computed(**raw(figures={"map": plot})).isel(normalization=0)
+    for mark in plot["marks"].values():
+        here = study.sel(Omega=mark["x"], N=mark["y"], method="nearest")
+        assert flag_names(here["method"]) == "simulation"
+
+
+def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
+    find_outcome = refinement.find_outcome
+
+    def failing(p: Parameters, horizon: float, **how) -> OutcomeResult:
+        if p.Omega == 50 and p.N == 600:
+            raise DiscModelError("no luck")
+        return find_outcome(p, horizon, **how)
+
+    monkeypatch.setattr(refinement, "find_outcome", failing)
+    study = computed(**raw()).isel(normalization=0)
+    corner = study.sel(Omega=50, N=600)
+    assert flag_names(corner["status"]) == "failed"
+    assert "no luck" in str(corner["message"].values)
+    assert (flag_names(study["status"]) == "failed").sum() == 1
+
+
+def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(made_up) -> None:
+    """The middle of an edge is presumed in the finest cells only: the made-up border crosses edges twice."""
+    study = computed(**raw(options={"horizon": 10, "initial_cell_size": 2})).isel(normalization=0)
+    assert wrong(study).mean() <= 2e-3
+    assert (flag_names(study["outcome"]) != "failed").all()
+
+
+OPTIONS = Regions(horizon=10, initial_cell_size=8)
+
+
+def tile_of(
+    size: int,
+    start: Callable[[int, int], object],
+    outcome: Callable[[int, int], str],
+    monkeypatch: pytest.MonkeyPatch,
+    whole: Callable[[int, int], str] | None = None,
+) -> refinement.Tile:
+    """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j.
+
+    whole : outcome if the departure is simulated as a whole; without it there are no departures
+    """
+
+    def place(p: Parameters) -> tuple[int, int]:
+        return round(p.N - 100), round(p.Omega - 10)
+
+    monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: start(*place(p)))
+
+    def find_outcome(p: Parameters, *_, furthest: float, **__) -> OutcomeResult:
+        word = whole(*place(p)) if whole and not furthest else outcome(*place(p))
+        return OutcomeResult(word, 1.0, departed=follows_one(False) if whole and furthest else None)
+
+    monkeypatch.setattr(refinement, "find_outcome", find_outcome)
+    monkeypatch.setattr(refinement, "departs_after", lambda *_: False)
+    points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
+    return refinement.Tile(points, **OPTIONS.model_dump())
+
+
+def follows_one(stable: bool) -> NearCycle:
+    """A start that follows a cycle."""
+    nothing = np.zeros(1)
+    return NearCycle(SimpleNamespace(stable=stable), True, None, nothing, nothing, np.eye(1))  # type: ignore[arg-type]
+
+
+NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
+
+
+def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    growing = {(3, 3), (4, 4), (5, 5)}
+    outcome = {(3, 3): "separation", (5, 5): "growing"}
+    tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "quiet"), monkeypatch)
+    assert {place: tile.outcome(place) for place in outcome} == outcome
+    assert set(tile.results) == growing
+
+
+def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    strip, block = {(1, 1), (3, 2), (5, 3), (7, 4)}, {(i, j) for i in range(3, 6) for j in range(6, 9)}
+    tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "quiet", monkeypatch)
+    assert strip <= set(tile.results)
+    assert len(block & set(tile.results)) <= 1
+
+
+def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stripe one interval wide, which no corner of the coarse cells meets."""
+
+    def outcome(i: int, j: int) -> str:
+        return "separation" if j - i // 4 in (11, 12) else "growing"
+
+    tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
+    there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
+    assert not any(i % 8 == 0 and j % 8 == 0 for i, j in there if i < 16)
+    phrase = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.results}
+    found = {place for place, word in phrase.items() if word == "separation"}
+    assert len(found & set(there)) > 0.9 * len(there)
+    assert len(found - set(there)) < 0.1 * len(there)
+    assert len(tile.results) < 0.4 * 33 * 33
+    quiet = tile_of(33, lambda *_: NONE, lambda *_: "quiet", monkeypatch)
+    assert len(quiet.results) == 5 * 5
+
+
+def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As between 550 and 583 N on the map over c_p: rounding decides there whether a single motion separates late."""
+
+    def outcome(i: int, j: int) -> str:
+        return "growing" if i % 4 == 0 and j % 4 == 0 else "separation"
+
+    tile = tile_of(9, lambda *_: NONE, outcome, monkeypatch)
+    assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.results)
+    assert sum(word == "growing" for word in (tile.filled | tile.presumed).values()) == 0
+
+
+@pytest.mark.parametrize(("one", "around"), [("growing", "separation"), ("separation", "other_cycle")])
+def test_an_outcome_unlike_both_beside_it_is_that_of_the_whole_departure(
+    one: str, around: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As at 567 N and 0.5 N s/m on the map over c_p: the phase of the departure is lost, which all simulations keep."""
+
+    def outcome(i: int, j: int) -> str:
+        return one if (i, j) == (8, 8) else around
+
+    tile = tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=lambda *_: around)
+    assert tile.outcome((8, 8)) == around
+    assert tile.results[8, 8].simulated == 2.0
+    assert one not in {*tile.filled.values(), *tile.presumed.values()}
+    assert tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=outcome).outcome((8, 8)) == one
+
+
+@pytest.mark.slow
+@pytest.mark.compiled
+def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cells() -> None:
+    """Points drawn of a map in which all outcomes and a fold occur, simulated from the static start throughout."""
+    horizon = 400
+    axes = {"N": {"start": 100, "stop": 500, "count": 17}, "Omega": {"start": 8, "stop": 24, "count": 17}}
+    options = {"horizon": horizon, "initial_cell_size": 4}
+    study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
+    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])
+    beside = np.zeros_like(separates)
+    for axis in (0, 1):
+        differs = np.diff(separates, axis=axis)
+        for end in (0, differs.shape[axis]):
+            beside |= np.insert(differs, end, False, axis=axis)
+    rng, wrong, drawn = np.random.default_rng(0), [], 0
+    for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
+        for i, j in rng.permutation(np.argwhere(there))[:15]:
+            p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])
+            whole = simulate(p, horizon, record=Record(events=False), stop_at="first_separation")
+            drawn += 1
+            if math.isfinite(whole.first_separation) != separates[i, j]:
+                wrong.append((p.N, p.Omega, origin[i, j], whole.first_separation))
+    assert drawn > 35
+    # most are beside borders, where the outcome hangs on the last per cent of a long growth
+    assert len(wrong) <= 0.08 * drawn, wrong
+
+
+@pytest.mark.compiled
+def test_the_cycle_is_known_at_every_point_and_goes_on_from_one_to_the_next() -> None:
+    axes = {"N": [100, 110], "Omega": [14, 15, 16]}
+    study = computed(quantity="regions", options={"horizon": 50}, axes=axes, batch={"over": PLANE})
+    assert (flag_names(study["cycle"]) == "followed").all()
+    assert (study["growth_rate"].values < 0).all()
+    assert (flag_names(study["method"]) == "multipliers").all()
+    joined = flag_names(study["branch_continues_second"]) == "yes"
+    assert joined[:, :-1].all()
+    assert not joined[:, -1].any()
+    assert (study["other_cycles"].values == 0).all()
+    # just below two oscillations of 135.42 Hz
+    assert study["period_ratio"].values == pytest.approx(1.91, abs=0.02)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("p", "passed", "left"),
+    [
+        (Parameters(N=341.666666667, Omega=25.390625), 0.413, 0.0665),
+        (Parameters(N=300, k_p=12987.6326315, Omega=23.75), 0.170, 0.0303),
+    ],
+    ids=["preload", "stiffness"],
+)
+def test_a_cycle_that_is_passed_in_the_first_seconds_is_not_the_one_that_the_start_leaves(
+    p: Parameters, passed: float, left: float
+) -> None:
+    """The motion passes an unstable cycle after 6.5 s; maps had that one's growth rate."""
+    (((early, _),),) = Regions(horizon=15).compute_tile([[p]], [(0, 0)])
+    (((row, _),),) = Regions(horizon=40).compute_tile([[p]], [(0, 0)])
+    assert early["growth_rate"] == pytest.approx(passed, abs=5e-4)
+    assert row["growth_rate"] == pytest.approx(left, abs=5e-4)
+    assert row["outcome"] == "growing"
+
+
+@pytest.mark.compiled
+def test_a_motion_is_shown_on_the_cycle_that_attracts_it_or_5_s_after_contact_was_lost() -> None:
+    options = Regions(horizon=50)
+    state = options.state_at(Point(SMALL))
+    cycle = floquet(SMALL)
+    later = simulate(SMALL, state.time + cycle.period, initial_state=state).final_state
+    assert cycle.stable
+    # to the tolerance of simulations, 1e-10
+    assert later.psi == pytest.approx(state.psi, rel=1e-9)
+    assert later.a == pytest.approx(state.a, abs=1e-9 * np.abs(state.a).max())
+    apart = Parameters(N=800, Omega=40, n_diameters=2)
+    first = simulate(apart, 50, stop_at="first_separation").first_separation
+    # the departure up to a tenth of the static deflection is that of multipliers: it may err by ln(1.1) / 0.48 s
+    assert options.state_at(Point(apart)).time == pytest.approx(first + 5, abs=0.2)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("p", "outcome", "cycle"),
+    [
+        (Parameters(N=200, Omega=0), Outcome.AT_REST, "at_rest"),
+        (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, "steady_sliding"),
+        (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATION, "nearby_only"),  # after 11 s
+        (Parameters(N=200, Omega=20, mu_k=0.4), Outcome.GROWING, "followed"),  # by half in the 15 s
+    ],
+)
+def test_a_point_is_told_with_what_its_motion_has_to_do_with_a_cycle(p: Parameters, outcome: str, cycle: str) -> None:
+    (((row, _),),) = Regions(horizon=15).compute_tile([[p]], [(0, 0)])
+    assert (row["outcome"], row["cycle"]) == (outcome, cycle)

@@ -1,0 +1,199 @@
+"""Uncertain parameters: what is drawn, what becomes of it, indices and probabilities of functions that are known."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy import stats
+
+from disc_model.data.variables import flag_names
+from disc_model.parameters import Parameters
+from disc_model.stability.cycle import floquet
+from disc_model.studies.merge import failures
+from disc_model.studies.quantities import sensitivity
+from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile, unit_draws, variants
+from disc_model.studies.quantity import Row
+from tests.studies.conftest import SMALL, computed
+from tests.studies.refused import parse_grid
+
+UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
+TURN = {"distribution": "uniform", "low": 0.0, "high": 2 * np.pi}
+
+
+def study(distributions: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    options = {"distributions": distributions, "samples": 8, "seed": 3, **changes.pop("options", {})}
+    usual = {"axes": {"N": [200, 385]}, "base": {"Omega": 15}, "batch": {"size": 4}}
+    return {"study": "s", "quantity": "sensitivity", "options": options, **usual, **changes}
+
+
+def evaluating(monkeypatch: pytest.MonkeyPatch, function: Callable[[dict[str, float]], Row]) -> None:
+    monkeypatch.setattr(sensitivity, "evaluate", lambda p, values, tol: (function(values), ""))
+
+
+def cycle_row(word: str, growth_rate: float) -> Row:
+    return {"cycle": word, "growth_rate": growth_rate}
+
+
+def ishigami(x: float, y: float, z: float) -> float:
+    return float(np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x))
+
+
+FIRST, TOTAL = (0.31391, 0.44241, 0.0), (0.55759, 0.44241, 0.24368)
+"""Of Ishigami's function with a = 7, b = 0.1, in closed form."""
+
+
+def test_indices_of_ishigamis_function(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Through batches, merge and summary; of the indicator that it is above 3.5, scipy's indices are the measure."""
+
+    def function(values: dict[str, float]) -> Row:
+        y = ishigami(*(values[name] - np.pi for name in ("c", "c_p", "k")))
+        return cycle_row("unstable" if y > 3.5 else "stable", y)
+
+    evaluating(monkeypatch, function)
+    raw = study(
+        {"c": TURN, "c_p": TURN, "k": TURN}, axes={"N": [200]}, options={"samples": 512, "growth_rate_cap": 100}
+    )
+    found = computed(**(raw | {"batch": {"size": 200}})).isel(N=0)
+    rate = found.sel(output="growth_rate")
+    assert rate["excluded_fraction"] == 0
+    for name, truth in (("first", FIRST), ("total", TOTAL)):
+        assert (rate[f"sobol_{name}_low"] <= truth).all()
+        assert (rate[f"sobol_{name}_high"] >= truth).all()
+        # and say something: tests of the estimator itself are in tests/analysis/test_sobol.py
+        assert (rate[f"sobol_{name}_high"] - rate[f"sobol_{name}_low"] < 0.5).all()
+    cycles = flag_names(found["cycle"].transpose("sample", "variant")) == "unstable"
+    parts = {"f_A": cycles[None, :, 0], "f_B": cycles[None, :, 1], "f_AB": cycles.T[2:, None]}
+    theirs = stats.sobol_indices(func={name: part.astype(float) for name, part in parts.items()}, n=512)
+    own = found.sel(output="instability")
+    np.testing.assert_allclose(own["sobol_first"], np.ravel(theirs.first_order), rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(own["sobol_total"], np.ravel(theirs.total_order), rtol=1e-10, atol=1e-12)
+
+
+def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Shares and probabilities against counting; what has no cycle is a class, and what failed widens intervals."""
+
+    def function(values: dict[str, float]) -> Row:
+        word = SAMPLE_CYCLES[min(int(8 * values["c"]), 7)]
+        return cycle_row(word, values["c"] if word in ("stable", "unstable") else np.nan)
+
+    evaluating(monkeypatch, function)
+    spread = {"distribution": "uniform", "low": 0, "high": 1}
+    found = computed(**study({"c": spread, "k": UNIFORM}, options={"samples": 64})).sel(N=385)
+    c = found["parameter_values"].sel(parameter="c").values.ravel()
+    words = np.array(SAMPLE_CYCLES)[np.minimum((8 * c).astype(int), 7)]
+    known = words[words != "failed"]
+    assert len(known) < len(words) == 128
+    assert found["n_known_cycles"] == len(known)
+    for word in found["cycle_class"].values:
+        assert found["cycle_fraction"].sel(cycle_class=word) == np.count_nonzero(known == word) / len(known)
+    assert float(found["cycle_fraction"].sum()) == pytest.approx(1, rel=1e-12)
+    unstable = np.isin(known, ("unstable", "no_cycle", "separates", "unstable_sliding"))
+    assert found["probability_unstable"] == unstable.mean()
+    assert found["probability_unstable_low"] < 4 / 7 < found["probability_unstable_high"]
+    assert found["n_known_outcomes"] == 0
+    assert np.isnan(found["probability_separation"])
+    # rows are left out if any of their outputs is missing
+    rates = found["growth_rate"].transpose("sample", "variant").values
+    assert found["excluded_fraction"].sel(output="growth_rate") == np.mean(np.isnan(rates).any(axis=1))
+
+
+def test_what_a_rule_leaves_out_has_no_probability(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It had one of 0 as if all of its samples had been found stable, and these counted as known."""
+    evaluating(monkeypatch, lambda values: cycle_row("unstable", 1.0))
+    found = computed(**study({"k": UNIFORM}, where="N < 300 and sample < 6"))
+    assert found["n_known_cycles"].values.tolist() == [12, 0]
+    assert found["n_known_outcomes"].values.tolist() == [0, 0]
+    np.testing.assert_array_equal(found["probability_unstable"], [1, np.nan])
+    assert found["cycle_fraction"].sel(N=385).isnull().all()
+    assert found["excluded_fraction"].sel(N=200, output="growth_rate") == 0
+
+
+def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    def function(values: dict[str, float]) -> Row:
+        if values["k"] > 5e4:
+            raise np.linalg.LinAlgError("singular")
+        return cycle_row("stable", -1.0)
+
+    evaluating(monkeypatch, function)
+    found = computed(**study({"k": UNIFORM}))
+    assert (flag_names(found["status"]) == "ok").all()
+    failed = flag_names(found["cycle"]) == "failed"
+    np.testing.assert_array_equal(failed[..., :2], found["parameter_values"].sel(parameter="k").values > 5e4)
+    assert any("LinAlgError: singular" in line for line in failures(found))
+
+
+def test_more_samples_keep_those_that_there_are() -> None:
+    """A batch's name is its content; the number of samples is no part of it."""
+    few, many = (parse_grid(study({"k": UNIFORM}, options={"samples": n})).batches for n in (16, 64))
+    assert len(few) == 8
+    assert few.items() < many.items()
+    both = {"over": ["N", "sample"], "size": 100}
+    few_cut, many_cut = (parse_grid(study({"k": UNIFORM}, options={"samples": n}, batch=both)) for n in (128, 512))
+    assert len(few_cut.batches) == 4
+    assert few_cut.batches.items() < many_cut.batches.items()
+    assert [value for (value,) in many_cut.values["sample"]] == list(range(512))
+    for change in ({"seed": 4}, {"simulated_samples": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
+        other = parse_grid(study({"k": UNIFORM}, options={"samples": 16, **change}))
+        assert not few.keys() & other.batches.keys()
+
+
+def test_a_sample_hangs_on_seed_and_number_alone() -> None:
+    whole = stats.qmc.Sobol(6, scramble=True, rng=np.random.default_rng(9)).random(256)
+    for number in (200, 0, 64, 63):
+        np.testing.assert_array_equal(unit_draws(9, 3, number).ravel(), whole[number])
+
+
+def test_variants_take_one_parameter_each() -> None:
+    drawn = np.array([[1.0, 2.0, 3.0], [10.0, 20.0, 30.0]])
+    expected = [[1, 2, 3], [10, 20, 30], [10, 2, 3], [1, 20, 3], [1, 2, 30]]
+    np.testing.assert_array_equal(variants(drawn), expected)
+
+
+@pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.999])
+def test_quantiles_are_those_of_the_distributions(share: float) -> None:
+    """Both tails of 5e-11 that are left out move what lies within them by less than the tolerance."""
+    normal = {"mean": 2, "deviation": 0.3}
+    for text, one in (
+        ({"distribution": "uniform", "low": 2, "high": 5}, stats.uniform(2, 3)),
+        ({"distribution": "normal", **normal}, stats.norm(2, 0.3)),
+        (
+            {"distribution": "truncated_normal", **normal, "low": 1.9, "high": 3},
+            stats.truncnorm((1.9 - 2) / 0.3, (3 - 2) / 0.3, 2, 0.3),
+        ),
+    ):
+        made = Sensitivity.model_validate({"distributions": {"k": text}}).distributions["k"]
+        assert quantile(made, 7.0, share) == pytest.approx(one.ppf(share), rel=1e-5)
+        relative = made.model_copy(update={"relative": True})
+        assert quantile(relative, 7.0, share) == pytest.approx(7 * one.ppf(share), rel=1e-5)
+
+
+@pytest.mark.compiled
+def test_what_is_found_is_what_floquet_finds() -> None:
+    options = {"samples": 2, "simulated_samples": 1, "horizon": 1}
+    found = computed(
+        **study({"k": UNIFORM, "mu_s": UNIFORM}, axes={"N": [200]}, base={"Omega": 15} | SMALL, options=options)
+    )
+    assert flag_names(found["outcome"]).ravel().tolist()[1] == "not_simulated"
+    assert found["n_known_outcomes"].item() == 1
+    for number in (0, 1):
+        one = found.isel(N=0, sample=number)
+        rows = variants(one["parameter_values"].transpose("sample_matrix", "parameter").values)
+        for variant, (k, mu_s) in zip(one["variant"].values, rows, strict=True):
+            cycle = floquet(Parameters(N=200, Omega=15, k=k, mu_s=mu_s, **SMALL))
+            here = one.sel(variant=variant)
+            assert flag_names(here["cycle"]) == sensitivity.cycle_word(cycle)
+            np.testing.assert_array_equal(here["growth_rate"], cycle.growth_rate)
+
+
+def test_probabilities_can_be_drawn_as_any_variable() -> None:
+    plot = {"kind": "curve", "variable": "probability_unstable", "x": "N"}
+    assert parse_grid(study({"k": UNIFORM}, figures={"p": plot})).plots
+
+
+def made_up(**changes: Any) -> xr.Dataset:
+    """A study of two points, without the engine."""
+    with pytest.MonkeyPatch.context() as patch:
+        evaluating(patch, lambda values: cycle_row("unstable" if values["k"] > 5e4 else "stable", values["k"] - 5e4))
+        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"growth_rate_cap": 1e6}, **changes))

@@ -1,0 +1,71 @@
+"""Batches put together again: in the grid's order, whole, and with failures named."""
+
+import json
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from disc_model.studies.merge import MergeError, failures, merge_batches
+from disc_model.studies.run import run_batch
+from tests.studies.conftest import computed, study
+from tests.studies.refused import parse_grid
+
+#: The slider stays where it is on the disc: nothing has to be computed.
+STILL = {
+    "study": "still",
+    "quantity": "floquet",
+    "base": {"k_p": 0},
+    "axes": {"N": [100, 200], "Omega": [10, 20]},
+    "batch": {"size": 2},
+}
+
+
+@pytest.fixture
+def batches() -> list[xr.Dataset]:
+    return [run_batch(text) for text in parse_grid(STILL).batches.values()]
+
+
+def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], tmp_path: Path) -> None:
+    study = parse_grid(STILL)
+    merge_batches(batches[::-1], study.grid, {"title": "t"}).to_netcdf(tmp_path / "still.nc")
+    merged = xr.load_dataset(tmp_path / "still.nc")
+    assert dict(merged["status"].sizes) == {"N": 2, "Omega": 2}
+    assert merged["N"].values.tolist() == [100, 200]
+    assert merged.attrs["title"] == "t"
+    assert json.loads(merged.attrs["base"])["normalization"] == "as_published"
+    assert (merged["Omega"].attrs["units"], merged["growth_rate"].attrs["units"]) == ("rad s-1", "s-1")
+    lines = list(failures(merged))
+    assert len(lines) == 4
+    assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
+    # what raised an error stands before what was found not to be there
+    merged["status"].values[1, 0] = merged["status"].attrs["flag_meanings"].split().index("failed")
+    assert next(failures(merged)).startswith("N = 200, Omega = 10: failed")
+
+
+def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
+    study = parse_grid(STILL)
+    with pytest.raises(MergeError, match="missing: .* and 1 more" if len(batches) == 2 else "missing"):
+        merge_batches(batches[1:], study.grid, {})
+    with pytest.raises(MergeError, match="there twice"):
+        merge_batches([*batches, batches[0]], study.grid, {})
+    fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
+    with pytest.raises(MergeError, match="do not belong to the grid"):
+        merge_batches(batches, fewer.grid, {})
+    extra = ("sample", [0.0, 1.0])
+    odd = [batch.assign(extra=extra).assign_coords(sample=[i, i + 1]) for i, batch in enumerate(batches)]
+    with pytest.raises(MergeError, match="do not fit together"):
+        merge_batches(odd, study.grid, {})
+
+
+@pytest.mark.compiled
+def test_zips_and_two_normalizations_keep_their_order() -> None:
+    axes = {"normalization": ["orthonormal", "as_published"]}
+    zipped = {"N": [300, 100], "Omega": [20, 10]}
+    merged = computed(**study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
+    assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
+    assert merged["N"].dims == ("N_Omega",)
+    assert list(failures(merged)) == []
+    base = {"normalization": "orthonormal"}
+    alone = computed(**study(quantity="floquet", options={}, base=base, axes={"N": [300], "Omega": [20]}))
+    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == alone["growth_rate"].item()

@@ -1,0 +1,98 @@
+"""Points that a grid's own rule leaves out: not computed, recorded as excluded, drawn as empty; and axes of ratios."""
+
+import json
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, floquet
+from disc_model.data.variables import flag_names
+from disc_model.figures import drawing
+from disc_model.studies.merge import MergeError, failures, merge_batches
+from disc_model.studies.rules import holds
+from disc_model.studies.run import run_batch
+from tests.studies.refused import parse_grid
+
+FRICTION = {"mu_s": [0.1, 0.2, 0.3], "mu_k": [0.1, 0.2, 0.3]}
+
+
+def raw(**changes: Any) -> dict[str, Any]:
+    base = {"N": 200, "Omega": 20, "n_diameters": 1}
+    return {"study": "s", "quantity": "floquet", "base": base, "axes": FRICTION, "where": "mu_k <= mu_s"} | changes
+
+
+def points(phrase: dict[str, Any]) -> list[list[Any]]:
+    return [point for text in parse_grid(phrase).batches.values() for point in json.loads(text)["points"]]
+
+
+def test_points_that_break_the_rule_are_not_computed() -> None:
+    grid = parse_grid(raw())
+    assert points(raw()) == [[s, k] for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s]
+    assert (grid.n_points, grid.attrs["where"]) == (6, "(mu_k <= mu_s)")
+    assert not list(grid.doubts)
+
+
+def test_a_rule_that_all_points_keep_changes_no_batch() -> None:
+    phrase = raw(axes={"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2]})
+    assert parse_grid(phrase).batches == parse_grid(phrase | {"where": []}).batches
+    assert (
+        parse_grid(phrase | {"where": ["mu_k<=mu_s", "mu_k / mu_s < 2", "h == 0.002"]}).batches
+        == parse_grid(phrase).batches
+    )
+
+
+def test_tiles_and_samples_keep_the_rule() -> None:
+    plane = {"quantity": "regions", "options": {"horizon": 5}, "batch": {"tile": 2}}
+    assert sorted(map(tuple, points(raw(**plane)))) == sorted(
+        (s, k) for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s
+    )
+    uncertain = {"distributions": {"k": {"distribution": "uniform", "low": 1e4, "high": 2e4}}, "samples": 2}
+    assert len(points(raw(quantity="sensitivity", options=uncertain))) == 12
+    rules = ["mu_k <= mu_s", "sample < 1"]
+    assert len(points(raw(quantity="sensitivity", options=uncertain, where=rules))) == 6
+
+
+def test_what_cannot_be_compared_does_not_hold() -> None:
+    assert holds(["0.5 < a/b < 2"], {"a": 1.0, "b": 1.0})
+    assert not holds(["a/b < 2"], {"a": 1.0, "b": 0.0})
+    assert not holds(["contact < 2"], {})
+    assert not holds(["contact*99999999999*99999999999 == 'x'"], {})
+    assert not holds(["contact*n_diameters*n_diameters == 'x'"], {})
+    assert holds(["n_diameters == 4"], {"n_diameters": 4})
+    assert holds(["contact == 'separable'"], {})
+
+
+def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:
+    figure = {"kind": "heat_map", "variable": "period", "x": "mu_s", "y": "mu_k"}
+    grid = parse_grid(raw(figures={"f": figure, "g": figure | {"variable": "growth_rate"}}))
+    batches = [run_batch(text) for text in grid.batches.values()]
+    study = merge_batches(batches, grid.grid, grid.attrs)
+    left_out = study["mu_k"] > study["mu_s"]
+    status = flag_names(study["status"])
+    assert ((status == "excluded") == left_out.transpose(*study["status"].dims)).all()
+    assert np.isfinite(study["period"]).equals(~left_out.transpose(*study["period"].dims))
+    assert not list(failures(study))
+    assert list(drawing.gaps(study, study["period"])) == []
+    for name, plot in grid.plots.items():
+        plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
+    with pytest.raises(MergeError, match="missing"):
+        merge_batches(batches, grid.grid, {})
+
+
+def test_a_ratio_varies_a_parameter_with_another() -> None:
+    axes, plane = {"mu_s": [0.4, 0.5], "mu_k_over_mu_s": [0.5, 0.9]}, {"x": "mu_s", "y": "mu_k_over_mu_s"}
+    grid = parse_grid(
+        raw(axes=axes, where="mu_k < 0.4", figures={"f": {"kind": "heat_map", "variable": "period"} | plane})
+    )
+    study = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, grid.attrs)
+    assert "mu_k" not in grid.base
+    for s, ratio in product(*axes.values()):
+        one = study.sel(mu_s=s, mu_k_over_mu_s=ratio)
+        if ratio * s < 0.4:
+            expected = floquet(Parameters(N=200, Omega=20, n_diameters=1, mu_s=s, mu_k=ratio * s))
+            np.testing.assert_array_equal(one["growth_rate"], expected.growth_rate)
+        else:
+            assert flag_names(one["status"]) == "excluded"
