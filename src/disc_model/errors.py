@@ -51,8 +51,8 @@ class Fault(str):
     rule: str
 
     def __new__(cls, path: tuple[str, ...], value: str, rule: str) -> Fault:
-        place = ".".join(path) + (f"={value}" if value and path else "")
-        fault = super().__new__(cls, f"{place}: {rule}" if place else rule)
+        head = ".".join(path) + (f"={value}" if value and path else "")
+        fault = super().__new__(cls, f"{head}: {rule}" if head else rule)
         fault.path, fault.value, fault.rule = path, value, rule
         return fault
 
@@ -64,9 +64,9 @@ class Fault(str):
         """A fault with the value in the form that messages show."""
         return cls(path, as_text(value), rule)
 
-    def inside(self, place: tuple[str, ...]) -> Fault:
+    def inside(self, path: tuple[str, ...]) -> Fault:
         """The same fault, with its path extended by the place of the part in the whole."""
-        return Fault((*place, *self.path), self.value, self.rule)
+        return Fault((*path, *self.path), self.value, self.rule)
 
     @property
     def in_file(self) -> str:

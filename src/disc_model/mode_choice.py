@@ -65,7 +65,7 @@ def choose_modes(
     """
     faults: list[str] = []
     try:
-        asked = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
+        request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     except ParameterError as error:
         faults += error.faults
     known = isinstance(case, Parameters | Mapping)
@@ -73,36 +73,36 @@ def choose_modes(
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
-    return chosen_modes(case, asked)
+    return chosen_modes(case, request)
 
 
-def choose_when_run(p: Parameters, asked: str) -> tuple[Parameters, str]:
+def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
     """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as JSON."""
-    choice = chosen_modes(p, ModeRequest(**json.loads(asked)))
+    choice = chosen_modes(p, ModeRequest(**json.loads(request)))
     return choice.parameters, choice.to_json()
 
 
-def chosen_modes(p: Parameters, asked: ModeRequest) -> ModeChoice:
+def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
     """The requested choice: by a quantity of the motion, the first candidate with which larger models agree.
 
     Raises `DiscModelError` if there is none.
     """
-    if asked.quantity == FREQUENCIES:
-        return by_frequencies(p, asked.tolerance)
+    if request.quantity == FREQUENCIES:
+        return by_frequencies(p, request.tolerance)
     values: dict[tuple[int, ...], float] = {}
     for group in _compared(p):
         size, *others = group
-        values |= {one: MEASURES[asked.quantity](resized(p, one)) for one in group if one not in values}
+        values |= {each: MEASURES[request.quantity](resized(p, each)) for each in group if each not in values}
         if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
-            raise DiscModelError(f"n_diameters: undecided: no {asked.quantity} to choose by with {_listed(p, group)}")
+            raise DiscModelError(f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}")
         change = max(_change(values[size], values[other]) for other in others or group)
-        if change <= asked.tolerance:
+        if change <= request.tolerance:
             count, chosen = count_modes(p, size), resized(p, size)
-            return ModeChoice(chosen, asked.tolerance, change, count, group[-1], asked.quantity, values)
+            return ModeChoice(chosen, request.tolerance, change, count, group[-1], request.quantity, values)
     changes = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
     raise DiscModelError(
-        f"n_diameters: undecided: {asked.quantity} still changes {changes} among {_listed(p, group)}, more than the "
-        f"tolerance {asked.tolerance:g}; give the number of modes, a larger tolerance"
+        f"n_diameters: undecided: {request.quantity} still changes {changes} among {_listed(p, group)}, more than the "
+        f"tolerance {request.tolerance:g}; give the number of modes, a larger tolerance"
         + ("" if p.contact_compliance else ", or contact_compliance='residual'")
     )
 

@@ -379,11 +379,11 @@ Parameters.__doc__ = _documented()
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values of a case, with the parameters that follow from the `RATIOS` among them."""
-    found = dict(values)
+    completed = dict(values)
     for ratio in values.keys() & RATIOS.keys():
-        one, other = RATIOS[ratio]
-        found[one] = values[ratio] * values.get(other, Parameters.model_fields[other].default)
-    return found
+        name, other = RATIOS[ratio]
+        completed[name] = values[ratio] * values.get(other, Parameters.model_fields[other].default)
+    return completed
 
 
 def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:

@@ -113,10 +113,10 @@ def whole(value: Any) -> Any:
     """Convert a count as `number` does: 4, 4.0 and "4" are the same, 4.5 is refused."""
     if is_whole(value):
         return int(value)
-    found = number(value)
-    if not found.is_integer():
+    converted = number(value)
+    if not converted.is_integer():
         raise ValueError("must be a whole number")
-    return int(found)
+    return int(converted)
 
 
 def is_number(value: object) -> bool:
@@ -206,7 +206,7 @@ def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
 @functools.cache
 def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]:
     """Units of the fields of a model, from their schema or from their type; and the fields that decide others."""
-    found = {}
+    marks = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
         parts = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else [*field.metadata]
@@ -214,9 +214,9 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
         for part in parts:
             parts += get_args(part)
         if mark := next((part for part in parts if isinstance(part, Unit)), None):
-            found[name] = mark
-    decided = {name: mark.of for name, mark in found.items() if mark.of}
-    return {name: mark.name for name, mark in found.items() if not mark.of}, decided
+            marks[name] = mark
+    decided = {name: mark.of for name, mark in marks.items() if mark.of}
+    return {name: mark.name for name, mark in marks.items() if not mark.of}, decided
 
 
 class Strict(BaseModel):

@@ -36,17 +36,17 @@ def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
     `placeholders` are values for required fields.
     """
     for name, field in Parameters.model_fields.items():
-        given, unit = placeholders.get(name), Parameters.unit(name)
-        default = given or field.default
+        placeholder, unit = placeholders.get(name), Parameters.unit(name)
+        default = placeholder or field.default
         shown = f"{default:g}" if isinstance(default, float) else default
-        rule = "required" if field.is_required() and given is None else f"default: {shown}"
+        rule = "required" if field.is_required() and placeholder is None else f"default: {shown}"
         words, more = _words(field.annotation), ""
         if name == "disc":
             words = ("FILE",)
         if name == "n_diameters":
             words, more = (*words, AUTO), f", {AUTO} for as many as the tolerance below asks for"
         told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{rule}]"
-        yield _case_option(name, given, words, told)
+        yield _case_option(name, placeholder, words, told)
     quantity, tolerance = CHOOSING
     yield _case_option(quantity, None, tuple(CHOSEN_BY), f"quantity by which {AUTO} chooses [default: {FREQUENCIES}]")
     usual = ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items())
@@ -80,7 +80,7 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
     """Give a command one option for each parameter; it receives them together as the mapping `case`."""
 
     def decorate(command: Callable[..., None]) -> Callable[..., None]:
-        own = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
+        options = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
         case_options = list(_case_options(placeholders))
 
         @functools.wraps(command)
@@ -88,7 +88,7 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
             case = {option.name: values.pop(option.name) for option in case_options}
             command(case={name: value for name, value in case.items() if value is not None}, **values)
 
-        wrapped.__signature__ = inspect.Signature(own + case_options)  # type: ignore[attr-defined]
+        wrapped.__signature__ = inspect.Signature(options + case_options)  # type: ignore[attr-defined]
         return wrapped
 
     return decorate
@@ -96,20 +96,20 @@ def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Ca
 
 def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
     """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
-    given: dict[str, Any] = dict(case)
+    values: dict[str, Any] = dict(case)
     try:
         if "disc" in case:
-            given["disc"] = read_disc(case["disc"])
+            values["disc"] = read_disc(case["disc"])
     except ParameterError as error:
-        del given["disc"]
+        del values["disc"]
         inner = (Fault(fault.path[1:], fault.value, fault.rule) for fault in error.faults)  # without the file's name
         faults += (Fault.of(("disc",), case["disc"], str(fault)) for fault in inner)
     try:
-        p, asked = read_asked(given)
+        p, request = read_asked(values)
         warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
-        if asked is None:
+        if request is None:
             return p, None
-        choice = chosen_modes(p, asked)
+        choice = chosen_modes(p, request)
         return choice.parameters, choice
     except ParameterError as error:
         faults += error.faults
@@ -154,9 +154,9 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
 def option(name: str, text: str | None, kind: Any, faults: list[str], default: Any = ...) -> Any:
     """The value of a type that `text` stands for, or None if it is faulty; faults are appended to `faults`."""
     fields: dict[str, Any] = {name: (kind, default)}
-    given = {} if text is None else {name: text}
+    values = {} if text is None else {name: text}
     try:
-        return getattr(create_model("Option", __base__=Strict, **fields)(**given), name)
+        return getattr(create_model("Option", __base__=Strict, **fields)(**values), name)
     except ParameterError as error:
         faults += error.faults
         return None

@@ -40,11 +40,13 @@ def modes(
         typer.echo(disc_table(parameters), nl=False)
         return
     print_rows(choice_lines(choice))
-    found = mode_arrays(parameters)
+    arrays = mode_arrays(parameters)
     ratios = damping_ratios(parameters)
     rows = [
         (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6f}", f"{ratio:.3g}")
-        for c, l, omega, psi, ratio in zip(found.circles, found.diameters, found.omega, found.psi, ratios, strict=True)
+        for c, l, omega, psi, ratio in zip(
+            arrays.circles, arrays.diameters, arrays.omega, arrays.psi, ratios, strict=True
+        )
     ]
     columns = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
     tables = [table(f"Modes of the disc ({disc_words(parameters)})", columns, rows, justify="right")]
@@ -55,8 +57,8 @@ def modes(
         tables.append(table("Static flexibility of the disc under the slider", heads, [numbers], justify="right"))
     at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in coupled_natural_frequencies(parameters)]
     tables.append(table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right"))
-    for one in tables:
-        Console().print(one)
+    for each in tables:
+        Console().print(each)
 
 
 @with_case_options()
@@ -74,9 +76,9 @@ def floquet(
     from disc_model.stability.cycle import floquet as cycle_of
 
     cycle = cycle_of(parameters, tol=tolerance)
-    found = cycle.status is CycleStatus.OK
+    exists = cycle.status is CycleStatus.OK
     lines = [*case_lines(parameters, choice), ("status", cycle.message or cycle.status.value)]
-    if found:
+    if exists:
         verdict = "small disturbances die out" if cycle.stable else "small disturbances grow"
         lines += [
             ("growth rate", f"{cycle.growth_rate:.6g} 1/s ({verdict})"),
@@ -90,7 +92,7 @@ def floquet(
     sliding = f"growth rate {rate:.6g} 1/s" if math.isfinite(rate) else cycle.sliding.message
     lines.append(("steady sliding", sliding))
     print_rows(lines)
-    if not found:
+    if not exists:
         raise typer.Exit(1)
 
 

@@ -100,39 +100,39 @@ def _values(text: str) -> dict[str, Any]:
 
 def _ramps(texts: Sequence[str], faults: list[str]) -> tuple[Ramp, ...]:
     """Ramps from texts such as ``Omega:to=5,start=100,end=400``; faults are appended to `faults`."""
-    found: list[Ramp] = []
+    ramps: list[Ramp] = []
     for i, text in enumerate(texts):
-        name, named, given = text.partition(":")
-        values = _values(given)
+        name, named, rest = text.partition(":")
+        values = _values(rest)
         if not named or not values:
             faults.append(Fault(("ramp",), as_text(text), "must be PARAMETER:KEY=VALUE,..."))
             continue
         try:
-            found.append(Ramp(parameter=name, **values))
+            ramps.append(Ramp(parameter=name, **values))
         except ParameterError as error:
             faults += (fault.inside(("ramp", str(i))) for fault in error.faults)
-    return tuple(found)
+    return tuple(ramps)
 
 
 def _windows(texts: Sequence[str], end: float | None, faults: list[str]) -> dict[str, Window]:
     """Windows by name, from texts such as ``late:last=3,rate=4000``; faults are appended to `faults`."""
-    found: dict[str, Window] = {}
+    windows: dict[str, Window] = {}
     for i, text in enumerate(texts):
-        name, named, given = text.rpartition(":")
+        name, named, rest = text.rpartition(":")
         name = name if named else f"sample_{i}"
-        values = _values(given)
-        if not name.isidentifier() or name in {*found, *BESIDE_WINDOWS} or not values:
+        values = _values(rest)
+        if not name.isidentifier() or name in {*windows, *BESIDE_WINDOWS} or not values:
             rule = "must be NAME:KEY=VALUE,... with a name of its own, not that of a variable or of events"
             faults.append(Fault(("window",), as_text(text), rule))
             continue
         try:
-            found[name] = Window(**values)
-            if end is not None and (stop := found[name].resolved(0.0, end).stop) > end:
+            windows[name] = Window(**values)
+            if end is not None and (stop := windows[name].resolved(0.0, end).stop) > end:
                 rule = f"must be within the run: stop={as_text(stop)} <= t_end={as_text(end)}"
                 faults.append(Fault(("window", name), "", rule))
         except ParameterError as error:
             faults += (fault.inside(("window", name)) for fault in error.faults)
-    return found
+    return windows
 
 
 def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:

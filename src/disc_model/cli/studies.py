@@ -184,5 +184,5 @@ def _outdated(files: Sequence[Path], directory: Path) -> str:
         raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
     head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
     rows = [dict(zip(head, line, strict=False)) for line in lines]
-    found = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
-    return "\n".join([*found, f"{len(found)} of {len(rows)} files are missing or out of date"])
+    outdated = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
+    return "\n".join([*outdated, f"{len(outdated)} of {len(rows)} files are missing or out of date"])

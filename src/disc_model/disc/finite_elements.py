@@ -49,20 +49,20 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
         With a line of nodes along every edge of every rectangle.
     """
     mesh_type = _skfem().MeshQuad
-    given = [tuple(map(float, rectangle)) for rectangle in rectangles]
-    for i, one in enumerate(given or [()]):
-        if not (len(one) == 4 and 0 < one[0] < one[1] < math.inf and -math.inf < one[2] < one[3] < math.inf):
+    numbers = [tuple(map(float, rectangle)) for rectangle in rectangles]
+    for i, box in enumerate(numbers or [()]):
+        if not (len(box) == 4 and 0 < box[0] < box[1] < math.inf and -math.inf < box[2] < box[3] < math.inf):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault.of(("rectangles", str(i)), one, rule))
+            raise ParameterError(Fault.of(("rectangles", str(i)), box, rule))
     raise_faults(violations((is_number(size) and size > 0, "size", size, "must be > 0")))
-    inner, outer, low, high = zip(*given, strict=True)
+    inner, outer, low, high = zip(*numbers, strict=True)
     count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
     rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: size and rectangles are in m"
     raise_faults(violations((count <= MOST_ELEMENTS, "size", size, rule)))
-    axes = [_divided({edge for one in given for edge in one[at : at + 2]}, size) for at in (0, 2)]
+    axes = [_divided({edge for box in numbers for edge in box[i : i + 2]}, size) for i in (0, 2)]
     mesh = mesh_type.init_tensor(*axes)
     r, z = mesh.p[:, mesh.t].mean(axis=1)
-    inside = np.any([(a < r) & (r < b) & (c < z) & (z < d) for a, b, c, d in given], axis=0)
+    inside = np.any([(a < r) & (r < b) & (c < z) & (z < d) for a, b, c, d in numbers], axis=0)
     return mesh.remove_elements(np.flatnonzero(~inside))
 
 
@@ -115,10 +115,10 @@ def disc_of_section(
     """
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
-    place = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
+    is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     raise_faults(
         violations(
-            (place, "slider", slider, "must be two numbers, r and z"),
+            (is_point, "slider", slider, "must be two numbers, r and z"),
             (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
         )
     )
@@ -128,7 +128,7 @@ def disc_of_section(
     apart = np.hypot(*(basis.doflocs[:, vertical] - np.array(slider)[:, None]))
     level = np.flatnonzero(np.abs(basis.doflocs[1, vertical] - slider[1]) < SAME_PLACE)
     radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
-    places = vertical[[int(np.argmin(apart)), *level[first]]]
+    measured = vertical[[int(np.argmin(apart)), *level[first]]]
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     pieces = _pieces(mesh)
     raise_faults(
@@ -140,18 +140,18 @@ def disc_of_section(
     )
     warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
     highest = math.tau * highest_Hz
-    found: list[tuple[float, int, int, float, list[float]]] = []
+    rows: list[tuple[float, int, int, float, list[float]]] = []
     for l in range(61):
-        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, places, highest)
+        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, highest)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
-        found += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
-    largest = max((a for *_, a, _ in found), default=0.0)
-    kept = sorted(row for row in found if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
-    raise_faults(violations((kept, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
+        rows += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
+    largest = max((a for *_, a, _ in rows), default=0.0)
+    transverse = sorted(row for row in rows if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
+    raise_faults(violations((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
     names = ("omega", "diameters", "circles", "amplitude", "shapes")
-    columns = dict(zip(names, map(list, zip(*kept, strict=True)), strict=True))
-    return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(kept))
+    columns = dict(zip(names, map(list, zip(*transverse, strict=True)), strict=True))
+    return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(transverse))
 
 
 def _pieces(mesh: MeshQuad) -> int:
@@ -165,7 +165,7 @@ def _pieces(mesh: MeshQuad) -> int:
 
 
 def _harmonic(
-    basis: Any, l: int, material: tuple[float, float, float], held: Any, places: NDArray[np.intp], highest: float
+    basis: Any, l: int, material: tuple[float, float, float], held: Any, measured: NDArray[np.intp], highest: float
 ) -> tuple[list[float], list[list[float]]]:
     """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of some unknowns.
 
@@ -192,7 +192,7 @@ def _harmonic(
     order = order[squares[order] <= highest**2]
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
-    moves = whole[places].T
+    moves = whole[measured].T
     return np.sqrt(squares[order]).tolist(), (np.where(moves[:, :1] < 0, -moves, moves)).tolist()
 
 
@@ -207,13 +207,15 @@ def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any,
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
         return (*normal, u.grad[1] + w.grad[0], v.grad[0] - (l * u + v) / r, v.grad[1] - l * w / r)
 
-    def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, at: Any) -> Any:
-        one, other = strain(u, w, v, at.x[0]), strain(u_, w_, v_, at.x[0])
-        doubled = sum((2 * shear if i < 3 else shear) * a * b for i, (a, b) in enumerate(zip(one, other, strict=True)))
-        return (lame * sum(one[:3]) * sum(other[:3]) + doubled) * at.x[0]
+    def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
+        first, second = strain(u, w, v, point.x[0]), strain(u_, w_, v_, point.x[0])
+        doubled = sum(
+            (2 * shear if i < 3 else shear) * a * b for i, (a, b) in enumerate(zip(first, second, strict=True))
+        )
+        return (lame * sum(first[:3]) * sum(second[:3]) + doubled) * point.x[0]
 
-    def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, at: Any) -> Any:
-        return rho * (u * u_ + w * w_ + v * v_) * at.x[0]
+    def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
+        return rho * (u * u_ + w * w_ + v * v_) * point.x[0]
 
     return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle
 

@@ -76,18 +76,18 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
 
 def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
     """The disc of a table; a fault in a number names its column, mode and cell."""
-    radii = {float(match[1]): at for at, name in enumerate(names) if (match := SHAPE.fullmatch(name))}
-    places: dict[tuple[str, ...], int] = {}
-    for at, (target, factor) in ((at, COLUMNS[name]) for at, name in enumerate(names) if name in COLUMNS):
-        places[target,] = at
-        values[target] = [_number(row[at], factor) for row in rows]
+    radii = {float(match[1]): column for column, name in enumerate(names) if (match := SHAPE.fullmatch(name))}
+    columns: dict[tuple[str, ...], int] = {}
+    for column, (target, factor) in ((column, COLUMNS[name]) for column, name in enumerate(names) if name in COLUMNS):
+        columns[target,] = column
+        values[target] = [_number(row[column], factor) for row in rows]
     if radii:
         values |= {"radii": sorted(radii), "shapes": [[_number(row[radii[r]]) for r in sorted(radii)] for row in rows]}
-        places |= {("shapes", str(i)): radii[r] for i, r in enumerate(sorted(radii))}
+        columns |= {("shapes", str(i)): radii[r] for i, r in enumerate(sorted(radii))}
     try:
         disc = Disc(**values)
     except ParameterError as error:
-        raise ParameterError(*(_of_table(fault, places, names, rows) for fault in error.faults)) from None
+        raise ParameterError(*(_of_table(fault, columns, names, rows) for fault in error.faults)) from None
     static, modal = disc.static_compliance, modes_of_table(disc).flexibility
     if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
@@ -103,12 +103,12 @@ def _number(cell: str, factor: float = 1.0) -> float | str:
         return cell
 
 
-def _of_table(fault: Fault, places: dict[tuple[str, ...], int], names: list[str], rows: list[list[str]]) -> Fault:
-    if len(fault.path) < 2 or (at := places.get((fault.path[0], *fault.path[2:]))) is None:
+def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str], rows: list[list[str]]) -> Fault:
+    if len(fault.path) < 2 or (column := columns.get((fault.path[0], *fault.path[2:]))) is None:
         return fault
     i = int(fault.path[1])
-    unit = " rad/s" if names[at] == "frequency_Hz" and "within" in fault.rule else ""
-    return Fault.of((names[at],), rows[i][at], f"{fault.rule}{unit} (mode {i + 1})")
+    unit = " rad/s" if names[column] == "frequency_Hz" and "within" in fault.rule else ""
+    return Fault.of((names[column],), rows[i][column], f"{fault.rule}{unit} (mode {i + 1})")
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -144,15 +144,15 @@ def _text(path: str | os.PathLike[str]) -> str:
 
 
 def _static_compliance(lines: list[str], path: object) -> float | None:
-    found = [
+    values = [
         match[1] for line in lines if (match := re.fullmatch(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*", line))
     ]
-    if len(found) > 1:
+    if len(values) > 1:
         raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
     try:
-        return float(found[0]) if found else None
+        return float(values[0]) if values else None
     except ValueError:
-        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(found[0])}: must be a number") from None
+        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(values[0])}: must be a number") from None
 
 
 def _column_faults(names: list[str]) -> list[Fault]:
@@ -164,9 +164,9 @@ def _column_faults(names: list[str]) -> list[Fault]:
                 return [Fault.of(("columns",), name, "must be separated by commas, with points in numbers")]
             faults.append(Fault.of(("columns",), name, f"unknown column{suggestion(name, list(COLUMNS))}"))
     radii = [f"shape_at_{float(match[1])}_m" for name in names if (match := SHAPE.fullmatch(name))]
-    given = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
-    for target in dict.fromkeys(["diameters", "omega", "amplitude", *given]):
-        if (count := given.count(target)) != 1:
+    targets = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
+    for target in dict.fromkeys(["diameters", "omega", "amplitude", *targets]):
+        if (count := targets.count(target)) != 1:
             wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == target) or target
             rule = f"must have one column {wanted}" + (f", and not {count}" if count else "")
             faults.append(Fault(("columns",), "", rule))

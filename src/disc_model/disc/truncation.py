@@ -73,8 +73,8 @@ class ModeChoice:
         if self.quantity == FREQUENCIES:
             record["band"] = BAND
         else:
-            found = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
-            record |= {"quantity": self.quantity, "values": found}
+            values = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
+            record |= {"quantity": self.quantity, "values": values}
         return json.dumps(record, sort_keys=True)
 
 
@@ -86,8 +86,8 @@ class ModeRequest(Strict):
 
     @model_validator(mode="before")
     @classmethod
-    def _with_tolerance(cls, given: dict[str, Any]) -> dict[str, Any]:
-        return {"tolerance": CHOSEN_BY.get(str(given.get("quantity")), CHOSEN_BY[FREQUENCIES])} | given
+    def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
+        return {"tolerance": CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])} | values
 
     @property
     def given(self) -> dict[str, Any]:
@@ -111,9 +111,9 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
     for size in sizes:
-        kept = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
+        of_size = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
         chosen = resized(p, size)
-        error = _worst(coupled_frequencies(p, contact_compliance(chosen), kept), right, top)
+        error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
         if error <= tolerance:
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
     raise DiscModelError(
@@ -149,7 +149,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | Non
     ParameterError
         If a value breaks a rule; the message lists every fault.
     """
-    rest, asked, faults = asked_modes(values)
+    rest, request, faults = asked_modes(values)
     if values.get("n_diameters") == AUTO:
         rest["n_circles"] = 0
     try:
@@ -157,7 +157,7 @@ def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | Non
     except ParameterError as error:
         raise ParameterError(*error.faults, *faults) from None
     raise_faults(faults)
-    return p, asked
+    return p, request
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None, list[str]]:
@@ -166,13 +166,13 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest 
     The request is None if the number of modes is given, or if there are faults.
     """
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
-    given = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
+    stated = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
     if rest.get("n_diameters") != AUTO:
         rule = f"is used with n_diameters={AUTO!r} only"
-        return rest, None, [Fault.of((_PREFIX + name,), value, rule) for name, value in given.items()]
+        return rest, None, [Fault.of((_PREFIX + name,), value, rule) for name, value in stated.items()]
     del rest["n_diameters"]
     try:
-        return rest, ModeRequest(**given), []
+        return rest, ModeRequest(**stated), []
     except ParameterError as error:
         return rest, None, [Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults]
 

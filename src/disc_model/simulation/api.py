@@ -295,7 +295,7 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
     return text
 
 
-def _statistics(kept: event_loop.RunBuffers, audit_every_step: bool, wall: float) -> dict[str, float]:
+def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, wall: float) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
         size = total[scale] + total[turnover]
@@ -303,8 +303,8 @@ def _statistics(kept: event_loop.RunBuffers, audit_every_step: bool, wall: float
             return math.nan
         return abs(total[residual]) / size if size > 0 else 0.0
 
-    count, total = kept.counters.tolist(), kept.audit.tolist()
-    stick, slip, separation = kept.phase_times.tolist()
+    count, total = buffers.counters.tolist(), buffers.audit.tolist()
+    stick, slip, separation = buffers.phase_times.tolist()
     return {
         "steps": count[event_loop.STEPS],
         "events": count[event_loop.EVENTS],
@@ -335,8 +335,10 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
         sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
-        place, rule = "start.prerun.parameters.", "must be that of the case, "
-        raise_faults(violations(*((found == own, place + name, found, f"{rule}{own}") for name, found, own in sizes)))
+        path, rule = "start.prerun.parameters.", "must be that of the case, "
+        raise_faults(
+            violations(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
+        )
         state = transfer_state(p, _end_of(other, start.prerun.time, tol))
     return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
 
@@ -405,5 +407,5 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
 def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
     if span is None:
         return events.isel(event=slice(0))
-    kept = events.isel(event=slice(*events["time"].values.searchsorted(span)))
-    return kept.assign_attrs(kept_from=span[0], kept_until=span[1])
+    within = events.isel(event=slice(*events["time"].values.searchsorted(span)))
+    return within.assign_attrs(kept_from=span[0], kept_until=span[1])

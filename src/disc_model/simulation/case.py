@@ -162,15 +162,15 @@ class Record(Checked):
         """
         if not self.windows:
             return self
-        found: list[str] = []
+        faults: list[str] = []
         windows: list[Window] = []
         for i, window in enumerate(self.windows):
             try:
                 windows.append(window.resolved(start, t_end))
             except ParameterError as error:
-                found += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
-        raise_faults(found)
-        if all(one is other for one, other in zip(windows, self.windows, strict=True)):
+                faults += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
+        raise_faults(faults)
+        if all(new is old for new, old in zip(windows, self.windows, strict=True)):
             return self
         return self.replace(windows=tuple(windows))
 
@@ -205,12 +205,12 @@ class Prerun(Strict):
 
     @field_validator("parameters")
     @classmethod
-    def _checked(cls, given: dict[str, Any]) -> dict[str, Any]:
+    def _checked(cls, values: dict[str, Any]) -> dict[str, Any]:
         """The values as `Parameters` converts them: floats, whole numbers, words."""
-        if given.get("n_diameters") == AUTO:
+        if values.get("n_diameters") == AUTO:
             raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
-        checked = SomeParameters(**given)
-        return {name: getattr(checked, name) for name in given}
+        checked = SomeParameters(**values)
+        return {name: getattr(checked, name) for name in values}
 
 
 class Start(Strict):

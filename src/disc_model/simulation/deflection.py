@@ -43,24 +43,24 @@ def snapshots(
     SimulationError
         If the motion ends before the last time.
     """
-    given = _numbers(times)
-    ascend = given is not None and not np.any(np.diff(given) < 0)
+    numbers = _numbers(times)
+    ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
     wrong = violations(
         (starts, "initial_state", initial_state, "must be a State"),
         (ascend, "times", times, "must be finite and ascend"),
     )
     raise_faults(foreign_case(p) + wrong)
-    wanted: list[float] = [] if given is None else given.tolist()
+    wanted: list[float] = [] if numbers is None else numbers.tolist()
     state, nothing = static_start(p) if initial_state is None else initial_state, Record(events=False)
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     raise_faults(violations(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
-    found = []
+    states = []
     for time in wanted:
         if time > state.time:
             state = simulate(p, time, tol=tol, initial_state=state, record=nothing).raise_for_status().final_state
-        found.append(state)
-    return tuple(found)
+        states.append(state)
+    return tuple(states)
 
 
 def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike) -> xr.DataArray:
@@ -85,16 +85,16 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     """
     import xarray as xr
 
-    given, radii, angles = _checked(p, states, r, theta)
+    states_in_order, radii, angles = _checked(p, states, r, theta)
     modes = mode_arrays(p)
     shapes = mode_shapes(p, radii)
-    w = np.empty((len(given), len(radii), len(angles)))
-    for i, state in enumerate(given):
+    w = np.empty((len(states_in_order), len(radii), len(angles)))
+    for i, state in enumerate(states_in_order):
         # modal coordinates are relative to the slider, whose angle is Omega t - psi
         turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
-        "time": ("time", [state.time for state in given], {"units": "s", "long_name": "time"}),
+        "time": ("time", [state.time for state in states_in_order], {"units": "s", "long_name": "time"}),
         "r": ("r", radii, {"units": "m", "long_name": "radius"}),
         "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
     }
@@ -105,7 +105,7 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
     """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
     raise_faults(foreign_case(p))
-    given: list[Any] = list(states) if np.iterable(states) else [states]
+    states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
     within = radii is not None and np.all((radii >= low) & (radii <= high))
@@ -114,7 +114,7 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
         (within, "r", r, f"must be within {limits}"),
         (angles is not None, "theta", theta, "must be finite"),
     )
-    for i, state in enumerate(given):
+    for i, state in enumerate(states_in_order):
         if not isinstance(state, State):
             faults += violations((False, f"states.{i}", state, "must be a State"))
         elif len(state.a) != len(psi):
@@ -124,10 +124,10 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
             faults += amplitude_faults(state, psi, ("states", str(i)))
     if faults or radii is None or angles is None:
         raise ParameterError(*faults)
-    return given, radii, angles
+    return states_in_order, radii, angles
 
 
 def _numbers(values: ArrayLike) -> Array | None:
     """The values as an array of shape (n,); None if they are not finite numbers."""
-    given = [values] if is_number(values) else values
-    return np.asarray(given, dtype=float) if is_finite_array(given) else None
+    several = [values] if is_number(values) else values
+    return np.asarray(several, dtype=float) if is_finite_array(several) else None

@@ -69,9 +69,9 @@ def faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
         if not getattr(p, name) > 0:
             yield Fault((name,), as_text(getattr(p, name)), "must be > 0 where there are ramps")
     for name in RAMPED:
-        own = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
-        own.sort(key=lambda entry: entry[1].start)
-        for (_, before), (i, ramp) in pairwise(own):
+        of_name = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
+        of_name.sort(key=lambda entry: entry[1].start)
+        for (_, before), (i, ramp) in pairwise(of_name):
             if ramp.start < before.end:
                 rule = f"must be >= {as_text(before.end)}, where the ramp of {name} before it ends"
                 yield Fault(("ramps", str(i), "start"), as_text(ramp.start), rule)
@@ -88,13 +88,13 @@ def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
         return (steady,)
     lines = {name: _line(p, ramps, name) for name in RAMPED}
     knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
-    found = [steady._replace(end=knots[0] if knots else math.inf)]
-    angle = p.Omega * found[0].end if knots else 0.0
+    parts = [steady._replace(end=knots[0] if knots else math.inf)]
+    angle = p.Omega * parts[0].end if knots else 0.0
     for begin, end in pairwise([*knots, math.inf]):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
-        found.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate, constant=False))
+        parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate, constant=False))
         angle += (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
-    return tuple(found)
+    return tuple(parts)
 
 
 def values_at(p: Parameters, ramps: Sequence[Ramp], name: str, times: ArrayLike) -> NDArray[np.float64]:

@@ -125,8 +125,8 @@ def _check_room(record: Record, Omega: float, start: float, t_end: float, longes
     """Raise `ParameterError` if memory cannot hold the recorded rows, an open bin's samples and those of a step."""
     row, folded, room = 8 * len(sampling.ROW), 8 * len(_FOLDED_ROW), _memory()
 
-    def needed(asked: Window | Poincare, rate: float, envelope: int | None = None) -> float:
-        samples = max(min(asked.stop, t_end) - max(asked.start, start), 0.0) * rate
+    def needed(span: Window | Poincare, rate: float, envelope: int | None = None) -> float:
+        samples = max(min(span.stop, t_end) - max(span.start, start), 0.0) * rate
         held = samples * row if envelope is None else samples / envelope * folded + 2 * min(envelope, samples) * row
         return held + min(samples, longest_step * rate) * row
 

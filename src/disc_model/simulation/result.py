@@ -179,11 +179,11 @@ class Result:
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
         lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
-        kept = f"{len(self.samples)} window{'' if len(self.samples) == 1 else 's'}"
+        windows = f"{len(self.samples)} window{'' if len(self.samples) == 1 else 's'}"
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
         events = self.statistics["events"]
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
-        return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {kept})"
+        return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""
@@ -198,10 +198,10 @@ _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
 
 def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
     """Names of a result's windows, checked: each becomes a group of a file, beside the groups of every file."""
-    given = list(names) if np.iterable(names) and not isinstance(names, str) else [names]
-    good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in given)
-    if not good or not len(given) == len(result.samples) == len(set(given) - set(BESIDE_WINDOWS)):
+    listed = list(names) if np.iterable(names) and not isinstance(names, str) else [names]
+    good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in listed)
+    if not good or not len(listed) == len(result.samples) == len(set(listed) - set(BESIDE_WINDOWS)):
         rule = f"must be {len(result.samples)} different names, one a window, of at most 60 printable characters, "
         rule += "a letter, digit or _ first, no / and no space last, none of them that of a variable"
         raise ParameterError(Fault(("names",), as_text(names), rule))
-    return given
+    return listed

@@ -117,15 +117,15 @@ class State:
         """
         from disc_model.data import dataset
 
-        found = dataset.load(path).to_dataset()
+        data = dataset.load(path).to_dataset()
         wanted = (*_MODAL, *_PLAIN, "direction", "known")
-        if "phase" not in found.attrs or not {*wanted} <= found.data_vars.keys():
+        if "phase" not in data.attrs or not {*wanted} <= data.data_vars.keys():
             raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
-        held: dict[str, Any] = {name: found[name].values for name in _MODAL}
-        held |= {name: float(found[name]) for name in _PLAIN}
-        held |= {name: int(found[name]) for name in ("direction", "known")}
-        held |= {name: found[name].values for name in ("mode_amplitudes",) if name in found}
-        return cls(phase=str(found.attrs["phase"]), case_key=str(found.attrs.get("case_key", "")), **held)
+        values: dict[str, Any] = {name: data[name].values for name in _MODAL}
+        values |= {name: float(data[name]) for name in _PLAIN}
+        values |= {name: int(data[name]) for name in ("direction", "known")}
+        values |= {name: data[name].values for name in ("mode_amplitudes",) if name in data}
+        return cls(phase=str(data.attrs["phase"]), case_key=str(data.attrs.get("case_key", "")), **values)
 
 
 _MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
@@ -176,10 +176,10 @@ def transfer_state(p: Parameters, state: State) -> State:
     Modal coordinates are kept.  If the modal amplitudes differ, the slider keeps its distance from the disc, which is
     zero in rigid contact.  A state with another number of modes is passed on, and `simulate` refuses it.
     """
-    psi, own = mode_arrays(p).psi, state.mode_amplitudes
+    psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
-    more = np.zeros_like(psi) if own is None else psi - own
+    more = np.zeros_like(psi) if amplitudes is None else psi - amplitudes
     u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
     if state.phase != "separation" and p.contact_compliance == 0:
         u = float(psi @ state.a)
@@ -258,10 +258,10 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     """
     if not case.idle[order]:
         return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
-    found = case.idle[order].pop()
-    for state in found[:2]:
+    workspace = case.idle[order].pop()
+    for state in workspace[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
-    return found
+    return workspace
 
 
 def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
@@ -295,27 +295,27 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     )
 
 
-def write_state(case: EngineCase, given: State, state: layout.EngineState, key: str = "") -> bool:
+def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
     """Write ``given`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
 
     Returns whether the engine has to determine the phase at this instant first: the state lies at an event of another
     case.  Raises `ParameterError` if arrays have the wrong shape, numbers are not finite, the phase contradicts the
     velocities, or the state belongs to other modes.
     """
-    raise_faults(_faults(given, case))
+    raise_faults(_faults(source, case))
     state.disc.fill(0.0)
     state.x.fill(0.0)
-    state.disc[case.places] = np.concatenate((given.a, given.b, given.alpha, given.beta))[case.present]
-    if given.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
-        _check_height(case, given.u, state)
+    state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[case.present]
+    if source.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
+        _check_height(case, source.u, state)
     x = state.x
-    x[layout.TIME], x[layout.TIME_LOW] = given.time, given.time_low
-    x[layout.PSI], x[layout.SPEED] = given.psi, given.f
-    x[layout.U], x[layout.U_VELOCITY] = given.u, given.u_velocity
-    x[layout.PHASE] = PHASES.index(given.phase)
-    x[layout.DIRECTION] = given.direction if given.phase == "slip" else 0.0
-    x[layout.KNOWN] = given.known
-    return bool(given.known) and given.case_key != (key or case.key) and _forget_switch(case, state)
+    x[layout.TIME], x[layout.TIME_LOW] = source.time, source.time_low
+    x[layout.PSI], x[layout.SPEED] = source.psi, source.f
+    x[layout.U], x[layout.U_VELOCITY] = source.u, source.u_velocity
+    x[layout.PHASE] = PHASES.index(source.phase)
+    x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
+    x[layout.KNOWN] = source.known
+    return bool(source.known) and source.case_key != (key or case.key) and _forget_switch(case, state)
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
@@ -356,47 +356,47 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
         raise ParameterError(Fault(("initial_state", "u"), as_text(u), rule))
 
 
-def _faults(given: State, case: EngineCase) -> list[str]:
+def _faults(source: State, case: EngineCase) -> list[str]:
     n_modes = len(case.amplitudes)
     # in compliant contact, contact and its force can begin at the same instant
     highest, known = (7, "a whole number from 0 to 7") if case.model.compliant else (3, "0, 1, 2 or 3")
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
-    wrong = [name for name in _MODAL if not is_finite_array(getattr(given, name), n_modes)]
+    wrong = [name for name in _MODAL if not is_finite_array(getattr(source, name), n_modes)]
     faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
-    finite = {name: is_finite(getattr(given, name)) for name in _PLAIN}
+    finite = {name: is_finite(getattr(source, name)) for name in _PLAIN}
     # the clock's compensation is at most a unit in the last place of the time
-    small = finite["time_low"] and (not finite["time"] or abs(given.time_low) <= math.ulp(given.time))
-    phase = given.phase if isinstance(given.phase, str) else ""
-    f, directed = given.f if finite["f"] else 0.0, _is_among(given.direction, (-1, 1))
-    against = phase == "slip" and directed and f * given.direction < 0
+    small = finite["time_low"] and (not finite["time"] or abs(source.time_low) <= math.ulp(source.time))
+    phase = source.phase if isinstance(source.phase, str) else ""
+    f, directed = source.f if finite["f"] else 0.0, _is_among(source.direction, (-1, 1))
+    against = phase == "slip" and directed and f * source.direction < 0
     rules = (
         *((finite[name], name, "must be finite") for name in _PLAIN if name != "time_low"),
         (small, "time_low", "must be less than the last digit of the time"),
-        (_is_among(given.known, range(highest + 1)), "known", f"must be {known}"),
+        (_is_among(source.known, range(highest + 1)), "known", f"must be {known}"),
         (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),
         (phase != "stick" or f == 0, "f", "must be 0 in stick"),
         (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),
-        (not against, "f", f"must have the sign of direction={given.direction}"),
+        (not against, "f", f"must have the sign of direction={source.direction}"),
     )
-    faults += amplitude_faults(given, case.amplitudes, ("initial_state",))
+    faults += amplitude_faults(source, case.amplitudes, ("initial_state",))
     return faults + violations(
-        *((holds, f"initial_state.{name}", getattr(given, name), rule) for holds, name, rule in rules)
+        *((holds, f"initial_state.{name}", getattr(source, name), rule) for holds, name, rule in rules)
     )
 
 
-def amplitude_faults(given: State, amplitudes: Array, place: tuple[str, ...]) -> list[str]:
+def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> list[str]:
     """Faults of a state's `mode_amplitudes` for a case whose modes have these amplitudes, shape (n_modes,)."""
-    own = given.mode_amplitudes
-    if own is None or own is amplitudes:
+    stated = state.mode_amplitudes
+    if stated is None or stated is amplitudes:
         return []
-    place = (*place, "mode_amplitudes")
-    if not is_finite_array(own, len(amplitudes)):
-        return [Fault(place, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
+    path = (*path, "mode_amplitudes")
+    if not is_finite_array(stated, len(amplitudes)):
+        return [Fault(path, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
     # modes from two processors differ by at most 1e-13 (measured)
-    other = np.abs(own - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
+    other = np.abs(stated - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
     rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
     return [
-        Fault((*place, str(i)), as_text(float(own[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
+        Fault((*path, str(i)), as_text(float(stated[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
     ]
 
 
