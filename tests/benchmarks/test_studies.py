@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, figures, maps, questions, study, work_precision
+from disc_model.benchmarks import answers, figures, maps, questions, study
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
@@ -87,14 +87,6 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
     assert known["regularised"].tried == [1.0]
     words = flag_names(dataset.sel(scene="separating", solver="regularised")["verdict"])
     assert words[:2].tolist() == ["gave_up", "not_run"]
-
-
-def test_slow_points_are_not_repeated(known: dict[str, Known]) -> None:
-    known["RK4"].cost = lambda h: 5.0
-    dataset = work_precision.work_precision({"stick_slip": SETTINGS["stick_slip"]}, rounds=3)
-    repeats = dataset["repeats"].sel(scene="stick_slip")
-    assert repeats.sel(solver="RK4").values.tolist() == [1] * 4
-    assert repeats.sel(solver="series").values[:3].tolist() == [3] * 3
 
 
 def test_fitted_order():
@@ -244,12 +236,6 @@ def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
     assert (part.low, part.high) == pytest.approx((middle - half, middle + half), rel=1e-5)
     few = judged(wrong=0, seconds=8.0)
     assert (few.status, few.seconds) == (AnswerStatus.TOO_SLOW, 8.0 * SIDE * SIDE)
-
-
-def test_what_breaks_off_has_a_status_and_a_reason() -> None:
-    for name in questions.ASKED:
-        for reply in questions.ask(lambda problem, _: result(problem, [], outcome=RunStatus.STALLED), name).values():
-            assert (reply.status, reply.message) == (AnswerStatus.STALLED, "stalled")
 
 
 @pytest.mark.compiled

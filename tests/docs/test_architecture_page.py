@@ -27,10 +27,3 @@ def test_every_layer_is_in_the_picture():
     )
     assert drawn == [part for layer in layers.layers() for part in layer]
     assert drawn == re.findall(r'class="name"[^>]*>(\w+)<', layers.draw())
-
-
-def test_every_part_of_the_package_has_its_responsibility():
-    table = PAGE.split("## Responsibilities")[1].split("\n### ")[0]
-    rest = {"errors"}
-    named = set(re.findall(r"`(\w+)(?:/|\.py)`", table))
-    assert {part for layer in layers.layers() for part in layer} - rest <= named

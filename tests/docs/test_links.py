@@ -24,11 +24,6 @@ def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
 
 
-def test_each_notebook_is_offered_as_a_file():
-    for page in (ROOT / "docs" / "notebooks").glob("*.md"):
-        assert f"{{nb-download}}`{page.stem}.ipynb`" in page.read_text(encoding="utf-8")
-
-
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_links_lead_somewhere(page):
     text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)

@@ -6,12 +6,10 @@ import zlib
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from disc_model.explorer.contents import BITS, LEVELS, motion_contents, runs, shortened, study_contents, traces
+from disc_model.explorer.contents import BITS, LEVELS, motion_contents, study_contents
 from disc_model.studies.motions import SAMPLES
 from tests.explorer import made_up
-from tests.studies.quantities import test_sensitivity as uncertain
 
 
 def numbers(stored, kind: str) -> np.ndarray:
@@ -44,26 +42,6 @@ def test_numbers_flags_and_messages_come_through(contents):
     assert contents["fixed"] == [spring]
 
 
-def test_more_messages_and_greater_numbers_than_fit_into_small_types():
-    """Indices of messages wrapped at 65,536, and numbers above 3.4e38 were infinite."""
-    words = np.array([f"message {i:05}" for i in range(70_000)], dtype=object)
-    study = xr.Dataset({"message": ("N", words), "c": ("N", np.where(np.arange(70_000) == 3, 1e300, 0.5))})
-    told = study_contents("x", study)
-    assert told["messages"]["words"][numbers(told["messages"], "<u4")[69_999]] == "message 69999"
-    (variable,) = told["variables"]
-    assert variable["wide"]
-    np.testing.assert_array_equal(numbers(variable, "<f8"), study["c"])
-
-
-def test_chosen_modes_are_told_with_their_tolerance():
-    """A study with `n_diameters: auto` ended the page in a KeyError."""
-    study = made_up.plane()
-    base = json.loads(study.attrs["base"]) | {"n_diameters": "auto", "truncation_tolerance": 1e-3}
-    told = study_contents("x", study.assign_attrs(base=json.dumps(base)))["fixed"]
-    assert [one["value"] for one in told if one["name"] in ("n_diameters", "truncation_tolerance")] == ["auto", 1e-3]
-    assert all(one["title"] for one in told)
-
-
 def test_a_zip_is_one_dimension_of_words():
     (dim,) = study_contents("line", made_up.line())["dims"]
     assert dim["values"][0] == "N = 100, Omega = 20"
@@ -85,17 +63,3 @@ def test_motions_are_right_to_half_a_step_and_failed_ones_are_left_out(contents)
     lost = made_up.motions()
     lost["status"][:] = 1
     assert motion_contents(lost)["points"] == []
-
-
-def test_histories_and_numbers_at_their_limits():
-    told = traces(np.full((2, 7), -0.0088))
-    assert (told["least"], told["step"], numbers(told, "<u2").any()) == ([-0.0088] * 2, [0.0] * 2, False)
-    found = shortened(np.array([np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0]))
-    np.testing.assert_array_equal(found, np.array([np.nan, np.inf, -np.inf, 0, -0.0, 1], np.float32))
-    assert runs(np.array([2, 2, 2, 1, 1, 2])) == [[0, 2], [3, 1], [5, 2]]
-
-
-def test_what_is_said_over_all_samples_is_told_beside_them():
-    """It lies along fewer dimensions than the points."""
-    told = {one["name"]: one["dims"] for one in study_contents("doubts", uncertain.made_up())["variables"]}
-    assert (told["growth_rate"], told["probability_unstable"]) == (["N", "sample", "variant"], ["N"])

@@ -17,7 +17,7 @@ from tests.workflow.browser import Page, browser
 pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
 
 SIZES = {"wide": (1400, 1000), "narrow": (360, 740)}
-LEFT, UP, RIGHT, ENTER, ESCAPE = "\ue012", "\ue013", "\ue014", "\ue007", "\ue00c"
+LEFT, UP, RIGHT = "\ue012", "\ue013", "\ue014"
 """Keys as WebDriver calls them."""
 SEEN = Path(__file__).with_name("seen.js").read_text(encoding="utf-8")
 READY = "return document.getElementById('grids').ariaBusy === 'false'"
@@ -90,11 +90,6 @@ def test_it_fits_the_window_and_needs_no_network(shown: Page) -> None:
     assert min(ask(shown, "sizesOfType", "p, li, td, th, label, select, button, figcaption")) >= 12
 
 
-def test_it_opens_on_the_growth_map(shown: Page) -> None:
-    """It opened on the first study, and on its first variable."""
-    assert text(shown, "map-title").startswith("A plane <b>: growth rate")
-
-
 def test_every_choice_draws_something(shown: Page) -> None:
     drawn = set()
     for study in options(shown, "Study"):
@@ -132,24 +127,6 @@ def test_pointing_says_the_value_of_what_is_chosen(shown: Page) -> None:
     assert colour(shown, 0, 0) == WORDS["quiet"].lower()
     shown.run("document.getElementById('fixed').parentElement.open = true")
     assert text(shown, "fixed").endswith("50000 N m⁻¹")
-
-
-@pytest.mark.parametrize(
-    ("values", "kind"),
-    [
-        ([50, 100, 200, 300, 385, 450, 525, 600], "linear"),
-        ([8e10, 1e11, 1.2e11, 1.4e11, 1.5e11, 1.6e11], "linear"),
-        ([*(1e4 * 20 ** (np.arange(41) / 40))], "log"),
-        ([1e4, 1.53e4, 2.35e4, 3.6e4, 5e4, 5.53e4, 8.48e4, 1.3e5, 2e5], "log"),
-        ([0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5], "place"),
-        ([0, 1], "linear"),
-        ([15.1], "linear"),
-    ],
-)
-def test_axes_are_scaled_as_their_values_are_spread(session: Page, file: Path, values: list[float], kind: str) -> None:
-    session.open(file)
-    found = session.run("return scaleOf({values: arguments[0], words: false}).kind", [float(x) for x in values])
-    assert found == kind
 
 
 def test_a_point_that_failed_says_so(shown: Page) -> None:
@@ -210,19 +187,6 @@ def test_the_keyboard_will_do(shown: Page) -> None:
     shown.run("document.getElementById('controls').elements.namedItem('Variable').focus()")
     choose(shown, "Variable", "outcome")
     assert shown.run("return document.activeElement.name") == "Variable"
-
-
-def test_figures_are_enlarged(shown: Page) -> None:
-    shown.run("document.querySelector('.pictures button').focus()")
-    shown.press(ENTER)
-    large = "const image = document.getElementById('large-image'); return image.complete && image.naturalWidth"
-    shown.wait_for(large)
-    assert shown.run("return document.getElementById('large').open")
-    assert text(shown, "large-caption") == "The caption of one."
-    shown.press(RIGHT)
-    assert text(shown, "large-title") == "two"
-    shown.press(ESCAPE)
-    assert not shown.run("return document.getElementById('large').open")
 
 
 def test_text_is_readable_in_light_and_dark(session: Page, file: Path) -> None:

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from disc_model.explorer import page as page_module
-from disc_model.explorer.page import PAGE_WIDTH, PICTURE_WIDTH, SCRIPTS, Picture, page
+from disc_model.explorer.page import PAGE_WIDTH, PICTURE_WIDTH, Picture, page
 from tests.explorer import made_up
 
 CAPTION = 'A curve of f < 0 & "more"'
@@ -74,10 +73,3 @@ def test_figures_have_pictures_and_captions(text):
         assert picture.convert("RGB").getpixel((9, 9)) == pytest.approx((0, 0x72, 0xB2), abs=7)
     assert text.count("<figcaption>A curve of f &lt; 0 &amp; &quot;more&quot;</figcaption>") == 2
     assert text.index("<h3>Sec. 1</h3>") < text.index("<h3>Sec. 2</h3>")
-
-
-def test_every_part_is_used_and_equal_contents_give_equal_bytes(figure):
-    there = {path.stem for path in (Path(page_module.__file__).parent / "static").glob("*.js")}
-    assert there == set(SCRIPTS)
-    pictures = [Picture("a", "b", "c", figure)]
-    assert page("t", [], pictures) == page("t", [], pictures)

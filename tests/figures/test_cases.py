@@ -11,7 +11,6 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Record, Window, simulate
-from disc_model.data.variables import PERTURBATIONS, SHOWN
 from disc_model.figures.drawing import save
 from disc_model.figures.kind import kind_of
 from tests.damages import damaged
@@ -89,18 +88,6 @@ def test_portraits_and_sections_show_all_samples() -> None:
     assert disc.get_xlabel().startswith("Disc at")
 
 
-def test_sections_of_a_pair_share_the_axes_of_the_slider() -> None:
-    small, large = simulated(True).copy(deep=True), simulated(True).copy(deep=True)
-    for name in ("psi", "psi_velocity", "w_point"):
-        large["poincare"][name] = 3 * large["poincare"][name]
-    plot = kind_of("poincare").model_validate({"kind": "poincare", "case": "A", "compared_with": ["B"]})
-    (first, second), (slider, disc) = (
-        plot.render(dict(zip("AB", pair, strict=True))).axes for pair in ((small, large), (large, small))
-    )
-    assert (first.get_xlim(), first.get_ylim()) == (slider.get_xlim(), slider.get_ylim())
-    assert second.get_xlim() != disc.get_xlim()
-
-
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram"])
 def test_what_a_case_lacks_is_said(kind: str) -> None:
     phrase = {} if kind == "poincare" else {"window": "orbit"}
@@ -109,8 +96,3 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
     if kind != "poincare":
         early = damaged(simulated(True), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
         assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase)))
-
-
-def test_every_number_that_varies_has_a_symbol() -> None:
-    numbers = [name for name in Parameters.model_fields if Parameters.unit(name)]
-    assert {*numbers, *PERTURBATIONS} <= SHOWN.keys()

@@ -97,11 +97,3 @@ def test_a_zip_has_a_panel_or_a_line_for_each_of_its_points(study: xr.Dataset) -
     np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
     figure = draw("curve", zipped(study), variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
     assert list(lines(figure.axes[0]))[:2] == phrase
-
-
-def test_a_curve_of_words_names_them(study: xr.Dataset) -> None:
-    ax = draw("curve", study, variable="status", x="c_p", at={"normalization": "as_published", "mu_k": 0.3}).axes[0]
-    assert [text.get_text() for text in ax.get_yticklabels()] == ["ok", "no cycle found"]
-    assert ax.get_xscale() == "log"
-    # The symbol of a parameter that is picked stood between two dollar signs on either side: no figure was drawn.
-    ax.get_figure().draw_without_rendering()

@@ -6,7 +6,7 @@ import pytest
 
 from disc_model.errors import ParameterError
 from disc_model.figures.general import General
-from disc_model.figures.kind import CasePlot, Kind, Plot, kind_of, library_kinds
+from disc_model.figures.kind import CasePlot, Plot, kind_of, library_kinds
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import quantity_names
 from tests.processes import python
@@ -38,8 +38,3 @@ def test_a_study_is_checked_without_what_draws_and_without_the_paper() -> None:
     assert {"matplotlib", "numba"}.isdisjoint(python(code).stdout.split())
     code = "import sys, disc_model.studies.study; print(*(name for name in sys.modules if '.paper' in name))"
     assert python(code).stdout.split() == []
-
-
-def test_a_caption_may_be_given_in_parts() -> None:
-    parts = Kind.model_validate({"kind": "any", "caption": ["One part.", "Another."]})
-    assert parts.caption == Kind.model_validate({"kind": "any", "caption": "One part. Another."}).caption

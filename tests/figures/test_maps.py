@@ -118,12 +118,6 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     save(figure, tmp_path / "map.png")
 
 
-def test_continued_curves_take_the_place_of_borders(plane: xr.Dataset) -> None:
-    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
-    figure = draw("region_map", study, {"curves": plane}, x="Omega", y="N")
-    assert lengths(figure.axes[0]) == []
-
-
 def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str) -> xr.Dataset:
     words = {"flag_meanings": "failed quiet growing separation"}
     return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)

@@ -3,11 +3,10 @@
 import json
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from disc_model.figures import sensitivity
-from disc_model.figures.campbell import gaps, noted, spread
+from disc_model.figures.campbell import gaps, noted
 from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.reading import draw
 from tests.studies.quantities import test_sensitivity as uncertain
@@ -91,12 +90,3 @@ def test_a_campbell_diagram_cuts_nothing_off_and_numbers_what_matters() -> None:
     ratios = [line / study["stick_slip_frequency"].values for line in whole]
     multiples = {float(np.round(np.nanmean(ratio), 6)) for ratio in ratios if np.nanstd(ratio) < 1e-9}
     assert multiples >= set(study["crossing_multiple"].values.tolist())
-
-
-@pytest.mark.parametrize("places", [[1.0, 1.01, 1.02], [0.0, 0.0, 10.0], [5.0], [], list(np.zeros(30))])
-def test_names_are_spread(places: list[float]) -> None:
-    found = np.array(spread(places, 0.5, 0.0, 10.0))
-    assert len(found) == len(places)
-    if len(places) > 1:
-        assert np.diff(found).min() >= min(0.5, 10 / (len(places) - 1)) * (1 - 1e-12)
-    assert np.all((found >= -1e-12) & (found <= 10 + 1e-12))

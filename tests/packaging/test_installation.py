@@ -12,17 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from packaging.utils import canonicalize_name
 
 from tests import needs, processes
-from tests.packaging.test_light import names
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
 VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
-LOCKS = ("requirements.lock", "requirements-bench.lock")
 UV = Path(sys.prefix, "bin", "uv")
 needs_uv = pytest.mark.skipif(not UV.exists(), reason="uv is not installed")
 PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
@@ -176,16 +173,6 @@ def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path
 
 
 # ---- the lock file
-
-
-@pytest.mark.parametrize("file", LOCKS)
-def test_everything_wanted_is_pinned_with_hashes_and_no_address(file: str) -> None:
-    lock, wanted = (ROOT / file).read_text(), (ROOT / file).with_suffix(".in").read_text()
-    assert names(wanted.splitlines()) <= {canonicalize_name(name) for name, _ in PIN.findall(lock)}
-    assert not re.search(r"://|--(extra-)?index-url|--find-links|--trusted-host| @ ", lock)
-    for block in re.split(r"^(?=[A-Za-z0-9])", lock, flags=re.MULTILINE)[1:]:
-        assert PIN.match(block), block
-        assert "--hash=sha256:" in block, block
 
 
 @needs_uv

@@ -83,13 +83,6 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     )
 
 
-def test_snakemake_is_the_version_that_the_workflow_asks_for() -> None:
-    (least,) = re.findall(r'^min_version\("([\d.]+)"\)', (ROOT / "workflow/Snakefile").read_text(), re.MULTILINE)
-    assert f"snakemake>={least}" in EXTRAS["workflow"]
-    locked = re.findall(r"^snakemake==([\d.]+)", (ROOT / "requirements.lock").read_text(), re.MULTILINE)
-    assert all(tuple(map(int, found.split("."))) >= tuple(map(int, least.split("."))) for found in locked)
-
-
 def test_what_is_required_is_locked_and_in_the_environment_of_conda() -> None:
     wanted = names(PROJECT["project"]["dependencies"]) | names(EXTRAS["slurm"]) | names(EXTRAS["workflow"])
     assert wanted <= names((ROOT / "requirements.in").read_text().splitlines())

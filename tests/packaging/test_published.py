@@ -4,9 +4,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import yaml
-from packaging.requirements import Requirement
-
 from tests import needs
 from tests.processes import run
 
@@ -15,45 +12,9 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 WORKFLOWS = {path.stem: path for path in (ROOT / ".github" / "workflows").glob("*.yml")}
 
 
-def test_addresses_are_those_of_pyproject() -> None:
-    urls = PROJECT["urls"]
-    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    assert (cited["repository-code"], cited["url"]) == (urls["Repository"], urls["Documentation"])
-    assert f"https://doi.org/{cited['doi']}" == urls["DOI"]
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    for name, address in urls.items():
-        assert f"[{name}]({address})" in readme
-    # no other page names another place of the project
-    owner = re.compile(r"https://(?:github\.com/(\w+)/disc_model|(\w+)\.github\.io/disc_model)")
-    texts = [path.read_text(encoding="utf-8") for path in (*ROOT.glob("*.*"), *ROOT.glob("docs/*.*")) if path.is_file()
-             and path.suffix in (".md", ".cff", ".toml", ".py")]  # fmt: skip
-    assert len({one or other for text in texts for one, other in owner.findall(text)}) == 1
-
-
-def test_a_numba_whose_internals_are_not_known_is_not_installed() -> None:
-    (numba,) = (one for one in map(Requirement, PROJECT["dependencies"]) if one.name == "numba")
-    locked = re.search(r"^numba==(\S+)", (ROOT / "requirements.lock").read_text(encoding="utf-8"), re.MULTILINE)
-    assert locked
-    assert numba.specifier.contains(locked[1])
-    assert not numba.specifier.contains("0.999")
-
-
 @needs.ACTIONLINT.mark
 def test_definitions_for_actions_have_no_faults() -> None:
     assert run(needs.program("actionlint"), *WORKFLOWS.values()).stdout == ""
-
-
-def test_each_supported_python_is_tested() -> None:
-    supported = [name.rsplit(" ", 1)[1] for name in PROJECT["classifiers"] if re.search(r"Python :: \d\.\d+$", name)]
-    jobs = yaml.safe_load(WORKFLOWS["tests"].read_text(encoding="utf-8"))["jobs"]
-    assert jobs["test"]["strategy"]["matrix"]["python"] == supported == list(needs.PYTHONS)
-
-
-def test_actions_call_targets_that_make_has() -> None:
-    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
-    for path in WORKFLOWS.values():
-        called = re.findall(r"make (?:PYTHON=python )?([\w-]+)", path.read_text(encoding="utf-8"))
-        assert set(called) <= targets, path.name
 
 
 def test_every_file_of_quick_tests_is_in_one_part() -> None:

@@ -1,9 +1,7 @@
 """The paper's figures, as config/paper.yaml describes them."""
 
 import functools
-import re
 from pathlib import Path
-from pkgutil import iter_modules
 
 import numpy as np
 import pandas as pd
@@ -12,10 +10,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.data.dataset import Missing, events_dataset
+from disc_model.data.dataset import events_dataset
 from disc_model.figures.drawing import COLUMN, PAGE
 from disc_model.figures.kind import CasePlot
-from disc_model.paper import figures
 from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, EACH_DAMAGE, damaged
@@ -28,16 +25,6 @@ ONE_OF_EACH = list({plot.kind: name for name, plot in FIGURES.items()}.values())
 """A figure of each kind."""
 ZOOMS = {"fig26": (("spectrum_c", 54.0), ("spectrum_d", 57.0)), "fig28": (("spectrum_d", 56.5), ("spectrum_d", 57.0))}
 """Closer looks at times that the made-up case has."""
-
-
-def test_every_kind_of_the_paper_is_in_its_study() -> None:
-    modules = {f"paper.{module.name}" for module in iter_modules(figures.__path__)} - {"paper.separations"}
-    assert modules == {plot.kind for plot in STUDY.figures.values() if "." in plot.kind}
-    assert all(
-        plot.module == f"disc_model.{plot.kind.replace('.', '.figures.')}"
-        for plot in map(FIGURES.get, ONE_OF_EACH)
-        if "." in plot.kind
-    )
 
 
 @functools.cache
@@ -76,23 +63,6 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
         known = {"failed"} if damage == "failed" else {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_captions_say_what_the_windows_and_the_cases_hold(name: str) -> None:
-    entry, plot = STUDY.entries(STUDY_GRIDS)["paper", name], FIGURES[name]
-    windows = [STUDY.specs[need.case].sections[need.name] for need in plot.needs()]
-    for number, unit in re.findall(r"θ = ([\d.]+) (rad)", plot.caption):
-        assert {window.theta for window in windows} == {float(number)}, unit
-    for start, stop in re.findall(r"point, (\d+) to (\d+) s", plot.caption):
-        assert [(window.start, window.stop) for window in windows] == [(float(start), float(stop))]
-    for length in re.findall(r"\(b\) (\d+) ms of it", plot.caption):
-        assert windows[1].stop - windows[1].start == pytest.approx(1e-3 * float(length))
-    assert "N = " in entry.caption
-    assert entry.caption.endswith("; everything else as in Table 1; modes scaled as in the published results.")
-
-
-STUDY_GRIDS = STUDY.grids([Path(__file__).parents[2]])[0]
 
 
 def test_closures_fall_to_rounding_at_the_period_only() -> None:
@@ -134,16 +104,3 @@ def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
     w = np.abs(motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))).max(axis=1)
     assert w[0] < 1e-9 * w[2], "it is clamped inside"
     assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
-
-
-@pytest.mark.compiled
-def test_what_does_not_determine_the_disc_is_said(case: xr.DataTree) -> None:
-    with pytest.raises(Missing, match="recorded the disc at 4 angles, 5 are needed"):
-        motion_of(case.drop_nodes("around4"))
-    late = case["around1"].to_dataset().assign_coords(time=case["around1"]["time"] + 1.0)
-    with pytest.raises(Missing, match="at other times at other angles"):
-        motion_of(case.assign(around1=xr.DataTree(late)))
-    circles, p = case.copy(), Parameters.model_validate_json(case.attrs["parameters"])
-    circles.attrs["parameters"] = p.replace(n_circles=1).canonical_json
-    with pytest.raises(Missing, match="nodal circles"):
-        motion_of(circles)

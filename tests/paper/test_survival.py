@@ -98,7 +98,6 @@ BESIDE = (-0.1, -0.2, 0.1, -0.1, -0.05, NAN)
     [
         (ONSET, onset("qqsqgs", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), HOLDS),
         (ONSET, onset("qssqgs", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), FAILS),  # one from a stable cycle
-        (ONSET, onset("qssqgs", -0.1, -5e-4, 0.1, -0.1, 0.05, NAN), HOLDS),  # too slow a growth to tell
         (ONSET, onset("qqqqgg", -0.1, -0.2, 0.1, -0.1, 0.05, 0.1), UNDECIDED),  # nothing separates
         (ONSET, onset("qqsqss", *BESIDE, fold=20.2), FAILS),  # the cycle continues
         (ONSET, onset("qqsqss", *BESIDE, fold=20.05), REMARK),  # just below the fold
@@ -106,30 +105,22 @@ BESIDE = (-0.1, -0.2, 0.1, -0.1, -0.05, NAN)
         (FOLD, at_fold(curves("fold", 14.9, 15.2), 15.1), HOLDS),  # at 15.05, within 15.0 .. 15.1
         (FOLD, at_fold(curves("fold", 15.0, 15.34), 15.1), FAILS),  # at 15.17
         (FOLD, at_fold(curves("fold", 14.9, 15.2, border="no"), 15.1), FAILS),
-        (FOLD, at_fold(curves("neutral", 14.9, 15.2), 15.1), FAILS),
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1), UNDECIDED),  # one of them may be the fold
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1, rate=0.1), FAILS),  # the cycle goes on, unstable
         (FOLD, at_fold(curves("fold", 14.9, 15.2)), UNDECIDED),
         (CRITICAL, critical(30.0, 20.0, 12.0, NAN), HOLDS),
         (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), UNDECIDED),  # at the end of the scan it falls again
         (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FAILS),  # no more than speeds are known to
-        (CRITICAL, critical(NAN, 20.0, NAN, 15.0), UNDECIDED),
         (NORMAL, damping("c", GROWING, GROWING - 0.15), HOLDS),
         # a stable one may do as it likes
         (NORMAL, damping("c", GROWING, GROWING + np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]])), HOLDS),
         (NORMAL, damping("c", GROWING, GROWING + np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]])), FAILS),
-        (NORMAL, damping("c", -np.abs(GROWING), GROWING), UNDECIDED),
         (IN_PLANE, damping("c_p", MANY, MANY - 0.05), FAILS),
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, 0.05)), REMARK),  # a stable cycle grows
         (IN_PLANE, damping("c_p", MANY, raised(0, 0, 0.05)), FAILS),  # at a small preload only
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_cycle"), REMARK),
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_stick_slip"), FAILS),  # it slides: no instability
         (IN_PLANE, damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05), UNDECIDED),  # few cycles say nothing
-        (
-            ONSET,
-            {"outcome": outcome("qqsqgs")},
-            f"{NOT_COMPUTED}: study survival_growth is not among those of this run",
-        ),
     ],
 )
 def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdict: str) -> None:
@@ -182,12 +173,10 @@ SMALLER, STICK, PERIODIC = "Smaller vibration", "Stick vanishes", "Not periodic 
         (SMALLER, (case(9, 1, 1, 1.1), BONDED), HOLDS),  # what is early does not count
         (SMALLER, (case(1, 1, 1, 1.3), BONDED), UNDECIDED),  # it still grows
         (SMALLER, (case(1, 1, 4, 4), BONDED), FAILS),
-        (SMALLER, (case(1, 1, 4, 2), BONDED), UNDECIDED),  # it wanders across
         (SMALLER, (case(1, 1, 1, 1),), UNDECIDED),  # nothing to compare with
         (STICK, (case(stick=5e-4),), HOLDS),
         (STICK, (case(stick=5e-4), case(N=300, stick=0.01)), REMARK),
         (STICK, (case(stick=5e-4, before=5e-4),), FAILS),  # it never stuck
-        (STICK, (case(first=0),), UNDECIDED),
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=DRIFTING)), HOLDS),
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=REPEATING)), FAILS),
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=np.full(20, 2.0))), UNDECIDED),

@@ -17,15 +17,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor.classification import Basins, random_perturbation
-from disc_model.stability.attractor.neighbourhood import (
-    NearCycle,
-    cycle_of_static_start,
-    departs_after,
-    departure,
-    follows,
-)
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
-from disc_model.stability.cycle import FloquetResult
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -72,33 +64,7 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     assert found.simulated < 0.6 * whole.simulated
 
 
-SLOW = Parameters(N=416.6666666667, Omega=15, c_p=0.75, normalization="orthonormal")
 PASSES = Parameters(N=550, Omega=15, c_p=0.53125, normalization="orthonormal")
-
-
-@pytest.mark.compiled
-def test_a_departure_with_several_slow_multipliers_is_extrapolated_while_it_is_linear() -> None:
-    near = cycle_of_static_start(SLOW)
-    assert isinstance(near, NearCycle)
-    time, distance = departure(near, room=10**6)
-    assert time > 100
-    moved = near.moved(near.x + near.distance, round(time / near.cycle.period), coarse=False).end
-    # the phase is lost, since it drifts with the amplitude; the linear map's growth is tested to 10 % at the end
-    assert np.linalg.norm(moved - near.x) == pytest.approx(np.linalg.norm(distance), rel=0.1)
-
-
-@pytest.mark.compiled
-def test_a_motion_that_has_not_departed_by_the_horizon_is_still_near_its_cycle() -> None:
-    p = Parameters(N=300, Omega=20)
-    near = cycle_of_static_start(p)
-    assert isinstance(near, NearCycle)
-    assert departs_after(near, 60)
-    assert not departs_after(near, 150)  # contact is lost at 149.41 s
-    _, x = near.map.next_release(simulate(p, 60).final_state)
-    assert np.linalg.norm(x - near.x) < 0.1 * near.map.deflection
-    rest = cycle_of_static_start(p.replace(Omega=0))
-    assert isinstance(rest, FloquetResult)
-    assert repr(rest) == "FloquetResult(N=300 N, Omega=0 rad/s: at_rest, 0 multipliers)"
 
 
 @pytest.mark.compiled
@@ -110,22 +76,6 @@ def test_a_second_departure_is_extrapolated_too() -> None:
     assert found.near is not None
     assert found.near.cycle.growth_rate == pytest.approx(0.0735, rel=0.01)
     assert keeps_contact(PASSES, 1000)
-
-
-@pytest.mark.compiled
-def test_a_departure_to_a_stable_cycle_is_simulated_from_nearer_the_cycle() -> None:
-    """From a tenth of the static deflection it came to another cycle. All of it simulated, it separates at 570 s."""
-    found = find_outcome(Parameters(N=450, Omega=15, normalization="orthonormal"), 600, tol=1e-8)
-    assert found.outcome is Outcome.SEPARATION
-    # the time depends on rounding: by 4 s among those simulations
-    assert found.first_separation == pytest.approx(569, abs=10)
-
-
-@pytest.mark.compiled
-def test_errors_of_a_coarse_simulation_do_not_hide_the_cycle_that_it_has_come_to() -> None:
-    """Changes no longer fell, at 12 times the tolerance, and the motion was said to grow."""
-    found = find_outcome(Parameters(N=200, Omega=8.75, c=0.0025), 1000, tol=1e-6)
-    assert found.outcome is Outcome.OTHER_CYCLE
 
 
 @pytest.mark.compiled
@@ -144,30 +94,6 @@ def test_what_looks_like_rest_is_followed(which: str) -> None:
 
 
 @pytest.mark.compiled
-def test_a_start_far_from_a_cycle_follows_it_once_it_has_come_near() -> None:
-    """Beside the fold the motion from the start is not linear: its size tells."""
-    near = cycle_of_static_start(Parameters(N=385, Omega=15))
-    assert isinstance(near, NearCycle)
-    at = near.map.static
-    assert not follows(near, at)
-    assert near.follows_cycle
-    assert 1 < near.waited < 20
-    # the distance is the one that is left by then
-    *_, later = near.map.returns(at, round(near.waited / near.cycle.period))
-    assert np.linalg.norm(later - near.x - near.distance) < 1e-6 * near.map.deflection
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("rate", [-50.0, -0.01])
-def test_a_motion_that_has_arrived_follows_its_cycle_however_fast_others_come_to_it(rate: float) -> None:
-    """What is left after a strong decay is roundings: they do not decay, and the motion was said to be elsewhere."""
-    p = SMALL if rate == -50 else Parameters(N=50, Omega=15)
-    near = cycle_of_static_start(p)
-    assert isinstance(near, NearCycle)
-    assert follows(near, near.x + 1e-12 * near.distance)
-
-
-@pytest.mark.compiled
 def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     """At 385 N and 15 rad/s a kick of 0.2 mm dies out and one of 0.3 mm leads to separation."""
     p = Parameters(N=385, Omega=15)
@@ -175,13 +101,6 @@ def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     assert (small.outcome, large.outcome) == (Outcome.QUIET, Outcome.SEPARATION)
     assert 0 < small.simulated < 100
     assert 0 < small.distance < 0.1
-
-
-@pytest.mark.compiled
-def test_a_motion_that_has_long_been_on_its_cycle_is_quiet() -> None:
-    """What the map's coarse flights leave out was larger than what was left of the motion's distance."""
-    found = find_outcome(Parameters(N=200, Omega=20, c=0.5), 300, early=False)
-    assert (found.outcome, found.simulated) == (Outcome.QUIET, 300.0)
 
 
 @pytest.mark.parametrize("late", [0.0, 0.5, 4.0])
@@ -202,20 +121,6 @@ def test_a_simulation_that_fails_says_so() -> None:
     assert found.message
     failed, nothing = final_segment(p, start, 0.1, 0.05, 1e-8)
     assert (failed.status.value, nothing) == ("paradox", None)
-
-
-@pytest.mark.parametrize(
-    ("changes", "grows"),
-    [
-        ([1e-4, 1e-5, 3e-5, 4e-5], True),
-        ([1e-4, 1e-5, 1.2e-5, 1e-5], False),
-        ([1e-4, 1e-10, 3e-10, 4e-10], False),  # roundings
-        ([1e-4, 2e-4], False),  # too few
-        ([math.nan], False),
-    ],
-)
-def test_growth_is_seen_and_noise_is_not(changes: list[float], grows: bool) -> None:
-    assert growing(changes) is grows
 
 
 PLANES: tuple[dict[str, Any], ...] = (
@@ -354,12 +259,6 @@ def test_steady_sliding_that_has_arrived_is_known_at_any_tolerance(tol: float, e
     found = find_outcome(Parameters(N=100, Omega=20, D_star=1e-3, c_p=5), 40, tol=tol, early=early)
     assert found.outcome is Outcome.STEADY_SLIDING
     assert found.simulated == (5 if early else 40)
-
-
-@pytest.mark.compiled
-def test_a_motion_that_comes_to_steady_sliding_is_told() -> None:
-    p = Parameters(N=50, Omega=15, c_p=0.5)
-    assert Basins(p, 100.0).reached(static_start(p)).outcome is Outcome.STEADY_SLIDING
 
 
 def stretch(**changes: float) -> Segment:

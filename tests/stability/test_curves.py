@@ -1,8 +1,5 @@
 """Seeds of curves of stability."""
 
-from types import SimpleNamespace
-
-import numpy as np
 import pytest
 
 from disc_model import Parameters
@@ -32,15 +29,3 @@ def test_a_fold_is_followed_across_its_line():
     fold = next(curve for curve in found if curve.kind == "fold")
     assert fold.values[:, 1].min() < 375 < fold.values[:, 1].max()
     assert len(fold.values) < 30  # short steps are a sign of a corrector that fails
-
-
-@pytest.mark.parametrize(("period", "kind", "place", "known"), [
-    (1.0, "fold", [0.5, 0.5], True), (1.01, "fold", [0.5, 0.5], False),
-    (1.0, "neutral", [0.5, 0.5], False), (1.0, "fold", [0.5, 0.6], False),
-])  # fmt: skip
-def test_a_curve_is_known_by_its_kind_its_place_and_its_period(
-    period: float, kind: str, place: list[float], known: bool
-) -> None:
-    """The two borders of one resonance lie close together; their periods differ by 1 %."""
-    curve = SimpleNamespace(kind="fold", values=np.array([[0.0, 0.0], [1.0, 1.0]]), period=np.array([1.0, 1.0]))
-    assert curves._known([curve], kind, np.array(place), period, np.ones(2)) == known

@@ -9,10 +9,9 @@ import pytest
 from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
-from disc_model.stability import return_map as return_map_module
 from disc_model.stability.attractor.neighbourhood import cycle_near
 from disc_model.stability.cycle import CycleError, find_cycle
-from disc_model.stability.return_map import Counts, Flight, ReturnMap
+from disc_model.stability.return_map import ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.tally import tried
 from tests.validation.test_random_cases import drawn_case
@@ -158,50 +157,6 @@ def test_without_a_cycle_the_status_says_what_was_found(changes, status):
     with pytest.raises(CycleError, match=status.value):
         result.raise_for_status()
     assert issubclass(CycleError, DiscModelError)
-
-
-#: What the second look says of a transient that ended so: (outcome of the map, status, words of the message).
-ENDS = [
-    ("time_over", CycleStatus.NO_STICK_SLIP, "slips on for 1 s"),
-    ("lost_contact", CycleStatus.SEPARATES, "contact is lost"),
-    ("off_section", CycleStatus.SEPARATES, "contact is lost"),
-    ("non_finite", CycleStatus.NON_FINITE, "overflows"),
-    ("stalled", CycleStatus.NO_CYCLE, "without the clock moving"),
-    ("paradox", CycleStatus.PARADOX, "Painleve"),
-]
-
-
-@pytest.mark.parametrize(("outcome", "status", "words"), ENDS)
-def test_what_the_transient_did_is_reported(monkeypatch, outcome, status, words):
-    code = next(code for code, name in return_map_module.ENDS.items() if name == outcome)
-
-    def evaluate(self, x, **_):
-        return Flight(code, 1.0, 0.0, Counts(0, 0, 0, 0, 0), x, x, np.eye(self.size), np.zeros((self.size, 0)))
-
-    monkeypatch.setattr(ReturnMap, "evaluate", evaluate)
-    result = floquet(P)
-    assert result.status is status
-    assert words in result.message
-    with pytest.raises(CycleError, match=words):
-        result.raise_for_status()
-    started = simulate(P, 0.001, tol=1e-8).final_state
-    monkeypatch.setattr(ReturnMap, "next_release", lambda self, start, **_: (code, self.static))
-    assert (find_cycle(P, guess=started).status is CycleStatus.NO_STICK_SLIP) == (outcome == "time_over")
-
-
-def test_from_a_given_point_no_other_cycle_is_taken():
-    far = 3 * ReturnMap(P).static
-    assert find_cycle(P).status is CycleStatus.OK
-    found = find_cycle(P, guess=far)
-    assert found.status is CycleStatus.NO_CYCLE
-    assert found.message == "no_cycle: no cycle near the given point of the section"
-
-
-def test_attractors_are_those_that_are_stable():
-    quiet = floquet(P.replace(N=50, Omega=15))
-    assert quiet.attractors[0] == "stick_slip"
-    assert quiet.raise_for_status() is quiet
-    assert floquet(P.replace(N=300)).attractors == ()
 
 
 @pytest.mark.slow

@@ -27,17 +27,6 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
     assert found.final_state.time == pytest.approx(0.2)
 
 
-def test_a_slip_that_begins_at_once_shifts_no_time():
-    """Friction cannot hold from the start, and the limit's rate is zero: columns were divided by it."""
-    p = Parameters(N=385, Omega=60, k_p=0, c_p=50, n_diameters=1)
-    found = lyapunov_exponents(p, 0.05, count=4)
-    assert found.status is Status.OK
-    later = lyapunov_exponents(p, 0.05, count=4, initial_state=simulate(p, 1e-3).final_state)
-    assert np.isfinite(found.exponents).all()
-    # 1 ms of 100: another 1 % of the rates of 50/s and less
-    np.testing.assert_allclose(found.exponents, later.exponents, atol=1.0)
-
-
 @pytest.mark.filterwarnings("error")
 def test_exponents_that_do_not_exist_were_zero_and_converged():
     """In stick f is 0, and u and u' are the disc's: of six coordinates of the state three are left."""
@@ -114,13 +103,6 @@ def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
     assert np.all(np.abs(long.exponents - rate) <= long.errors)
     # a tenth of 0.05/s, exp(-0.05 * 45), is left amid the 30 s over which rates are averaged after 30 s of turning
     assert np.all(np.abs(long.exponents - rate) < 0.005)
-
-
-def test_where_nothing_switches_there_is_no_trivial_exponent():
-    """No switch falls into the time; all that was found is kept."""
-    found = lyapunov_exponents(STICK, 0.1, count=2, interval=0.005, leave_out_trivial=True)
-    assert np.isnan(found.trivial_exponent)
-    assert found.exponents.shape == (2,)
 
 
 def test_exponents_that_drift_have_not_converged():

@@ -3,12 +3,10 @@
 import math
 from collections.abc import Callable
 
-import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, simulate
-from disc_model.engine import variational
+from disc_model import Parameters, simulate
 from disc_model.stability.return_map import (
     PARAMETERS,
     RETURNED,
@@ -95,21 +93,6 @@ def test_the_section_is_where_stick_is_released():
     assert events["kind"][0] == "stick_to_slip"
     with pytest.raises(ValueError, match="must be one of Omega, N"):
         ReturnMap(p, parameters=("rho",))
-
-
-@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
-def test_the_return_map_is_compiled_for_doubles_alone() -> None:
-    """Numbers of another type had all of it compiled for them, and rounded in other ways."""
-    usual = ReturnMap(P, 2.0**-30)
-    flight = usual.evaluate(usual.static)
-    compiled = len(variational._flight.signatures)
-    odd = ReturnMap(P, np.float32(2.0**-30))
-    static = np.repeat(usual.static, 2)[::2]
-    static.setflags(write=False)
-    again = odd.evaluate(static, releases=np.int8(1))
-    assert len(variational._flight.signatures) == compiled
-    np.testing.assert_equal(vars(again), vars(flight))
-    assert floquet(P, releases=np.int64(1)).period == floquet(P).period
 
 
 @pytest.mark.compiled

@@ -3,7 +3,6 @@
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -53,14 +52,6 @@ def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
     assert not [name for name in made if name.startswith(("claims", "table"))], "nobody asked for them"
 
 
-def test_braces_in_a_title_are_no_wildcards(elsewhere: Path) -> None:
-    """They ended the workflow. Most jobs that are given titles are run by the fixture, and the last two here."""
-    snakemake(elsewhere, "-j2", "explorer", "-s", SNAKEFILE, "--configfile", "mine.yaml")
-    snakemake(elsewhere, "--report", "report.html", "-s", SNAKEFILE, "--configfile", "mine.yaml")
-    assert r"Growth over x and $\\mu_k$: growth" in (elsewhere / "report.html").read_text()
-    assert r"Growth over {x} and $\\mu_{k}$" in (elsewhere / "results" / "mine" / "explorer.html").read_text()
-
-
 def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: Path) -> None:
     """A shell executed parts of the folder's name, and a title that is not ASCII ended the merge."""
     environment = tmp_path / 'we$ird `touch EXECUTED` "x'
@@ -76,31 +67,8 @@ def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: 
         assert study.attrs["title"].startswith("Grüße Ω")
 
 
-def test_no_run_idles_at_its_end(elsewhere: Path) -> None:
-    """Timers of Snakemake's limit of jobs a second kept each run for five seconds after its last words."""
-    (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
-    command = [sys.executable, "-m", "snakemake", "-j2", "-s", SNAKEFILE, "--configfile", "mine.yaml"]
-    with subprocess.Popen(command, cwd=elsewhere, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stderr
-        spoken = [(time.monotonic(), line) for line in process.stderr]
-    assert process.returncode == 0
-    assert any("Complete log" in line for _, line in spoken)
-    assert time.monotonic() - spoken[-1][0] < 4.0
-
-
 def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
     return run(sys.executable, "-m", "disc_model", *options, cwd=folder, timeout=300)
-
-
-def test_a_run_ends_with_what_it_came_to(elsewhere: Path) -> None:
-    (elsewhere / "results" / "mine" / "figures" / "growth.pdf").unlink()
-    phrase = disc_model(elsewhere, "study", "mine.yaml").stderr.splitlines()
-    closing = phrase.index("mine: 2 figures in results/mine/figures")
-    assert phrase[closing + 1 : closing + 4] == [
-        "4 of 4 points have a result",
-        "The same command with the target `explorer` makes a page of every point: results/mine/explorer.html",
-        "(disc-model study ... --target explorer, or snakemake ... explorer)",
-    ]
 
 
 @pytest.fixture
@@ -108,16 +76,6 @@ def edit(elsewhere: Path) -> Iterator[Callable[[str], int]]:
     """Writes another text to the file of the study, which is as before afterwards."""
     yield (elsewhere / "mine.yaml").write_text
     (elsewhere / "mine.yaml").write_text(STUDY)
-
-
-def test_a_dry_run_is_a_few_lines(elsewhere: Path, edit: Callable[[str], int]) -> None:
-    done = disc_model(elsewhere, "study", "mine.yaml", "-n").stdout
-    assert done.splitlines()[1:] == ["nothing was run: --dry-run"]
-    assert done.startswith("Nothing to be done")
-    edit(STUDY.replace("[0.3, 0.4]", "[0.3, 0.5]"))
-    planned = disc_model(elsewhere, "study", "mine.yaml", "-n").stdout
-    assert re.search(r"^compute_batch +1$", planned, re.M)
-    assert planned.count("\n") < 12
 
 
 def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:

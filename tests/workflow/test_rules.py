@@ -1,32 +1,13 @@
 """What the rules have in common."""
 
-import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-import yaml
 
-from tests.workflow.conftest import ROOT, TEXTS, copy_repository
+from tests.workflow.conftest import TEXTS, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
-
-
-def rules() -> dict[str, str]:
-    """The text of each rule."""
-    texts = {}
-    for file in (ROOT / "workflow" / "rules").glob("*.smk"):
-        blocks = re.split(r"^ *rule (\w+):$", file.read_text(), flags=re.MULTILINE)
-        texts |= dict(zip(blocks[1::2], blocks[2::2], strict=True))
-    return texts
-
-
-def test_what_takes_the_whole_machine_takes_one_thread_of_a_node_of_its_own() -> None:
-    """The answers' rules asked SLURM for 1024 processors, which no node has."""
-    profile = yaml.safe_load((ROOT / "workflow" / "profiles" / "slurm" / "config.yaml").read_text())
-    whole = {name for name, text in rules().items() if "threads: 1024" in text}
-    assert whole == profile["set-threads"].keys()
-    assert all("--exclusive" in profile["set-resources"][name]["slurm_extra"] for name in whole)
 
 
 COUNTS = """

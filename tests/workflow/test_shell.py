@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests import needs, processes
+from tests import processes
 from tests.shell import shell
 from tests.workflow.conftest import TEXTS
 
@@ -19,26 +19,6 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 PATH = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 PROMPT = "ready> "
-
-
-@pytest.mark.parametrize("program", ["bash", pytest.param("zsh", marks=needs.ZSH.mark)])
-def test_a_shell_completes_commands_options_and_words(program: str, tmp_path: Path) -> None:
-    """Completion was that of a program `python -m disc_model`: it did nothing here, and took over that of python."""
-    environment = {"HOME": str(tmp_path), "PATH": PATH, "PS1": PROMPT}
-    with shell([program, "-i"], tmp_path, **environment) as terminal:
-        terminal.type("disc-model --install-completion\n")
-        terminal.wait_for("Completion will take effect")
-    texts = [file.read_text() for file in tmp_path.rglob("*") if file.is_file() and "history" not in file.name]
-    assert any("disc-model" in text for text in texts)
-    assert not any("python" in text for text in texts)
-    with shell([program, "-i"], tmp_path, **environment) as terminal:
-        tabs = "\t\t" if program == "zsh" else "\t"  # the first one in a zsh only loads what was installed
-        terminal.type(f"disc-model fl{tabs}")
-        terminal.wait_for("disc-model floquet ")
-        terminal.type("--normaliz\t")
-        terminal.wait_for("--normalization ")
-        terminal.type("orth\t")
-        terminal.wait_for("orthonormal ")
 
 
 def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
