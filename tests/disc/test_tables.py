@@ -19,9 +19,10 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.disc.tables import disc_table
 from disc_model.simulation.states import engine_case
+from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
-from disc_model.studies.study import GridStudy, StudyError, load_study
+from disc_model.studies.study import StudyError, load_study
 from tests import needs
 from tests.commands import Command
 

@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 
 from disc_model import ParameterError
-from disc_model.studies.study import GridStudy, StudyError, parse_study
+from disc_model.studies.grid import GridStudy
+from disc_model.studies.study import StudyError, parse_study
 
 
 def faults_of(parse: Callable[..., object], *arguments: Any, **named: Any) -> list[str]:

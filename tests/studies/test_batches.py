@@ -12,8 +12,8 @@ import xarray as xr
 from disc_model import floquet, mode_choice
 from disc_model.kernels import LAWS
 from disc_model.mode_choice import choose_modes
+from disc_model.studies.grid import GridStudy
 from disc_model.studies.run import run_batch
-from disc_model.studies.study import GridStudy
 from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
 

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model.data.variables import PERTURBATIONS
 from disc_model.parameters import Parameters
-from disc_model.studies.study import GridStudy
+from disc_model.studies.grid import GridStudy
 from tests.studies.refused import parse_grid
 
 AFTER = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}

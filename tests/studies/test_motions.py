@@ -10,10 +10,10 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.states import static_start
 from disc_model.stability.cycle import floquet
+from disc_model.studies.grid import Dimension
 from disc_model.studies.motions import CYCLES_SHOWN, LONGEST, SAMPLES, cycle_length, run_motions
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantity import Point, quantity_names, quantity_of
-from disc_model.studies.study import Dimension
 from tests.studies.refused import parse_grid
 
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}

@@ -1,5 +1,5 @@
 # Grid studies: batches of points, one dataset for each study, and its figures. Batches are defined in
-# disc_model.studies.study. The name of a batch's file is the hash of its text, so that a value that is removed and
+# disc_model.studies.grid. The name of a batch's file is the hash of its text, so that a value that is removed and
 # restored needs no new job.
 
 

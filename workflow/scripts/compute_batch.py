@@ -1,6 +1,6 @@
 """Compute one batch of a grid study and save it.
 
-The batch, a text from `disc_model.studies.study.GridStudy.batches`, is read from standard input: it may be too long for
+The batch, a text from `disc_model.studies.grid.GridStudy.batches`, is read from standard input: it may be too long for
 a command.
 """
 

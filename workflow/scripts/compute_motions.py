@@ -1,6 +1,6 @@
 """Compute the motions for the explorer, at a few points of a grid study, and save them.
 
-The text from `disc_model.studies.study.GridStudy.motions` is read from standard input: it may be long.
+The text from `disc_model.studies.grid.GridStudy.motions` is read from standard input: it may be long.
 """
 
 import sys

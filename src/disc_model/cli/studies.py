@@ -21,7 +21,8 @@ from disc_model.cli.case import table
 from disc_model.errors import DiscModelError, Fault, ParameterError
 
 if TYPE_CHECKING:
-    from disc_model.studies.study import GridStudy, Study
+    from disc_model.studies.grid import GridStudy
+    from disc_model.studies.study import Study
 
     Grids = dict[str, GridStudy]
 

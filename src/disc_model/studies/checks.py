@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from disc_model.errors import DiscModelError
-from disc_model.studies.study import GridStudy, Study, mapping, read_files
+from disc_model.studies.grid import GridStudy
+from disc_model.studies.study import Study, mapping, read_files
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:

@@ -34,7 +34,7 @@ def merge_batches(
     """Merge batches; raises `MergeError` if their dimensions disagree, or if they do not match the grid.
 
     batches : as `disc_model.studies.run.run_batch` makes them
-    grid : dimensions, as from `disc_model.studies.study.GridStudy.grid`
+    grid : dimensions, as from `disc_model.studies.grid.GridStudy.grid`
     attrs : further attributes, such as the title
     """
     try:

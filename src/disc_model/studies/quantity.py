@@ -18,7 +18,7 @@ from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.ranges import Ruled
+from disc_model.studies.ranges import Blocks, Ruled
 from disc_model.units import Tolerance
 
 if TYPE_CHECKING:
@@ -141,6 +141,15 @@ class Quantity(Ruled):
     def scanned(self) -> tuple[str, ...]:
         """Parameters that it varies by itself."""
         return tuple(getattr(self, name, name) for name in self.scans)
+
+    @property
+    def dimensions(self) -> Mapping[str, Blocks]:
+        """Dimensions that the options add to the grid, with their blocks of values."""
+        return {}
+
+    def faults(self, grid: Any) -> Iterable[Fault]:
+        """Faults of the options in a grid, a `disc_model.studies.grid.GridStudy`."""
+        return ()
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column (flags as words), and a message.

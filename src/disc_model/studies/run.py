@@ -30,7 +30,7 @@ POINT = "point"
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Compute a batch, given as a text from `disc_model.studies.study.GridStudy.batches`.
+    """Compute a batch, given as a text from `disc_model.studies.grid.GridStudy.batches`.
 
     The dataset has the quantity's variables along `point`, and the parameters that vary beside them. A function `of`
     the quantity makes what is computed instead of it.

@@ -14,8 +14,9 @@ failed sample is neither stable nor unstable: the lower and upper ends of an int
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -32,7 +33,9 @@ from disc_model.data.variables import (
     Variable,
     flag_names,
 )
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, ParameterError, as_text
+from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
+from disc_model.simulation.case import SomeParameters
 from disc_model.studies.quantity import (
     CYCLE,
     SIMULATED,
@@ -45,8 +48,8 @@ from disc_model.studies.quantity import (
     tried,
     with_ends,
 )
-from disc_model.studies.ranges import Ruled, Rules
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Unit, Units
+from disc_model.studies.ranges import Blocks, Ruled, Rules
+from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Unit, Units, is_number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -218,6 +221,60 @@ class Sensitivity(Quantity):
         """Processor time of a point, s."""
         return CYCLE * (2 + len(self.distributions)) + SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
 
+    @property
+    def dimensions(self) -> Mapping[str, Blocks]:
+        """The samples: a block of 64, and blocks that each double their number."""
+        ends = [0, min(64, self.samples)]
+        while ends[-1] < self.samples:
+            ends.append(2 * ends[-1])
+        return {SAMPLE: tuple(tuple(range(*block)) for block in pairwise(ends))}
+
+    def faults(self, grid: Any) -> Iterator[Fault]:
+        """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.
+
+        Each rule is reported where it is broken first.
+        """
+        path, numbers = ("options", "distributions"), _numbers(grid)
+        varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
+        faults = []
+        for name, given in self.distributions.items():
+            own = _own(name, grid.base)
+            if name not in numbers:
+                rule = f"must be of a parameter that is a number (known: {', '.join(numbers)})"
+                faults.append(Fault((*path, name), "", rule))
+            elif not given.relative and name in varied:
+                faults.append(Fault((*path, name), "", "must be relative, since it varies along an axis as well"))
+            elif given.relative and name not in varied and (not is_number(own) or own == 0):
+                faults.append(Fault((*path, name), "", f"must not be relative to {as_text(own)}"))
+        yield from faults
+        first: dict[str, Fault] = {}
+        for fault in () if faults else self._out_of_reach(grid):
+            first.setdefault(fault.path[0], fault)
+        for fault in first.values():
+            inside = path if fault.path[0] in self.distributions else ("base",)
+            yield Fault((*inside, *fault.path), fault.value, f"{fault.rule}; distributions reach that far")
+
+    def _out_of_reach(self, grid: Any) -> Iterator[Fault]:
+        """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
+        related = [name for name in sorted(self.distributions) if name in RELATED]
+        every = (point.items() for point in grid.points_of([*self.distributions, *RELATED]))
+        for point in dict.fromkeys(tuple((name, value) for name, value in items if name != SAMPLE) for items in every):
+            case = case_of({**grid.base, **dict(point)}, grid.discs)
+            ends: dict[str, list[float]] = {}
+            for name, given in self.distributions.items():
+                scale = _own(name, case) if given.relative else 1.0
+                ends[name] = [scale * end for end in given.ends]
+                for end in ends[name]:
+                    try:
+                        if name in NUMBERS:
+                            SomeParameters.model_validate({name: end})
+                        else:
+                            case["disc"].with_numbers(**{name: end})
+                    except ParameterError as error:
+                        yield from (Fault((name,), fault.value, fault.rule) for fault in error.faults)
+            for corner in product(*(ends[name] for name in related)):
+                yield from cross_faults(DEFAULTS | case | dict(zip(related, corner, strict=True)))
+
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one sample about the point's own parameters."""
         p, names = point.parameters, sorted(self.distributions)
@@ -262,6 +319,23 @@ class Sensitivity(Quantity):
             values[f"sobol_{name}"] = np.array([getattr(one, name) for one in found])
         values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
         return values
+
+
+def _numbers(grid: Any) -> list[str]:
+    """Names that can be distributed: parameters that are numbers, and those of the modes that all discs have."""
+    discs: list[Disc] = [*grid.discs.values()] if "disc" in grid.varied else []
+    discs += [disc] if (disc := grid.base.get("disc")) is not None else []
+    if not discs:
+        return [*NUMBERS]
+    common = [name for name in discs[0].numbers if all(name in disc.numbers for disc in discs)]
+    return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
+
+
+def _own(name: str, values: Mapping[str, Any]) -> Any:
+    """A point's own value of a parameter, if it has one."""
+    if isinstance(disc := values.get("disc"), Disc) and name in disc.numbers:
+        return disc.numbers[name]
+    return values[name] if name in values else DEFAULTS.get(name)
 
 
 # ----------------------------------------------------------------------------------------------------
