@@ -2,6 +2,6 @@
 
 import numba
 
-from disc_model.engine.compile import RULES
+from disc_model.engine.jit import RULES
 
 kernel = numba.njit(**(RULES | {"cache": False}))

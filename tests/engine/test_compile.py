@@ -9,9 +9,8 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model.engine import simd
-from disc_model.engine.compile import helper, inlined
-from disc_model.engine.packing import packed
+from disc_model.engine.jit import helper, inlined, simd
+from disc_model.engine.jit.packing import packed
 from tests.engine.compiled import kernel
 
 

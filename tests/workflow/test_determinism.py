@@ -5,7 +5,7 @@ linear algebra, in another folder, with kernels just compiled or from the cache.
 
 Equal within rounding: with and without compilation, and on another kind of processor, which
 `tests/workflow/test_instruction_sets.py` tries.  Compiled code may round a * b + c once instead of twice (`contract`,
-see `disc_model.engine.compile`); Python rounds twice.
+see `disc_model.engine.jit`); Python rounds twice.
 """
 
 from dataclasses import replace

@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 from . import layout
-from .compile import helper
 from .dense_output import force_at, move_to
+from .jit import helper
 from .transitions import disc_point, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.

@@ -1,11 +1,11 @@
 """State and contact force at a point of the dense output."""
 
 from . import layout
-from .compile import inlined
+from .jit import inlined
+from .jit.simd import WIDTH, fma, load, splat, store
 from .layout import DRIVE_SERIES, LOAD_SERIES, ROWS, E
 from .polynomial import dot, set_powers
 from .series import lane_count
-from .simd import WIDTH, fma, load, splat, store
 from .stick_propagator import propagate_stick
 from .transitions import force_in_stick, stick_force
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from . import layout, transitions
 from .audit import audit_impact, audit_step, transverse_energy
-from .compile import inlined, kernel
 from .dense_output import CLOSED_FORM, move_to
 from .exit_codes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
+from .jit import inlined, kernel
 from .sampling import sample_step
 from .stepping import advance_time, expand, first_event, set_course, step_size
 from .stick_propagator import LONGEST_STICK, closed_form_length

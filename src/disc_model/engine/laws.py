@@ -7,7 +7,7 @@ No law is differentiated by hand.
 
 from typing import NamedTuple
 
-from .compile import inlined
+from .jit import inlined
 
 TINY = 1e-100
 """The complex step: its square is far below rounding, but not zero."""

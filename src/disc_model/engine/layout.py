@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compile import inlined
-from .packing import packed
-from .simd import WIDTH, aligned, aligned_pieces
+from .jit import inlined
+from .jit.packing import packed
+from .jit.simd import WIDTH, aligned, aligned_pieces
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2

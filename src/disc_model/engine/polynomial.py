@@ -14,9 +14,9 @@ there.
 import numpy as np
 from scipy.special import comb
 
-from .compile import helper, inlined
+from .jit import helper, inlined
+from .jit.simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers_of, put, splat, spread, store, total
 from .layout import ROWS
-from .simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers_of, put, splat, spread, store, total
 
 NO_ROOT = -1.0
 # Halley's method ends at a step of this size, relative to the root.

@@ -7,10 +7,10 @@ time, J the Jacobian of the jump and v the rates before and after,
 """
 
 from . import laws, tangent
-from .compile import helper, inlined, kernel
+from .jit import helper, inlined, kernel
+from .jit.simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
 from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK
-from .simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import disc_point, event_function, instant
 

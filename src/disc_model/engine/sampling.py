@@ -7,8 +7,8 @@ same event. A sample is therefore "at" an event up to `SAME_INSTANT` of the cloc
 import math
 
 from . import layout
-from .compile import helper
 from .dense_output import force_at, move_to
+from .jit import helper
 from .transitions import disc_point
 
 # Columns of a row of samples.

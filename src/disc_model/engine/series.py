@@ -18,7 +18,25 @@ With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the dis
 where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i <= k - 1.
 """
 
-from .compile import inlined
+from .jit import inlined
+from .jit.simd import (
+    ONE_REGISTER,
+    WIDTH,
+    add,
+    fma,
+    high_halves,
+    item,
+    load,
+    low_halves,
+    mul,
+    put,
+    splat,
+    spread,
+    store,
+    sub,
+    swap_halves,
+    total,
+)
 from .laws import slip_denominator
 from .layout import (
     AMPLITUDE_ROW,
@@ -45,24 +63,6 @@ from .layout import (
     V_SERIES,
     E,
     F,
-)
-from .simd import (
-    ONE_REGISTER,
-    WIDTH,
-    add,
-    fma,
-    high_halves,
-    item,
-    load,
-    low_halves,
-    mul,
-    put,
-    splat,
-    spread,
-    store,
-    sub,
-    swap_halves,
-    total,
 )
 
 # Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, the constant C, and in a-lanes that of

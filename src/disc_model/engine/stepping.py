@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 from . import layout, series, transitions
-from .compile import helper, inlined
 from .dense_output import load_state
+from .jit import helper, inlined
+from .jit.simd import WIDTH, absolute, largest, load, maximum, splat
 from .polynomial import NO_ROOT, first_root, set_powers
-from .simd import WIDTH, absolute, largest, load, maximum, splat
 
 # Longest step, in radians of the fastest motion: in longer ones the series' terms cancel more digits than they add.
 LONGEST_STEP = 8.0

@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .packing import packed
-from .simd import WIDTH, aligned
+from .jit.packing import packed
+from .jit.simd import WIDTH, aligned
 
 # exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
 # with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table, and the samples that

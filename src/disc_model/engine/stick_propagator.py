@@ -7,9 +7,9 @@ without steps, in closed form.  The series then find the release.
 
 import math
 
-from .compile import helper, inlined
+from .jit import helper, inlined
+from .jit.simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U
-from .simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
 from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
 
 # The closed form saves time from about the length of a usual step (time units).

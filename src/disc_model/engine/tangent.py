@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compile import helper, inlined
+from .jit import helper, inlined
+from .jit.packing import packed
+from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, slip_denominator
 from .layout import HALF, ROWS, SEPARATION, SLIP, STICK, Model
-from .packing import packed
-from .simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 
 # Entries of ``Tangent.log``, explained in ``variational``.
 LOG_SIZE = 16

@@ -1,11 +1,11 @@
 """Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
 
 from . import laws, layout
-from .compile import helper, inlined
 from .exit_codes import CONSISTENT, NO_SOLUTION
+from .jit import helper, inlined
+from .jit.simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 from .laws import Instant
 from .layout import drive_now, load_now
-from .simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 
 # Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
@@ -68,7 +68,7 @@ def _free_acceleration(model, state):
 def instant(model, state):
     """The arguments of the laws of contact; size of the terms of A."""
     # Read in this order, before the sums over modes: it decides which product in F the optimiser does not round (see
-    # ``compile``). In another order results with c_p differ in their last bits.
+    # ``jit``). In another order results with c_p differ in their last bits.
     x, N, Omega = state.x, load_now(model, state), drive_now(model, state)
     k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.SPEED], model.compliance, x[layout.PSI]
     (w, velocity, dw_dtheta), (free, size) = disc_point(model, state), _free_acceleration(model, state)

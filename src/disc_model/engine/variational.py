@@ -5,15 +5,15 @@ from typing import NamedTuple
 import numpy as np
 
 from . import transitions
-from .compile import helper, inlined, kernel
 from .dense_output import state_at
 from .exit_codes import CONSISTENT, LOST_CONTACT, NO_SOLUTION, NON_FINITE, OFF_SECTION, RETURNED, STALLED, TIME_OVER
+from .jit import helper, inlined, kernel
+from .jit.packing import packed
+from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI as ANGLE
 from .laws import TINY, stepped
 from .layout import DIRECTION, KNOWN, PHASE, PSI, SEPARATION, SLIP, SPEED, STICK, TIME
-from .packing import packed
 from .saltation import event_change, event_gradient, event_times, impact_change, rates, shift, slider_rows
-from .simd import WIDTH, mul, splat, store
 from .stepping import advance_time, expand, first_event, step_size
 from .tangent import PSI_ROW, slider_row, tangent_at, tangent_series
 

@@ -16,7 +16,7 @@ import numpy as np
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
-from disc_model.engine.compile import compiled_for
+from disc_model.engine.jit import compiled_for
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import Progress, compiling, simulating

@@ -256,9 +256,10 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
 
     Workspaces are reused, because making one takes as long as 30 steps.
     """
-    if not case.idle[order]:
+    try:  # in one step: several threads may take one
+        workspace = case.idle[order].pop()
+    except IndexError:
         return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
-    workspace = case.idle[order].pop()
     for state in workspace[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     return workspace

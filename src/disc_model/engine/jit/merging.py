@@ -7,7 +7,7 @@ into machine code as a whole.
 The unoptimised code of helpers is stored beside the kernel that first needed them (``cache.HELPERS``), and linked into
 kernels that other processes compile later.
 
-The module uses internals of numba that may change: `compile` does without it if one is missing.
+The module uses internals of numba that may change: `jit` does without it if one is missing.
 """
 
 import gc

@@ -14,16 +14,26 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
+from numba.core.compiler_lock import global_compiler_lock
 
-from .cache import folder, warn_once
+from . import cache
 
 # Kernels allocate nothing, so reference counting (_nrt) is off: it cost more than the arithmetic. No C code calls them.
-RULES: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy", "_nrt": False, "no_cfunc_wrapper": True}
+# Nor do they touch Python's objects, so that threads run them side by side (nogil).
+RULES: dict[str, Any] = {
+    "fastmath": {"contract"},
+    "error_model": "numpy",
+    "_nrt": False,
+    "no_cfunc_wrapper": True,
+    "nogil": True,
+}
 _MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
 try:
     from .merging import HelperCache, HelperCompiler, KernelCache, KernelCompiler
 except (ImportError, AttributeError, TypeError) as error:  # a part of numba is missing or has changed
-    warn_once(f"numba {numba.__version__} compiles in another way than expected ({error}): it takes four times as long")
+    cache.warn_once(
+        f"numba {numba.__version__} compiles otherwise than expected ({error}): it takes four times as long"
+    )
 else:
     RULES["pipeline_class"] = KernelCompiler
     _MERGED["pipeline_class"] = HelperCompiler
@@ -34,7 +44,18 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     made: Any = numba.njit(**RULES)(function)
     if made is not function:  # which it is where compilation is switched off
         _keep(made)
+        made.compile = functools.partial(_compile_in_turn, made, made.compile)
     return made
+
+
+def _compile_in_turn(kernel: Any, compile_or_load: Callable[..., Any], signature: Any) -> Any:
+    """Compile a kernel unless another process does so at present: wait for that one, and load its file."""
+    if signature in kernel.overloads:
+        return compile_or_load(signature)
+    processor = kernel.targetctx.codegen().magic_tuple()
+    # numba's lock first: a thread with only one of the two would wait for one with the other
+    with global_compiler_lock, cache.lock(f"{kernel.__name__}.{cache.hash_of(signature, processor)}"):
+        return compile_or_load(signature)
 
 
 def _keep(kernel: Any) -> None:
@@ -43,7 +64,7 @@ def _keep(kernel: Any) -> None:
         kernel._cache = KernelCache(kernel.py_func)
         return
     settings: Any = numba.config
-    before, settings.CACHE_DIR = settings.CACHE_DIR, str(folder())
+    before, settings.CACHE_DIR = settings.CACHE_DIR, str(cache.folder())
     try:
         kernel.enable_caching()
     finally:

@@ -101,14 +101,12 @@ else:
             return _KNOWN[decisive]
 
         @functools.cached_property
-        def _memory(self):
-            words = [word for value in self for word in _words_of(value)]
-            return np.frombuffer(struct.pack(self.numba_type.format, *words), np.int64)
-
-        @functools.cached_property
         def address(self):
             """Address of the block of memory."""
-            return self._memory.ctypes.data
+            words = [word for value in self for word in _words_of(value)]
+            memory = np.frombuffer(struct.pack(self.numba_type.format, *words), np.int64)
+            # two threads may come here at once: both get the block that is kept
+            return self.__dict__.setdefault("_memory", memory).ctypes.data
 
     def _kind(value):
         flag = isinstance(value, tuple) and not isinstance(value, _Packed)

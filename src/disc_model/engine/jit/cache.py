@@ -1,4 +1,4 @@
-"""Files of compiled kernels, with checksums.
+"""Files of compiled kernels, with checksums, and locks by which processes compile each kernel once.
 
 Numba's own cache misses changes of a callee in another file and recompiles after every changed comment. It also trusts
 its files: a cut file ends in a traceback, a changed byte in wrong numbers.  Here each signature of a kernel has one
@@ -13,6 +13,8 @@ import sys
 import uuid
 import warnings
 import zlib
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,15 +26,14 @@ from disc_model.sources import code_hash
 SUFFIX = ".kernel"
 HELPERS = ".helpers"
 """Suffix of files with the helpers that were first compiled for a kernel, for kernels that are compiled later."""
-_DIGEST = hashlib.sha256().digest_size
 
 
 @functools.cache
-def source_hash(folder: Path = Path(__file__).parent) -> str:
+def source_hash(folder: Path = Path(__file__).parents[1]) -> str:
     """Hash of the engine's code without comments, docstrings and line numbers: 16 hexadecimal digits."""
     digest = hashlib.sha256()
-    for path in sorted(folder.glob("*.py")):
-        digest.update(f"{path.name}\0{code_hash(path)}\0".encode())
+    for path in sorted(folder.rglob("*.py")):
+        digest.update(f"{path.relative_to(folder)}\0{code_hash(path)}\0".encode())
     return digest.hexdigest()[:16]
 
 
@@ -64,15 +65,31 @@ def stored_helpers(codegen: Any) -> dict[str, bytes]:
     return found
 
 
+@contextmanager
+def lock(name: str) -> Iterator[None]:
+    """Let other processes wait that come to a lock of the same name.
+
+    Where files cannot be locked, as on some network file systems, none waits.
+    """
+    with ExitStack() as stack:
+        with suppress(ImportError, OSError):
+            import fcntl
+
+            folder().mkdir(parents=True, exist_ok=True)
+            # never deleted: a process may wait for this file while the next one makes another
+            file = stack.enter_context((folder() / f"{name}.lock").open("a"))
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
 def write(path: Path, contents: object) -> None:
-    """Write a file atomically, with its checksum in front."""
+    """Write a file atomically; its compression contains a checksum."""
     from numba.core.serialize import dumps
 
-    body = zlib.compress(dumps((path.name, contents)))
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f"{uuid.uuid4().hex}.tmp")
     try:
-        temporary.write_bytes(hashlib.sha256(body).digest() + body)
+        temporary.write_bytes(zlib.compress(dumps(contents)))
         temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
@@ -80,16 +97,11 @@ def write(path: Path, contents: object) -> None:
 
 
 def read(path: Path) -> Any:
-    """The contents of a file, or None if it is missing, damaged, or of another version."""
+    """The contents of a file, or None if it is missing or damaged."""
     try:
-        whole = path.read_bytes()
-    except OSError:
+        return pickle.loads(zlib.decompress(path.read_bytes()))
+    except (OSError, zlib.error):
         return None
-    digest, body = whole[:_DIGEST], whole[_DIGEST:]
-    if hashlib.sha256(body).digest() != digest:
-        return None
-    name, contents = pickle.loads(zlib.decompress(body))
-    return contents if name == path.name else None
 
 
 @functools.cache

@@ -1,0 +1,51 @@
+"""Simulations in several threads: the engine releases Python's lock, and runs share nothing that they change."""
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Result, floquet, simulate
+from disc_model.simulation import api
+
+P = Parameters(N=385, Omega=15.1)
+
+
+def test_runs_in_threads_equal_runs_in_turn() -> None:
+    def content(result: Result) -> tuple[bytes, str]:
+        return result.event_rows.tobytes(), repr(result.final_state)
+
+    # few cases, so that runs in different threads share their constants and reuse each other's workspaces
+    cases = [P.replace(N=100.0 + 150.0 * (i % 4), Omega=15.1 + i % 3) for i in range(48)]
+
+    def run(p: Parameters) -> tuple[bytes, str]:
+        return content(simulate(p, 0.5))
+
+    with ThreadPoolExecutor(8) as threads:
+        together = list(threads.map(run, cases))
+    assert together == list(map(run, cases))
+    assert any(rows for rows, _ in together)
+
+
+@pytest.mark.compiled
+def test_cycles_in_threads_equal_cycles_in_turn() -> None:
+    cases = [P.replace(N=200.0 + 10.0 * i) for i in range(8)]
+    with ThreadPoolExecutor(4) as threads:
+        together = list(threads.map(floquet, cases))
+    for cycle, alone in zip(together, map(floquet, cases), strict=True):
+        np.testing.assert_array_equal(cycle.multipliers, alone.multipliers)
+
+
+@pytest.mark.compiled
+def test_other_threads_go_on_while_the_engine_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With Python's lock held, this thread would stand still for the whole run, which is made one call here."""
+    monkeypatch.setattr(api, "STEPS_PER_PAUSE", 10**9)
+    simulate(P, 0.1)
+    times = [time.perf_counter()]
+    with ThreadPoolExecutor(1) as threads:
+        run = threads.submit(simulate, P, 600.0)
+        while not run.done():
+            time.sleep(1e-3)
+            times.append(time.perf_counter())
+    assert max(np.diff(times)) < 0.5 * (times[-1] - times[0])
