@@ -45,13 +45,10 @@ def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], t
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     study = parse_grid(STILL)
-    with pytest.raises(MergeError, match="missing: .* and 1 more" if len(batches) == 2 else "missing"):
-        merge_batches(batches[1:], study.grid, {})
-    with pytest.raises(MergeError, match="there twice"):
-        merge_batches([*batches, batches[0]], study.grid, {})
     fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
-    with pytest.raises(MergeError, match="do not belong to the grid"):
-        merge_batches(batches, fewer.grid, {})
+    for some, grid in ((batches[1:], study.grid), ([*batches, batches[0]], study.grid), (batches, fewer.grid)):
+        with pytest.raises(MergeError, match=r"not the \d points of the grid"):
+            merge_batches(some, grid, {})
     extra = ("sample", [0.0, 1.0])
     odd = [batch.assign(extra=extra).assign_coords(sample=[i, i + 1]) for i, batch in enumerate(batches)]
     with pytest.raises(MergeError, match="do not fit together"):

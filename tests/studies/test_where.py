@@ -78,7 +78,7 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert list(drawing.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
         plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
-    with pytest.raises(MergeError, match="missing"):
+    with pytest.raises(MergeError, match="not the 9 points of the grid"):
         merge_batches(batches, grid.grid, {})
 
 

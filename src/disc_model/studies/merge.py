@@ -14,6 +14,7 @@ from itertools import chain, product
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
@@ -44,22 +45,39 @@ def merge_batches(
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
     base = _common(batches)
-    place = _places(flat, grid, attrs.get("where", ""), json.loads(base["base"]))
-    sizes = {"_".join(dim["names"]): len(dim["values"]) for dim in grid}
-    data = {}
-    for name, variable in flat.data_vars.items():
-        found = _with_excluded(variable) if (place < 0).any() else variable.variable
-        values = found.values[place].reshape(*sizes.values(), *variable.shape[1:])
-        data[name] = xr.Variable((*sizes, *map(str, variable.dims[1:])), values, found.attrs)
-    coords: dict[Any, Any] = {
-        name: xr.Variable("_".join(dim["names"]), np.array([value[i] for value in dim["values"]]), describe(name))
+    points = _indices(flat, grid)
+    expected = whole = pd.MultiIndex.from_product([range(len(dim["values"])) for dim in grid], names=points.names)
+    names = [name for dim in grid for name in dim["names"]]
+    if where := attrs.get("where"):
+        fixed, every = json.loads(base["base"]), product(*(dim["values"] for dim in grid))
+        expected = whole[[holds([where], fixed | dict(zip(names, chain(*point), strict=True))) for point in every]]
+    if not points.sort_values().equals(expected):
+        different = f"{len(points)} points, {points.nunique()} of them different"
+        raise MergeError(f"the batches have {different}, which are not the {len(expected)} points of the grid")
+    if len(expected) < len(whole):
+        flat = flat.assign({name: _with_excluded(variable) for name, variable in flat.data_vars.items()})
+    fill = {name: _nothing(variable) for name, variable in flat.data_vars.items()}
+    indexed = flat.drop_vars(names).assign_coords(xr.Coordinates.from_pandas_multiindex(points, POINT))
+    sizes = {name: range(size) for name, size in zip(whole.names, whole.levshape, strict=True)}
+    merged = indexed.unstack(POINT, fill_value=fill).reindex(sizes, fill_value=fill).drop_vars(whole.names)
+    coords = {
+        name: ("_".join(dim["names"]), np.array([value[i] for value in dim["values"]]), describe(name))
         for dim in grid
         for i, name in enumerate(dim["names"])
     }
-    coords |= {name: flat[name] for name in flat.coords if name not in coords}
-    merged = xr.Dataset(data, coords)
+    merged = merged.transpose(*whole.names, ...).assign_coords(coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
+
+
+def _indices(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]]) -> pd.MultiIndex:
+    """Index of each point along each dimension; -1 for a value that the grid does not have."""
+    columns = {}
+    for dim in grid:
+        known = {tuple(value): i for i, value in enumerate(dim["values"])}
+        values = zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)
+        columns["_".join(dim["names"])] = [known.get(value, -1) for value in values]
+    return pd.MultiIndex.from_arrays([*columns.values()], names=[*columns])
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
@@ -78,32 +96,19 @@ def failures(study: xr.Dataset) -> Iterator[str]:
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
 
 
-def _with_excluded(variable: xr.DataArray) -> xr.Variable:
-    """A variable along the points with one excluded point appended: missing, or a flag with a word of its own."""
-    attrs = dict(variable.attrs)
-    none: Any = math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0
-    if "flag_meanings" in attrs:
-        words = [*attrs["flag_meanings"].split(), EXCLUDED]
-        none = len(words) - 1
-        attrs |= {"flag_meanings": " ".join(words), "flag_values": np.arange(len(words), dtype=np.int8)}
-    more = np.full((1, *variable.shape[1:]), none, dtype=variable.dtype)
-    return xr.Variable(variable.dims, np.concatenate([variable.values, more]), attrs)
+def _with_excluded(variable: xr.DataArray) -> xr.DataArray:
+    """A variable that has a word for excluded points besides, if it is a flag."""
+    if "flag_meanings" not in variable.attrs:
+        return variable
+    words = [*variable.attrs["flag_meanings"].split(), EXCLUDED]
+    return variable.assign_attrs(flag_meanings=" ".join(words), flag_values=np.arange(len(words), dtype=np.int8))
 
 
-def _places(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]], where: str, base: Mapping[str, Any]) -> np.ndarray:
-    """Row of each point, in the order of the grid, last dimension fastest; -1 for points excluded by a rule."""
-    names = [name for dim in grid for name in dim["names"]]
-    found = list(zip(*(flat[name].values.tolist() for name in names), strict=True))
-    rows = {point: row for row, point in enumerate(found)}
-    if twice := [point for row, point in enumerate(found) if rows[point] != row]:
-        raise MergeError(f"there twice: {dict(zip(names, twice[0], strict=True))}")
-    points = [tuple(chain.from_iterable(point)) for point in product(*(dim["values"] for dim in grid))]
-    kept = [point for point in points if not where or holds([where], {**base, **dict(zip(names, point, strict=True))})]
-    if missing := [point for point in kept if point not in rows]:
-        raise MergeError(f"missing: {dict(zip(names, missing[0], strict=True))} and {len(missing) - 1} more")
-    if len(kept) != len(rows):
-        raise MergeError(f"{len(rows) - len(kept)} points do not belong to the grid")
-    return np.array([rows.get(point, -1) for point in points])
+def _nothing(variable: xr.DataArray) -> Any:
+    """The value of an excluded point: its word, the last one, or none."""
+    if "flag_values" in variable.attrs:
+        return variable.dtype.type(variable.attrs["flag_values"][-1])
+    return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0
 
 
 def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
