@@ -76,6 +76,10 @@ _READ = must(
 )
 
 
+Quantity = float | str
+"""A number, or a text that stands for one, with or without its unit."""
+
+
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
     """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`, `lt` and `le`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
@@ -262,34 +266,13 @@ class Parameters(Checked):
     if TYPE_CHECKING:  # for type checkers, which know no texts with units from the fields
 
         def __init__(  # noqa: PLR0913
-            self,
-            *,
-            N: float | str,
-            Omega: float | str,
-            D_star: float | str = ...,
-            c: float | str = ...,
-            c_p: float | str = ...,
-            k: float | str = ...,
-            k_p: float | str = ...,
-            E: float | str = ...,
-            m: float | str = ...,
-            mu_s: float | str = ...,
-            mu_k: float | str = ...,
-            a: float | str = ...,
-            b: float | str = ...,
-            r_0: float | str = ...,
-            h: float | str = ...,
-            nu: float | str = ...,
-            rho: float | str = ...,
-            n_diameters: int | str = ...,
-            n_circles: int | str = ...,
-            normalization: str = ...,
-            contact: str = ...,
-            contact_compliance: float | str = ...,
-            contact_force: str = ...,
-            damping_ratio: float | str | None = ...,
-            disc: Disc | None = ...,
-        ) -> None: ...
+            self, *, N: Quantity, Omega: Quantity, D_star: Quantity = ..., c: Quantity = ..., c_p: Quantity = ...,
+            k: Quantity = ..., k_p: Quantity = ..., E: Quantity = ..., m: Quantity = ..., mu_s: Quantity = ...,
+            mu_k: Quantity = ..., a: Quantity = ..., b: Quantity = ..., r_0: Quantity = ..., h: Quantity = ...,
+            nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
+            normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ..., contact_force: str = ...,
+            damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+        ) -> None: ...  # fmt: skip
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

@@ -28,8 +28,6 @@ class Collector:
     """Provides the engine's `buffers`, empties them at each pause, and assembles the recorded arrays."""
 
     def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
-        if record.windows or record.poincare is not None:
-            _check_room(record, p.Omega, start, t_end, longest_step)
         # samples in a bin of an envelope; None where single samples are kept
         self._record, self._folds = record, [window.envelope for window in record.windows]
         grids = [_uniform(window, start, t_end) for window in record.windows]
@@ -40,6 +38,8 @@ class Collector:
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + sampling.SAME_INSTANT * t_end
         per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
+        if grids:
+            self._check_room([float(grid[2]) for grid in grids], per_step)
         counters, sampled = np.zeros(event_loop.N_COUNTERS, np.int64), np.zeros(len(grids), np.int64)
         samplers = np.array(grids) if grids else np.zeros((0, 5))
         sample_rows = np.empty((capacity + per_step, len(sampling.ROW)))
@@ -54,6 +54,16 @@ class Collector:
         self._events: list[Array] = []
         self._samples: list[list[Array]] = [[] for _ in grids]
         self._rest: list[list[Array]] = [[] for _ in grids]
+
+    def _check_room(self, counts: list[float], per_step: int) -> None:
+        """Raise `ParameterError` if memory cannot hold the recorded rows, open bins included, and those of a step."""
+        rows = [n if fold is None else n / fold + 2 * min(fold, n) for n, fold in zip(counts, self._folds, strict=True)]
+        size, room = 8.0 * len(sampling.ROW) * (sum(rows) + per_step), _memory()
+        if size > room:
+            most = rows.index(max(rows))
+            path = ("windows", str(most)) if most < len(self._record.windows) else ("poincare",)
+            rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
+            raise ParameterError(Fault(("record", *path), "", rule))
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
@@ -119,24 +129,6 @@ def _fold(cells: Array) -> Array:
         column = cells[:, :, _COLUMN[name]]
         out += [column.min(axis=1), column.max(axis=1)]
     return np.stack(out, axis=1)
-
-
-def _check_room(record: Record, Omega: float, start: float, t_end: float, longest_step: float) -> None:
-    """Raise `ParameterError` if memory cannot hold the recorded rows, an open bin's samples and those of a step."""
-    row, folded, room = 8 * len(sampling.ROW), 8 * len(_FOLDED_ROW), _memory()
-
-    def needed(span: Window | Poincare, rate: float, envelope: int | None = None) -> float:
-        samples = max(min(span.stop, t_end) - max(span.start, start), 0.0) * rate
-        held = samples * row if envelope is None else samples / envelope * folded + 2 * min(envelope, samples) * row
-        return held + min(samples, longest_step * rate) * row
-
-    needs = {f"windows.{i}": needed(window, window.rate, window.envelope) for i, window in enumerate(record.windows)}
-    if record.poincare is not None:
-        needs["poincare"] = needed(record.poincare, Omega / (2 * math.pi))
-    total = sum(needs.values())
-    if total > room:
-        rule = f"must fit into memory: {total / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
-        raise ParameterError(Fault(("record", *max(needs, key=needs.__getitem__).split(".")), "", rule))
 
 
 def _memory() -> float:
