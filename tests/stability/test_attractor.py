@@ -16,7 +16,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, perturb, static_start
-from disc_model.stability.attractor.classification import Basins, random_perturbation
+from disc_model.stability.attractor.basins import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
 
 P14 = Parameters(N=385, Omega=14)
@@ -58,7 +58,7 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     p = Parameters(N=300, Omega=20)
     found, whole = find_outcome(p, 400), find_outcome(p, 400, furthest=0.0)
     assert found.outcome is whole.outcome is Outcome.SEPARATION
-    # a tenth of the distance (AGREES) is a growth of ln(1.1) / 0.046 s = 2 s
+    # a tenth of the distance (LARGEST_ERROR) is a growth of ln(1.1) / 0.046 s = 2 s
     assert found.first_separation == pytest.approx(whole.first_separation, abs=2)
     assert whole.first_separation == pytest.approx(149.41, abs=0.5)  # docs/model.md
     assert found.simulated < 0.6 * whole.simulated
@@ -200,7 +200,7 @@ def compared(p: Parameters, starts: range, horizon: float, longer: float) -> lis
     """What kicks come to as it is judged early, and at the end of a longer horizon."""
     early, late = Basins(p, horizon), Basins(p, longer, near=0)
     kicks = [random_perturbation(p, static_start(p), energy, (3, i)) for i in starts for energy in (0.05, 0.3, 2.0)]
-    return [(early.reached(kick), late.reached(kick)) for kick in kicks]
+    return [(early.follow(kick), late.follow(kick)) for kick in kicks]
 
 
 @pytest.mark.compiled
@@ -249,7 +249,7 @@ def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
     """At 11 rad/s disturbances of the cycle grow by 0.0004/s: for a minute nothing is seen of it."""
     basins = Basins(Parameters(N=385, Omega=11), 60.0)
     assert basins.cycle is None
-    assert basins.reached(static_start(basins.p)).outcome is Outcome.UNDECIDED
+    assert basins.follow(static_start(basins.p)).outcome is Outcome.UNDECIDED
 
 
 @pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
-from disc_model.stability.attractor.torus import FURTHER, TorusTest
+from disc_model.stability.attractor.thresholds import TORUS_FURTHER
+from disc_model.stability.attractor.torus import TorusTest
 from disc_model.stability.return_map import RETURNED, Counts, Flight
 
 PERIOD = 0.02
@@ -68,7 +69,7 @@ def test_an_attracting_torus_is_told_from_an_unstable_one(rate: float, radius: f
 def test_a_motion_whose_returns_end_is_on_no_torus() -> None:
     class Ends(TurningMap):
         def returns(self, x: np.ndarray, most: int, **_: Any) -> Iterator[np.ndarray]:
-            return super().returns(x, min(most, FURTHER - 1))
+            return super().returns(x, min(most, TORUS_FURTHER - 1))
 
     x = np.array([1.0, 0.0, 0.0, 0.0])
     for map_, shown in ((TurningMap(-0.02), True), (Ends(-0.02), False)):

@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.analysis.settling import Settled, Settling
 from disc_model.errors import Status
-from disc_model.stability.attractor import classification
+from disc_model.stability.attractor import arrival as arrivals
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
@@ -72,7 +72,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def arrival(p, leg, tol):
         """All have settled."""
-        return classification.Arrival(Settling(Settled.SETTLED))
+        return arrivals.Arrival(Settling(Settled.SETTLED))
 
     def carried_on(p, until, *, tol, initial_state):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
@@ -92,7 +92,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(critical_speed, "motion", motion)
     for name, fake in (("arrival", arrival), ("simulate", carried_on), ("final_segment", final_segment)):
-        monkeypatch.setattr(classification, name, fake)
+        monkeypatch.setattr(arrivals, name, fake)
 
 
 @pytest.fixture

@@ -16,14 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, Outcome
-from disc_model.stability.attractor.neighbourhood import (
-    AMPLITUDES,
-    SAME_POINT,
-    NearCycle,
-    cycle_of_static_start,
-    departs_after,
-)
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, stays_linear_until
 from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
+from disc_model.stability.attractor.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.resonances import modes_at_rest
 from disc_model.stability.return_map import newton
@@ -99,13 +94,15 @@ class Tile:
         """
         changed = False
         for (i, j), found in list(self.results.items()):
-            if not isinstance(found, OutcomeResult) or found.departed is None:
+            if not isinstance(found, OutcomeResult) or found.extrapolated is None:
                 continue
             sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
             beside = {self._shown(one) for one, other in sides if self._shown(one) == self._shown(other)}
             if any(both != found.word and {both, found.word} - GROWN == {Outcome.SEPARATION} for both in beside):
                 whole = self._result((i, j), furthest=0.0)
-                self.results[i, j] = whole.after(found) if isinstance(whole, OutcomeResult) else whole
+                if isinstance(whole, OutcomeResult):
+                    whole.simulated += found.simulated
+                self.results[i, j] = whole
                 changed |= self.outcome((i, j)) != found.word
         return changed
 
@@ -136,7 +133,7 @@ class Tile:
             return ""
         if start.cycle.stable:
             return Outcome.QUIET
-        return Outcome.GROWING if departs_after(start, self.horizon) else ""
+        return Outcome.GROWING if stays_linear_until(start, self.horizon) else ""
 
     def _refine(self, rows: Place, columns: Place) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""

@@ -9,7 +9,7 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor import classification
+from disc_model.stability.attractor import basins as attractors
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
@@ -34,7 +34,7 @@ class Made:
     def least(p: Parameters, i: int) -> float:
         return 0.02 * (i + 1)
 
-    def reached(self, state: tuple[float, int]) -> OutcomeResult:
+    def follow(self, state: tuple[float, int]) -> OutcomeResult:
         energy, i = state
         if i in self.classes:
             return self.classes[i]
@@ -44,8 +44,8 @@ class Made:
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(classification, "Basins", Made)
-    monkeypatch.setattr(classification, "random_perturbation", lambda p, state, energy, key: (energy, key[2]))
+    monkeypatch.setattr(attractors, "Basins", Made)
+    monkeypatch.setattr(attractors, "random_perturbation", lambda p, state, energy, key: (energy, key[2]))
 
 
 def found(**options):

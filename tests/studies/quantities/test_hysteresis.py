@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor import classification
+from disc_model.stability.attractor import arrival
 from disc_model.studies.quantities import hysteresis
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantity import Point
@@ -45,7 +45,7 @@ def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
     way: int, breaks_at: float, onset: float, offset: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On its way up or down."""
-    whole, passed = classification.simulate, []
+    whole, passed = arrival.simulate, []
 
     def simulate(p, *how, **more):
         passed.append(p.Omega)
@@ -53,7 +53,7 @@ def test_a_sweep_that_cannot_go_on_says_where_and_what_it_has_seen(
             return SimpleNamespace(status=Status.STALLED, message="why", final_state=None)
         return whole(p, *how, **more)
 
-    monkeypatch.setattr(classification, "simulate", simulate)
+    monkeypatch.setattr(arrival, "simulate", simulate)
     options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60, "evaluation_time": 2})
     table = compute(options, [Point(Parameters(N=200, Omega=0))])
     found = table.arrays

@@ -14,7 +14,7 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.stability.attractor.neighbourhood import NearCycle
+from disc_model.stability.attractor.linear_motion import NearCycle
 from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.stability.cycle import floquet
 from disc_model.studies import refinement
@@ -180,10 +180,10 @@ def tile_of(
 
     def find_outcome(p: Parameters, *_, furthest: float, **__) -> OutcomeResult:
         word = whole(*place(p)) if whole and not furthest else outcome(*place(p))
-        return OutcomeResult(word, 1.0, departed=follows_one(False) if whole and furthest else None)
+        return OutcomeResult(word, 1.0, extrapolated=follows_one(False) if whole and furthest else None)
 
     monkeypatch.setattr(refinement, "find_outcome", find_outcome)
-    monkeypatch.setattr(refinement, "departs_after", lambda *_: False)
+    monkeypatch.setattr(refinement, "stays_linear_until", lambda *_: False)
     points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
     return refinement.Tile(points, **OPTIONS.model_dump())
 

@@ -3,13 +3,13 @@
 The outcomes are those of `disc_model.data.variables.Outcome`. One test decides each of them:
 
 - `quiet`, `other_cycle`, `separating`: the motion is near a stable cycle of the return map, and approaches it over
-  seconds at the rates of the cycle's multipliers (`neighbourhood.cycle_near`). It is separating if the cycle loses
+  seconds at the rates of the cycle's multipliers (`linear_motion.find_cycle_near`). It is separating if the cycle loses
   contact. It is quiet if the cycle is that of the static start, or within a tenth of the static deflection of it.
 - `steady_sliding`: the slider slips near a stable equilibrium, and the motion approaches it at the rates of the
-  eigenvalues (`neighbourhood.nears_sliding`).
-- `at_rest`: the slider sticks for a whole segment, and no force can release it (`outcome.at_rest`).
-- `quasi_periodic`, `irregular`: the motion has settled (`classification.Basins`), and no stable cycle is near. Its
-  largest nontrivial Lyapunov exponent is zero, or positive (`classification.regularity`).
+  eigenvalues (`linear_motion.approaches_sliding`).
+- `at_rest`: the slider sticks for a whole segment, and no force can release it (`outcome.find_calm`).
+- `quasi_periodic`, `irregular`: the motion has settled (`basins.Basins`), and no stable cycle is near. Its
+  largest nontrivial Lyapunov exponent is zero, or positive (`arrival.regularity`).
 - `growing`: the motion is in contact at the horizon and departs from an unstable cycle, or its changes from one period
   to the next have risen (`outcome.growing`). It is not followed to the horizon once it is known to stay on an
   attracting torus in contact (`torus.TorusTest`). `separation`: contact is lost before the horizon.
@@ -18,5 +18,6 @@ The outcomes are those of `disc_model.data.variables.Outcome`. One test decides 
 Claims and benchmarks know the times of events alone: `disc_model.analysis.classify` finds their period, and tells
 quasi-periodic from irregular intervals by the 0-1 test.
 
-`outcome` follows one motion to a horizon; `classification` compares many motions of a case with known attractors.
+`outcome` follows one motion to a horizon, `basins` compares many motions of a case with known attractors, and `arrival`
+says what one motion has come to. All limits that decide are in `thresholds`.
 """

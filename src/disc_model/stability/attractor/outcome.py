@@ -1,14 +1,14 @@
 """The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
 
-The static start is a point of the section of `disc_model.stability.return_map`, and usually lies near the cycle that
-Newton's method finds from it.  docs/algorithms.md, Regions, describes the conclusions and the simulations.
+The search is a machine whose `Stage` says what is known of the motion; docs/algorithms.md, Regions, describes the
+conclusions and the simulations. The static start is a point of the section of `disc_model.stability.return_map`, and
+usually lies near the cycle that Newton's method finds from it.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Self
+from enum import Enum
 
 import numpy as np
 
@@ -19,34 +19,21 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
-from disc_model.stability.attractor.neighbourhood import (
-    AMPLITUDES,
-    ARRIVED,
-    NEAR,
-    SAME_POINT,
-    WAITS,
+from disc_model.stability.attractor import thresholds
+from disc_model.stability.attractor.linear_motion import (
     NearCycle,
-    cycle_near,
+    approaches_sliding,
     cycle_of_static_start,
-    departure,
+    extrapolate_departure,
+    find_cycle_near,
+    find_near_return,
     first_release,
-    follows,
-    nears_sliding,
-    recurrence,
+    follows_multipliers,
+    periods_left,
 )
 from disc_model.stability.attractor.torus import TorusTest
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
-
-FIRST_LEG = 5.0
-"""s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
-LONGEST_LEG = 160.0
-"""s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
-CERTAIN = 0.02
-"""Distance from a cycle, over the static deflection, from which a departure that came to a stable cycle is simulated:
-farther away, its phase may decide between that cycle and separation."""
-RATE = 4000.0
-"""Sampling rate of segments, Hz: above twice the highest modal frequency."""
 
 
 @dataclass(frozen=True)
@@ -94,6 +81,20 @@ class Attractor:
     points: Array | None = None
 
 
+class Stage(Enum):
+    """Stage of a search for the outcome of a motion: what is known of it. From `SETTLED` on, the search has ended."""
+
+    START = "at its initial state"
+    NEAR_CYCLE = "follows the linear map near a cycle"
+    DEPARTING = "departs from an unstable cycle"
+    ON_ITS_WAY = "follows no cycle as far as is known"
+    SETTLED = "approaches a stable cycle or steady sliding, or is at rest"
+    ON_TORUS = "stays on an attracting torus in contact"
+    SEPARATED = "has lost contact"
+    HORIZON = "has come to the horizon"
+    FAILED = "its simulation failed"
+
+
 @dataclass(eq=False)
 class OutcomeResult:
     """The outcome of a motion; while it is sought, what is known so far.
@@ -102,10 +103,10 @@ class OutcomeResult:
     ----------
     outcome : None if the simulation failed
     simulated : s, simulated time; 0 if multipliers decide
-    attractor : one of the attractors of `disc_model.stability.attractor.classification.Basins`, or None
+    attractor : one of the attractors of `disc_model.stability.attractor.basins.Basins`, or None
     near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
-    departed : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all was
-        simulated
+    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all
+        was simulated
     first_separation : s, nan if there was none
     time : s, at which the outcome was known
     state : last state of the simulation; None if there was none
@@ -114,13 +115,14 @@ class OutcomeResult:
     times : times of these ends, s
     distance : distance from the cycle, over the static deflection, at the end of the search
     segment : the last segment before the horizon, if it was requested and reached
+    stage : stage in which the search ended
     """
 
     outcome: Outcome | None = None
     simulated: float = 0.0
     near: NearCycle | None = None
     attractor: Attractor | None = None
-    departed: NearCycle | None = None
+    extrapolated: NearCycle | None = None
     first_separation: float = math.nan
     time: float = 0.0
     state: State | None = None
@@ -129,6 +131,7 @@ class OutcomeResult:
     times: list[float] = field(default_factory=list)
     distance: float = math.nan
     segment: Segment | None = None
+    stage: Stage = Stage.START
 
     @property
     def word(self) -> str:
@@ -139,10 +142,6 @@ class OutcomeResult:
     def separates(self) -> bool:
         """Whether the motion loses contact again and again."""
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
-
-    def after(self, before: Self) -> Self:
-        """The same result of a search that repeats another one: what both simulated counts."""
-        return replace(self, simulated=before.simulated + self.simulated)
 
     @property
     def status(self) -> Status:
@@ -161,7 +160,7 @@ def find_outcome(
     *,
     tol: float = 1e-10,
     near: NearCycle | FloquetResult | None = None,
-    furthest: float = AMPLITUDES[0],
+    furthest: float = thresholds.AMPLITUDES[0],
     start: State | None = None,
     early: bool = True,
     late: float = 0.0,
@@ -174,180 +173,215 @@ def find_outcome(
     near : result of `cycle_of_static_start`, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
         shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated.
-        A departure that comes to a stable cycle is simulated from `CERTAIN` in any case
+        A departure that comes to a stable cycle is simulated from `thresholds.CERTAIN` in any case
     start : initial state, at time 0; None is the static start
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
     """
-    found = OutcomeResult(state=start)
-    course, first = _OutcomeSearch(p, horizon, tol, furthest, early, late, found), None
     if isinstance(near, NearCycle):
-        course.map = near.map  # a new one takes as long as a return to the section ten times over
-    if early and start is None and course.map is not None:
-        near = cycle_of_static_start(p) if near is None else near
-        if isinstance(near, NearCycle):
-            if near.follows_cycle:
-                first = near
-            else:
-                course.near_start = near
-    found.outcome = course.run(first)
-    if furthest <= CERTAIN or found.departed is None or found.near is None or not found.near.cycle.stable:
-        return found
-    again = find_outcome(p, horizon, tol=tol, near=near, furthest=CERTAIN, start=start, early=early, late=late)
-    return again.after(found)
+        map_: ReturnMap | None = near.map  # a new one takes as long as a return to the section ten times over
+    else:
+        has_section = not case_faults(p, "the return map") and may_stick_and_slip(p)
+        map_ = ReturnMap(p) if has_section else None
+    if not early or start is not None or map_ is None:
+        near = None
+    elif near is None:
+        near = cycle_of_static_start(p)
+    start_cycle = near if isinstance(near, NearCycle) else None
+    return _OutcomeSearch(p, horizon, tol, start, early, late, map_, start_cycle, furthest).run()
 
 
 @dataclass
 class _OutcomeSearch:
-    """A search for the outcome of a motion.
+    """A search for the outcome of a motion: one method a stage, each of which returns the next stage.
 
-    found : its results so far, with the present state of the motion
-    left : the last unstable cycle from which the motion has departed
-    near_start : the cycle near the static start, while the motion does not follow it
-    at : point of the section at the end of the last leg
+    start_cycle : the cycle near the static start, if that may decide
+    furthest : see `find_outcome`; it is reduced if the search starts anew
     """
 
     p: Parameters
     horizon: float
     tol: float
-    furthest: float
+    start: State | None
     early: bool
     late: float
-    found: OutcomeResult
-    left: NearCycle | None = None
-    near_start: NearCycle | None = None
-    at: Array | None = None
+    map: ReturnMap | None
+    start_cycle: NearCycle | None
+    furthest: float
+    simulated_before: float = 0.0
 
-    @cached_property
-    def map(self) -> ReturnMap | None:
-        has_section = not case_faults(self.p, "the return map") and may_stick_and_slip(self.p)
-        return ReturnMap(self.p) if has_section else None
+    def run(self) -> OutcomeResult:
+        """Pass from stage to stage, until the outcome is known."""
+        stages = {
+            Stage.START: self._begin,
+            Stage.NEAR_CYCLE: self._judge_cycle,
+            Stage.DEPARTING: self._depart,
+            Stage.ON_ITS_WAY: self._simulate_on,
+        }
+        stage = Stage.START
+        while stage in stages:
+            stage = stages[stage]()
+        self.result.stage = stage
+        self.result.simulated = self.simulated_before + self.result.simulated
+        return self.result
 
-    @cached_property
-    def torus(self) -> TorusTest:
-        assert self.map is not None
-        return TorusTest(self.map)
+    def _begin(self) -> Stage:
+        self.result = OutcomeResult(state=self.start)
+        self.leg = thresholds.FIRST_LEG
+        self.cycle: NearCycle | None = None  # that the motion follows
+        self.departed_from: NearCycle | None = None  # the last of such cycles
+        self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
+        self.torus_test = TorusTest(self.map) if self.map is not None else None
+        self.section_point: Array | None = None  # at the end of the last leg
+        if self.start_cycle is None:
+            return Stage.ON_ITS_WAY
+        if not self.start_cycle.follows_cycle:
+            self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
+            return Stage.ON_ITS_WAY
+        self.cycle, self.result.time = self.start_cycle, first_release(self.p)
+        return Stage.NEAR_CYCLE
 
-    def run(self, near: NearCycle | None) -> Outcome | None:
-        """The outcome, None if a simulation failed; ``near`` is the cycle that the motion follows from its start."""
-        found, leg = self.found, FIRST_LEG
-        if near is not None:
-            found.time = first_release(self.p)
-        while True:
-            over = found.time >= self.horizon
-            if near is not None:
-                found.near = found.near or near
-                if near.cycle.stable:
-                    found.near = near
-                    found.time += near.waited
-                    found.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
-                    return near.kind
-                if over or self._depart(near) >= self.horizon:
-                    return Outcome.GROWING
-            elif over:
-                return Outcome.GROWING if self._grows else Outcome.UNDECIDED
-            result = self._simulated(leg)
-            leg = min(2 * leg, LONGEST_LEG)
-            if result.status is Status.STOPPED:
-                found.first_separation = result.first_separation
-                return Outcome.SEPARATION
-            if not result.status.complete:
-                found.failed = result
-                return None
-            if self.early or found.time >= self.horizon:
-                calm = at_rest(self.p, result, self.tol)
-                if calm is not None:
-                    found.near = None
-                    return calm
-            near = self._look(result.final_state)
-            if near is None and self._stays_in_contact():
-                return Outcome.GROWING
+    def _judge_cycle(self) -> Stage:
+        near, result = self.cycle, self.result
+        assert near is not None
+        result.near = result.near or near
+        if not near.cycle.stable:
+            return Stage.DEPARTING
+        if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
+            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
+            return Stage.START
+        result.near, result.outcome = near, near.kind
+        result.time += near.waited
+        result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
+        return Stage.SETTLED
 
-    def _simulated(self, leg: float) -> Result:
-        """Simulate for a time (s), or to the first separation; the segment to be described is a leg of its own."""
+    def _depart(self) -> Stage:
+        """Follow the linear map away from an unstable cycle, as far as it is valid."""
+        near, result = self.cycle, self.result
+        assert near is not None
+        self.departed_from = near
+        if result.time >= self.horizon:
+            return Stage.ON_ITS_WAY
+        departure = extrapolate_departure(near, periods_left(near, result.time, self.horizon), self.furthest)
+        time, distance = departure or (0.0, near.distance)
+        slowest = result.extrapolated
+        if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
+            result.extrapolated = near
+        if departure or result.state is None:
+            result.time = result.time + near.waited + time
+            result.state = near.map.state(near.x + distance).replace(time=result.time)
+        return Stage.ON_ITS_WAY
+
+    def _simulate_on(self) -> Stage:
+        """Simulate a leg, and examine the motion at its end."""
+        result = self.result
+        if result.time >= self.horizon:
+            result.outcome = Outcome.GROWING if self._grows else Outcome.UNDECIDED
+            return Stage.HORIZON
+        leg = self._simulate_leg()
+        if leg.status is Status.STOPPED:
+            result.outcome, result.first_separation = Outcome.SEPARATION, leg.first_separation
+            return Stage.SEPARATED
+        if not leg.status.complete:
+            result.failed = leg
+            return Stage.FAILED
+        examined = self.early or result.time >= self.horizon
+        if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
+            result.outcome, result.near = calm, None
+            return Stage.SETTLED
+        if self._returns_to_section(leg.final_state) and examined:
+            self.cycle = self._find_followed_cycle()
+            if self.cycle is not None:
+                return Stage.NEAR_CYCLE
+        if self._stays_on_torus():
+            result.outcome = Outcome.GROWING
+            return Stage.ON_TORUS
+        return Stage.ON_ITS_WAY
+
+    def _simulate_leg(self) -> Result:
+        """Simulate a leg, or to the first separation; the segment to be described is a leg of its own."""
+        result = self.result
         marks = (self.horizon - self.late, self.horizon)
-        stop = next(min(self.found.time + leg, mark) for mark in marks if self.found.time < mark)
+        stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
+        self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
         record = Record(events=False)
         if self.late and stop == self.horizon:
-            record = Record(windows=(Window(start=self.found.time, stop=stop, rate=RATE),), events=False)
-        result = simulate(
-            self.p, stop, tol=self.tol, initial_state=self.found.state, record=record, stop_at="first_separation"
+            window = Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)
+            record = Record(windows=(window,), events=False)
+        leg = simulate(
+            self.p, stop, tol=self.tol, initial_state=result.state, record=record, stop_at="first_separation"
         )
-        if record.windows and result.status.complete:
-            self.found.segment = segment_of(result)
-        self.found.simulated += result.final_state.time - self.found.time
-        self.found.state, self.found.time = result.final_state, result.final_state.time
-        return result
+        if record.windows and leg.status.complete:
+            result.segment = segment_of(leg)
+        result.simulated += leg.final_state.time - result.time
+        result.state, result.time = leg.final_state, leg.final_state.time
+        return leg
+
+    def _returns_to_section(self, state: State) -> bool:
+        """Whether the motion comes to the section again; its nearest return is then measured."""
+        code, x = self.map.next_release(state) if self.map is not None else (None, None)
+        self.section_point = x if code == RETURNED else None
+        if self.map is None or self.section_point is None:
+            return False
+        self.near_return = find_near_return(self.map, self.section_point)
+        self.result.times.append(self.result.time)
+        self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
+        return True
+
+    def _find_followed_cycle(self) -> NearCycle | None:
+        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
+        x, near, waits = self.section_point, self.cycle_to_come, len(thresholds.WAITS)
+        assert self.map is not None
+        assert x is not None
+        if self.departed_from is not None:
+            if near is not None and self._comes_to(near, x, self.departed_from):
+                self.cycle_to_come = self.result.near = None
+                return replace(near, follows_cycle=True, distance=x - near.x)
+            # a motion that comes near a cycle then changes less and less, down to errors of the simulation
+            least = max(self.result.changes[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol)
+            if self.result.changes[-1] > least:
+                return None
+            waits = 1
+        near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])
+        return near if near is not None and near.follows_cycle else None
+
+    @staticmethod
+    def _comes_to(near: NearCycle, x: Array, last: NearCycle) -> bool:
+        """Whether the motion at a point of the section follows a cycle, after it has departed from another one."""
+        size = near.map.deflection
+        if not np.linalg.norm(x - near.x) <= thresholds.NEAR * size:
+            return False
+        return bool(np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size) and follows_multipliers(near, x)
 
     @property
     def _grows(self) -> bool:
-        return self.left is not None or growing(self.found.changes)
+        return self.departed_from is not None or growing(self.result.changes)
 
-    def _stays_in_contact(self) -> bool:
+    def _stays_on_torus(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
-        # not before 70 s are simulated, as a test costs as much as 50 to 400 s of simulation
-        tested = self.early and self.found.simulated >= 70.0 and self.horizon - self.found.time >= LONGEST_LEG
-        if not tested or not self._grows or self.at is None or not self.torus.shows_torus(self.at):
+        result, x = self.result, self.section_point
+        tested = (
+            self.early
+            and result.simulated >= thresholds.TORUS_AFTER
+            and self.horizon - result.time >= thresholds.LONGEST_LEG
+        )
+        if not tested or not self._grows or self.torus_test is None or x is None or not self.torus_test.shows_torus(x):
             return False
-        # it may pass an unstable one, or a border of its phases that no derivative shows: it is watched for 40 s
-        result, segment = final_segment(self.p, self.found.state, 40.0, 40.0, self.tol)
-        self.found.simulated += result.final_state.time - self.found.time
-        if segment is None or segment.P_min < 0.05 * self.p.N:  # too near to a loss of contact to exclude one
+        watched, segment = final_segment(
+            self.p, result.state, thresholds.TORUS_WATCHED, thresholds.TORUS_WATCHED, self.tol
+        )
+        result.simulated += watched.final_state.time - result.time
+        if segment is None or segment.P_min < thresholds.TORUS_LEAST_FORCE * self.p.N:
             return False
-        code, x = self.torus.map.next_release(result.final_state)
-        return code == RETURNED and self.torus.shows_no_change(x)
-
-    def _depart(self, near: NearCycle) -> float:
-        """Follow the linear map away from an unstable cycle, as far as it is valid; returns the time at its end, s."""
-        begun = self.found.time + near.waited
-        room = max(0, math.ceil((self.horizon - begun) / near.cycle.period))
-        time, distance = departure(near, room, self.furthest)
-        self.left = near
-        slowest = self.found.departed
-        if time and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
-            self.found.departed = near
-        if time or self.found.state is None:
-            self.found.time = begun + time
-            self.found.state = near.map.state(near.x + distance).replace(time=self.found.time)
-        return self.found.time
-
-    def _look(self, state: State) -> NearCycle | None:
-        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
-        code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        self.at = x if code == RETURNED else None
-        if self.map is None or self.at is None:
-            return None
-        x = self.at
-        again = recurrence(self.map, x)
-        self.found.times.append(self.found.time)
-        self.found.changes.append(again[0])
-        if not self.early and self.found.time < self.horizon:
-            return None
-        near = self._back(x)
-        # after a departure, a motion that comes near a cycle changes less and less, down to errors of the simulation:
-        # 12 times the tolerance were seen on a cycle that attracts at 0.008/s
-        least = max(self.found.changes[-2:][0], ARRIVED, 100 * self.tol)
-        if near is None and (self.left is None or not again[0] > least):
-            near = cycle_near(self.map, x, again, unstable=WAITS if self.left is None else WAITS[:1])
-        return near if near is not None and near.follows_cycle else None
-
-    def _back(self, x: Array) -> NearCycle | None:
-        """The unstable cycle near the start, if the motion follows it after it has passed another unstable one."""
-        near, left = self.near_start, self.left
-        if near is None or left is None or near.cycle.stable:
-            return None
-        size, apart = near.map.deflection, np.linalg.norm(x - near.x)
-        if not apart <= NEAR * size or np.linalg.norm(left.x - near.x) <= SAME_POINT * size or not follows(near, x):
-            return None
-        self.near_start = self.found.near = None
-        return replace(near, follows_cycle=True, distance=x - near.x)
+        code, x = self.torus_test.map.next_release(watched.final_state)
+        return code == RETURNED and self.torus_test.shows_no_change(x)
 
 
-def at_rest(p: Parameters, leg: Result, tol: float) -> Outcome | None:
+def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
     """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if neither is shown."""
     if shares(leg)[0] == 1 and never_pulls(p):
         return Outcome.AT_REST
-    return Outcome.STEADY_SLIDING if nears_sliding(p, leg.final_state, tol) else None
+    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state, tol) else None
 
 
 def growing(changes: Sequence[float]) -> bool:
@@ -357,8 +391,7 @@ def growing(changes: Sequence[float]) -> bool:
         return False
     least = np.fmin.accumulate(d[:-2])
     later = np.fmin(d[1:-1], d[2:])
-    # rounding and beats with decaying modes cause less
-    return bool(np.any((later > ARRIVED) & (later > 1.5 * least)))
+    return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -379,7 +412,7 @@ def final_segment(
         if not result.status.complete:
             return result, None
         state = result.final_state
-    window = Window(start=stop - late, stop=stop, rate=RATE)
+    window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
     result = simulate(p, stop, tol=tol, initial_state=state, record=window)
     return result, segment_of(result) if result.status.complete else None
 

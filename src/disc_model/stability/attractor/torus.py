@@ -10,23 +10,8 @@ import math
 
 import numpy as np
 
+from disc_model.stability.attractor import thresholds
 from disc_model.stability.return_map import Array, ReturnMap
-
-RELEASES, FURTHER = 200, 400
-"""Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
-FEWEST = 40
-"""A near return takes more releases than this: over a shorter time, rates would be less accurate."""
-NEAREST, PERIODIC = 0.01, 0.001
-"""Largest distance of a near return, and of a return to a cycle of at most `FEWEST` releases, over the extent of the
-motion's points."""
-STEADY = 0.02
-"""Largest relative change of this extent since the last test."""
-TURNED = 1.0
-"""Largest size of the logarithm of the eigenvalue along the torus: its mean is 0 on a torus, and positive in chaos."""
-SLOWEST = 0.005
-"""1/s, least rate at which distances from the torus must decay: above the error of rates from inexact returns."""
-DISTANCE = 0.02
-"""Largest distance of the motion from the torus, over the static deflection."""
 
 
 class TorusTest:
@@ -41,28 +26,28 @@ class TorusTest:
         if not self._is_steady(points):
             return False
         points = np.concatenate([points, self._points(points[-1], self.further)[1:]])
-        if len(points) <= RELEASES + self.further:
+        if len(points) <= thresholds.TORUS_RELEASES + self.further:
             return False
         away = np.linalg.norm(points[1:] - x, axis=1)
-        if away[:FEWEST].min() <= PERIODIC * self.extent:
+        if away[: thresholds.TORUS_FEWEST].min() <= thresholds.TORUS_PERIODIC * self.extent:
             return False
-        nearest = int(np.argmin(away[FEWEST:]))
-        if away[FEWEST + nearest] <= NEAREST * self.extent and self._attracts(x, FEWEST + nearest + 1):
+        nearest = thresholds.TORUS_FEWEST + int(np.argmin(away[thresholds.TORUS_FEWEST :]))
+        if away[nearest] <= thresholds.TORUS_NEAREST * self.extent and self._attracts(x, nearest + 1):
             return True
-        self.further = FURTHER
+        self.further = thresholds.TORUS_FURTHER
         return False
 
     def shows_no_change(self, x: Array) -> bool:
         """Whether the motion's points have the extent that they had at the last test."""
         return self._is_steady(self._points(x))
 
-    def _points(self, x: Array, releases: int = RELEASES) -> Array:
+    def _points(self, x: Array, releases: int = thresholds.TORUS_RELEASES) -> Array:
         return np.array([x, *self.map.returns(x, releases, coarse=True)])
 
     def _is_steady(self, points: Array) -> bool:
-        before = self.extent
-        self.extent = float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) > RELEASES else math.nan
-        return abs(self.extent - before) <= STEADY * self.extent
+        before, whole = self.extent, len(points) > thresholds.TORUS_RELEASES
+        self.extent = float(np.linalg.norm(np.ptp(points, axis=0))) if whole else math.nan
+        return abs(self.extent - before) <= thresholds.TORUS_STEADY * self.extent
 
     def _attracts(self, x: Array, releases: int) -> bool:
         """Whether the motion is near a torus, and distances from it decay, by a near return."""
@@ -71,13 +56,13 @@ class TorusTest:
             return False
         values, vectors = np.linalg.eig(flight.jacobian)
         growth = np.log(np.maximum(abs(values), 1e-300))
-        slowest = -SLOWEST * flight.period
+        slowest = -thresholds.TORUS_SLOWEST * flight.period
         parts = np.linalg.lstsq(vectors, (flight.end - x).astype(complex))[0]
         # a near return lies beside its point along the torus: this shift neither turns nor decays
-        shifts = (values.imag == 0) & (values.real > 0) & (abs(growth) <= TURNED)
+        shifts = (values.imag == 0) & (values.real > 0) & (abs(growth) <= thresholds.TORUS_TURNED)
         along = int(np.argmax(np.where(shifts, abs(parts), -1.0)))
         others = np.flatnonzero((np.arange(len(values)) != along) | ~shifts | (growth <= slowest))
         if growth[others].max() > slowest:
             return False
         distance = vectors[:, others] @ (parts[others] / (1 - values[others]))
-        return bool(np.linalg.norm(distance) <= DISTANCE * self.map.deflection)
+        return bool(np.linalg.norm(distance) <= thresholds.TORUS_DISTANCE * self.map.deflection)

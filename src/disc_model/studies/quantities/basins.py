@@ -143,7 +143,7 @@ class _Sample:
     def __init__(self, point: Point, options: AttractorBasins) -> None:
         from disc_model.simulation.api import make_initial_state
         from disc_model.simulation.states import static_start
-        from disc_model.stability.attractor.classification import Basins
+        from disc_model.stability.attractor.basins import Basins
 
         p = point.parameters
         self.p, self.options = p, options
@@ -155,9 +155,9 @@ class _Sample:
 
     def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
         """The outcome of a perturbation of any energy in the direction of a start."""
-        from disc_model.stability.attractor.classification import random_perturbation
+        from disc_model.stability.attractor.basins import random_perturbation
 
-        return self.basins.reached(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
+        return self.basins.follow(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
 
     def critical_energy(self) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""

@@ -99,7 +99,7 @@ class CriticalSpeed(EarlyEnd):
         def look(i: int) -> None:
             """Compute the motion at the i-th speed of the lattice, which is not known yet."""
             # their return maps would take megabytes each for a disc of many modes
-            found = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, departed=None)
+            found = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
             none = math.isnan(found.first_separation) and found.status == "ok"
             known[i] = math.inf if none else found.first_separation
 

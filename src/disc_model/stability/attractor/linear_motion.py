@@ -6,21 +6,22 @@ growth rate of the leading multiplier's part.  Near repetition alone proves noth
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, engine_case
+from disc_model.stability.attractor import thresholds
 from disc_model.stability.cycle import (
-    CycleStatus,
     FloquetResult,
     cycle_from_rest,
     cycle_of,
@@ -30,34 +31,6 @@ from disc_model.stability.cycle import (
 )
 from disc_model.stability.return_map import Array, ComplexArray, Flight, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
-
-TESTS = ((0.3, 1.2), (1.5, 6.0))
-"""Times at which a motion is compared with the linear one, s; its growth rate is taken between them. The longer test
-follows if the shorter one fails, because it resolves slower rates."""
-AGREES = 0.1
-"""Largest difference between the two motions, relative to the linear one. The error of the linear map is of second
-order in the distance, which is at most a tenth of the static deflection."""
-RATE_AGREES = 0.5
-"""Largest difference between their growth rates, relative to the linear one: it decides the sign of the rate."""
-ARRIVED = 1e-8
-"""A motion as near to a stable cycle, over the static deflection, is on it: the limit is 10,000 times the rounding."""
-WAITS = (0.0, 1.5, 6.0, 15.0)
-"""Times at which the test begins, s. Near a resonance the start lies outside the range of the linear map, and enters it
-when the strongly damped modes have decayed."""
-AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
-"""Distances from the cycle, over the static deflection, up to which multipliers may represent a departure."""
-DEPARTS = 0.25
-"""Largest share of a departing motion, on its section, outside the leading eigenspace. It also bounds the relative
-difference between the growth rate and the multiplier's, for which the departure is corrected."""
-NEAR = AMPLITUDES[0]
-"""Distance from a cycle, over the static deflection, within which a motion counts as near it: none is linear beyond."""
-SAME_POINT = 1e-4
-"""Fixed points nearer than this, over the static deflection, are the same. Distinct known cycles differ a thousand
-times as much, and residuals are a million times smaller."""
-LINGERS = 1e-3
-"""Largest change over a period of a motion that stays near an unstable cycle, over the static deflection."""
-LARGEST_PERIOD = 8
-"""Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,22 +62,40 @@ class NearCycle:
         """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
-        if np.linalg.norm(self.x - self.map.static) <= NEAR * self.map.deflection:
+        if np.linalg.norm(self.x - self.map.static) <= thresholds.NEAR * self.map.deflection:
             return Outcome.QUIET
-        own = find_cycle(self.cycle.parameters)
-        same = own.releases == self.cycle.releases and math.isclose(own.period, self.cycle.period, rel_tol=ARRIVED)
+        cycle = find_cycle(self.cycle.parameters)
+        same = cycle.releases == self.cycle.releases and math.isclose(
+            cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED
+        )
         return Outcome.QUIET if same else Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:
-        """Whether the motion stays near an unstable cycle: over a period it hardly moves; on a torus it would."""
-        still = LINGERS * self.map.deflection
-        return not self.cycle.stable and self.moved(self.x + self.distance, 1).residual <= still
+        """Whether the motion stays near an unstable cycle: over a period it hardly moves."""
+        still = thresholds.LINGERS * self.map.deflection
+        return not self.cycle.stable and self.advance(self.x + self.distance, 1).residual <= still
 
-    def moved(self, at: Array, periods: int, *, coarse: bool = True) -> Flight:
+    def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Flight:
         """The motion from a point of the section over some periods of the cycle."""
         n, separates = periods * self.cycle.releases, self.cycle.separations > 0
-        return self.map.evaluate(at, releases=n, tangent=False, may_separate=separates, coarse=coarse)
+        return self.map.evaluate(x, releases=n, tangent=False, may_separate=separates, coarse=coarse)
+
+    def flights(self, x: Array, times: Sequence[float], coarse: bool = True) -> Iterator[tuple[int, Flight]]:
+        """The motion from a point of the section to about these times (s): periods since the last, and the flight."""
+        done = 0
+        for i, time in enumerate(times, 1):
+            count = max(i, round(time / self.cycle.period))
+            flight = self.advance(x, count - done, coarse=coarse)
+            yield count - done, flight
+            x, done = flight.end, count
+
+
+class NearReturn(NamedTuple):
+    """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
+
+    change: float
+    releases: int
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
@@ -113,57 +104,68 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
         return find_cycle(p)
     map_ = ReturnMap(p)
     cycle = cycle_from_rest(map_)
-    return _near(map_, cycle, map_.static) if cycle.status is CycleStatus.OK else cycle
+    return _relate(map_, cycle, map_.static) if cycle.status is CycleStatus.OK else cycle
 
 
-def cycle_near(
-    map_: ReturnMap, x: Array, again: tuple[float, int], *, may_separate: bool = False, unstable: Sequence[float] = ()
+def find_cycle_near(
+    map_: ReturnMap,
+    x: Array,
+    near_return: NearReturn | None,
+    *,
+    may_separate: bool = False,
+    unstable: Sequence[float] = (),
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
     Parameters
     ----------
-    again : result of `recurrence`
+    near_return : of the motion, by `find_near_return`
     may_separate : whether the cycle may lose contact
     unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
     """
-    change, releases = again
-    if not change <= NEAR / 2:
+    if near_return is None or not near_return.change <= thresholds.NEAR / 2:
         return None
-    found = newton(map_, x, releases=releases, may_separate=may_separate)
-    if found is None or np.linalg.norm(found.start - x) > NEAR * map_.deflection:
+    flight = newton(map_, x, releases=near_return.releases, may_separate=may_separate)
+    if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
         return None
-    cycle = cycle_of(map_, run_through_once(map_, found))
-    return _near(map_, cycle, x, WAITS if cycle.stable else unstable)
+    cycle = cycle_of(map_, run_through_once(map_, flight))
+    return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def recurrence(
-    map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD, *, may_separate: bool = False
-) -> tuple[float, int]:
-    """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
+def find_near_return(
+    map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD, *, may_separate: bool = False
+) -> NearReturn | None:
+    """The nearest return of a motion to its point of the section; None if it does not return at all."""
     later = map_.returns(x, most, may_separate=may_separate, coarse=True)
-    changes = [float(np.linalg.norm(now - x) / map_.deflection) for now in later]
+    changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
     if not changes:
-        return math.nan, 0
+        return None
     # the shortest of those with about the least change
     releases = next(i for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
-    return changes[releases - 1], releases
+    return NearReturn(changes[releases - 1], releases)
 
 
-def follows(near: NearCycle, at: Array) -> bool:
+def follows_multipliers(near: NearCycle, x: Array) -> bool:
     """Whether the motion at a point of the section departs from a cycle or approaches it as its multipliers predict."""
-    return any(_linear(near, at - near.x, times) for times in TESTS)
+    return any(_is_linear(near, x - near.x, times) for times in thresholds.TEST_TIMES)
 
 
-def departs_after(near: NearCycle, horizon: float) -> bool:
+def stays_linear_until(near: NearCycle, horizon: float) -> bool:
     """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
-    begun = first_release(near.cycle.parameters) + near.waited
-    room = max(0, math.ceil((horizon - begun) / near.cycle.period))
+    room = periods_left(near, first_release(near.cycle.parameters), horizon)
     # the leading part alone excludes most motions at once
     right = _left_vector(near.jacobian.T)
     part = float(abs(near.leading @ near.distance)) / float(abs(near.leading @ right))
     grown = math.log(max(part / near.map.deflection, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
-    return grown <= math.log(2 * AMPLITUDES[0]) and departure(near, room)[0] >= (room - 1) * near.cycle.period
+    if not grown <= math.log(2 * thresholds.AMPLITUDES[0]):
+        return False
+    departure = extrapolate_departure(near, room)
+    return room <= 1 or (departure is not None and departure[0] >= (room - 1) * near.cycle.period)
+
+
+def periods_left(near: NearCycle, time: float, horizon: float) -> int:
+    """Periods of a cycle until the horizon (s), for a motion that follows it ``near.waited`` after a time (s)."""
+    return max(0, math.ceil((horizon - (time + near.waited)) / near.cycle.period))
 
 
 def first_release(p: Parameters) -> float:
@@ -171,49 +173,46 @@ def first_release(p: Parameters) -> float:
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
-def _near(map_: ReturnMap, cycle: FloquetResult, at: Array, waits: Sequence[float] = WAITS) -> NearCycle:
+def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = thresholds.WAITS) -> NearCycle:
     """The motion at a point of the section in relation to a cycle."""
     assert cycle.state is not None
-    x = map_.point(cycle.state)
-    flight = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
-    near = NearCycle(cycle, False, map_, x, at - x, flight.jacobian)
-    waited, moved = 0.0, at
+    fixed_point = map_.point(cycle.state)
+    flight = map_.evaluate(fixed_point, releases=cycle.releases, may_separate=cycle.separations > 0)
+    near = NearCycle(cycle, False, map_, fixed_point, x - fixed_point, flight.jacobian)
+    waited = 0.0
     for wait in waits:
         if wait > waited:
-            flight = near.moved(moved, max(1, round((wait - waited) / cycle.period)), coarse=False)
+            flight = near.advance(x, max(1, round((wait - waited) / cycle.period)), coarse=False)
             if not flight.returned:
                 break
-            moved, waited = flight.end, waited + flight.period
-        if follows(near, moved):
-            return replace(near, follows_cycle=True, distance=moved - x, waited=waited)
+            x, waited = flight.end, waited + flight.period
+        if follows_multipliers(near, x):
+            return replace(near, follows_cycle=True, distance=x - fixed_point, waited=waited)
     return near
 
 
 @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
-def _linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
+def _is_linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
     """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
-    cycle, jacobian, x = near.cycle, near.jacobian, near.x
-    least = ARRIVED * near.map.deflection if cycle.stable else 0.0
+    cycle, deflection = near.cycle, near.map.deflection
+    least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
     # the errors of coarse flights would matter at a smaller distance
-    coarse = bool(np.linalg.norm(distance) > SAME_POINT * near.map.deflection)
-    expected, at, parts, done = distance, x + distance, list[float](), 0
-    counts = [max(i, round(time / cycle.period)) for i, time in enumerate(times, 1)]
-    for count in counts:
-        flight = near.moved(at, count - done, coarse=coarse)
-        expected = np.linalg.matrix_power(jacobian, count - done) @ expected
-        at, done = flight.end, count
-        error = float(np.linalg.norm(at - x - expected))
-        if not flight.returned or not error <= max(AGREES * float(np.linalg.norm(expected)), least):
+    coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
+    expected, parts, periods = distance, list[float](), 0
+    for periods, flight in near.flights(near.x + distance, times, coarse):
+        expected = np.linalg.matrix_power(near.jacobian, periods) @ expected
+        error = float(np.linalg.norm(flight.end - near.x - expected))
+        if not flight.returned or not error <= max(thresholds.LARGEST_ERROR * float(np.linalg.norm(expected)), least):
             return False
-        parts.append(float(abs(near.leading @ (at - x))))
-    return _at_rate(parts, (counts[1] - counts[0]) * cycle.period, cycle.growth_rate, least)
+        parts.append(float(abs(near.leading @ (flight.end - near.x))))
+    return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
 
-def _at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
+def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
     """Whether the leading part grows at a rate (1/s) between two times, or has fallen to `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
-    return abs(math.log(parts[1] / parts[0]) / time - rate) <= RATE_AGREES * abs(rate)
+    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(rate)
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
@@ -225,17 +224,19 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tuple[float, Array]:
+def extrapolate_departure(
+    near: NearCycle, room: int, furthest: float = thresholds.AMPLITUDES[0]
+) -> tuple[float, Array] | None:
     """Time over which multipliers represent a motion's departure, at most `room` periods, and the distance at its end.
 
-    The time (s) is 0 if they do not represent it. The distance is that from the cycle, on the section.
+    The time is in s, the distance that from the cycle, on the section. None if multipliers do not represent it.
     """
     period = near.cycle.period
     powers = [near.jacobian]
     most = math.log(1e100) / max(math.log(abs(near.cycle.multipliers[0])), 1e-300)
     while 2 ** len(powers) <= min(room, most):  # `most` keeps the powers from overflow
         powers.append(powers[-1] @ powers[-1])
-    for amplitude in (a for a in AMPLITUDES if a <= furthest):
+    for amplitude in (a for a in thresholds.AMPLITUDES if a <= furthest):
         n, distance = 0, near.distance
         for i in reversed(range(len(powers))):
             ahead = powers[i] @ distance
@@ -243,38 +244,35 @@ def departure(near: NearCycle, room: int, furthest: float = AMPLITUDES[0]) -> tu
                 n, distance = n + 2**i, ahead
         if n == 0:
             break
-        faster = _faster(near, distance)
-        if abs(faster) <= DEPARTS:
-            # the rate changes with the square of the amplitude: a' = rate a (1 + faster a^2 / amplitude^2)
-            sooner = math.log1p(faster) / (2 * near.cycle.growth_rate)
+        excess = _excess_rate(near, distance)
+        if excess is not None and abs(excess) <= thresholds.LARGEST_OUTSIDE:
+            # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 / amplitude^2)
+            sooner = math.log1p(excess) / (2 * near.cycle.growth_rate)
             return max(n * period - sooner, period), distance
-        if _linear(near, distance, TESTS[0]):
+        if _is_linear(near, distance, thresholds.TEST_TIMES[0]):
             return n * period, distance
-    return 0.0, near.distance
+    return None
 
 
-def _faster(near: NearCycle, distance: Array) -> float:
-    """Relative excess of a departing motion's growth rate over the leading multiplier's; infinite for another motion.
+def _excess_rate(near: NearCycle, distance: Array) -> float | None:
+    """Relative excess of a departing motion's growth rate over the leading multiplier's; None for another motion.
 
     The phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders.
     """
     left, right = near.leading, _left_vector(near.jacobian.T)
     right = right / (left @ right)
     real = near.cycle.multipliers[0].imag == 0
-    at, done, before = near.x + distance, 0, float(abs(left @ distance))
-    faster = math.inf
-    for time in TESTS[-1]:
-        count = max(done + 1, round(time / near.cycle.period))
-        flight = near.moved(at, count - done)
+    part, count = left @ distance, 0
+    before = float(abs(part))
+    for periods, flight in near.flights(near.x + distance, thresholds.TEST_TIMES[-1]):
         if not flight.returned:
-            return math.inf
-        at, done, apart = flight.end, count, flight.end - near.x
+            return None
+        apart, count = flight.end - near.x, count + periods
         part = left @ apart
         plane = np.real(part * right) * (1 if real else 2)
-        if not np.linalg.norm(apart - plane) <= DEPARTS * np.linalg.norm(apart):
-            return math.inf
-        faster = math.log(abs(part) / before) / (count * near.cycle.period) / near.cycle.growth_rate - 1
-    return faster
+        if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
+            return None
+    return float(math.log(abs(part) / before) / (count * near.cycle.period) / near.cycle.growth_rate - 1)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -284,7 +282,7 @@ def _faster(near: NearCycle, distance: Array) -> float:
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
 
 
-def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
+def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
     """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
     if state.phase != "slip" or p.n_diameters < 0 or not (sliding := _sliding(p)).stable:
         return False
@@ -297,24 +295,26 @@ def nears_sliding(p: Parameters, state: State, tol: float) -> bool:
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
-    least = max(ARRIVED, 100 * tol) * static  # the errors of a simulation are larger than its tolerance
-    if not np.linalg.norm(expected) <= NEAR * static:
+    least = max(thresholds.ARRIVED, thresholds.ERROR_OF_TOL * tol) * static
+    if not np.linalg.norm(expected) <= thresholds.NEAR * static:
         return False
     from scipy.linalg import expm  # as in plate
 
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
-    for time in TESTS[-1]:
+    for time in thresholds.TEST_TIMES[-1]:
         result = simulate(p, state.time + time, tol=tol, initial_state=state, record=Record(events=False))
         if not result.status.complete or result.final_state.phase != "slip":
             return False
         apart = scale * _from_sliding(p, sliding, result.final_state)
         expected = expm(jacobian * (time - before)) @ expected
         size = float(np.linalg.norm(expected))
-        if not np.linalg.norm(apart - expected) <= max(AGREES * size, least):
+        if not np.linalg.norm(apart - expected) <= max(thresholds.LARGEST_ERROR * size, least):
             return False
         parts.append(float(abs(leading @ apart)))
         before = time
-    return _at_rate(parts, TESTS[-1][1] - TESTS[-1][0], sliding.growth_rate, least)
+    return _grows_at_rate(
+        parts, thresholds.TEST_TIMES[-1][1] - thresholds.TEST_TIMES[-1][0], sliding.growth_rate, least
+    )
 
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:

@@ -1,0 +1,232 @@
+"""Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
+
+A motion is followed in legs of some seconds, as docs/algorithms.md, Identifying the outcome, describes.  A motion that
+stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
+the motion might only be passing an unstable one.
+"""
+
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain, pairwise
+
+import numpy as np
+
+from disc_model.analysis.classify import SETTLED
+from disc_model.data.variables import Outcome
+from disc_model.disc.plate import mode_arrays
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State, perturb, static_start
+from disc_model.stability.attractor import thresholds
+from disc_model.stability.attractor.arrival import cycle_reached, regularity
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
+from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment, find_calm, segment_of
+from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+
+
+class Basins:
+    """The attractors of a case: the quiet cycle, and those reached from `OWN_STARTS` and from later starts.
+
+    Parameters
+    ----------
+    horizon : s, longest simulated time of a motion
+    near : relative difference in range from an attractor within which an approaching motion counts as being on it;
+        with 0 all motions are followed to the horizon
+
+    Attributes
+    ----------
+    known : attractors in the order in which they were found
+    """
+
+    def __init__(self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10) -> None:
+        self.p, self.horizon, self.near, self.tol = p, horizon, near, tol
+        modes = mode_arrays(p)
+        self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
+        self.smallest = max(thresholds.SMALLEST * self.static, sys.float_info.min)
+        self.map = ReturnMap(p, patient=True)
+        cycle = cycle_of_static_start(p)
+        self.cycle = cycle if isinstance(cycle, NearCycle) and cycle.cycle.stable else None
+        self.known: list[Attractor] = []
+        if self.cycle is not None:
+            assert self.cycle.cycle.state is not None
+            self.known.append(
+                self._periodic(self.cycle, segment_of(self._leg(self.cycle.cycle.state, thresholds.FIRST_LEG)))
+            )
+        for kick in thresholds.OWN_STARTS:
+            start = static_start(p)
+            self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
+
+    def follow(self, state: State) -> OutcomeResult:
+        """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
+        segments: list[Segment] = []
+        first_separation, least_tested = math.nan, math.inf
+        steady: Segment | None = None  # that on which the motion has been steady since
+        while True:
+            leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
+            state = leg.final_state
+            first_separation = leg.first_separation if math.isnan(first_separation) else first_separation
+            if not leg.status.complete:
+                return OutcomeResult(None, state.time, first_separation=first_separation, failed=leg)
+            segments.append(segment_of(leg))
+            over, attractor = state.time >= self.horizon, None
+            if self.near:
+                # tested only nearer to the quiet cycle than ever before
+                x, distance = self._near_quiet_cycle(segments, state)
+                if self.cycle is not None and distance < least_tested and follows_multipliers(self.cycle, x):
+                    attractor = self.known[0]
+                else:
+                    attractor = self._approached([segment.range for segment in segments[-thresholds.NEARING :]])
+                least_tested = min(distance, least_tested)
+            if not self._is_steady(segments):
+                steady = None
+            elif attractor is None and (over or (self.near and steady is None)):
+                stays = over and self._difference(steady or segments[-1], segments[-1]) <= SETTLED
+                attractor = self._settled_on(leg, stays)
+                steady = steady or segments[-1]
+            if attractor is not None:
+                kind = attractor.kind
+                return OutcomeResult(kind, state.time, attractor=attractor, first_separation=first_separation)
+            if over:
+                return OutcomeResult(Outcome.UNDECIDED, state.time, first_separation=first_separation)
+
+    def _leg(self, state: State, end: float) -> Result:
+        # the range is taken over thirty oscillations or more
+        window = Window(start=max(end - 0.5, state.time), stop=end, rate=thresholds.SAMPLING_RATE)
+        return simulate(self.p, end, tol=self.tol, initial_state=state, record=window)
+
+    def _difference(self, first: Segment, second: Segment) -> float:
+        """Largest relative difference of ranges, shares of the phases and separations per second.
+
+        Differences of shares below `SAME`, and of less than two separations in a leg, are relative to these limits.
+        """
+        ranges = [max(segment.range, self.smallest) for segment in (first, second)]
+        compared = [(*ranges, self.smallest), (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG)]
+        compared += [
+            (getattr(first, name), getattr(second, name), thresholds.SAME)
+            for name in ("stick_fraction", "separation_fraction")
+        ]
+        return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
+
+    def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
+        """A point of a motion on the section, and its distance from the quiet cycle; infinite unless it is near."""
+        last, near = segments[-1], self.cycle
+        if near is not None and last.separation_rate == 0 and last.range <= segments[0].range:
+            code, x = self.map.next_release(state)
+            if code == RETURNED:
+                for point in chain([x], self.map.returns(x, near.cycle.releases - 1)):
+                    distance = float(np.linalg.norm(point - near.x))
+                    if distance <= thresholds.NEAR * self.map.deflection:
+                        return point, distance
+        return self.map.static, math.inf
+
+    def _approached(self, ranges: Sequence[float]) -> Attractor | None:
+        """The known attractor that the motion approaches before it has settled; None if there is none."""
+        others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
+        if len(ranges) < thresholds.NEARING or not others:
+            return None
+        ends = [attractor.segment.range for attractor in others]
+        apart = [[abs(value - end) / max(value, end, sys.float_info.min) for value in ranges] for end in ends]
+        nearest = min(range(len(others)), key=lambda i: apart[i][-1])
+        if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
+            return None
+        last = apart[nearest][-1]
+        nearing = all(later < earlier or later <= SETTLED for earlier, later in pairwise(apart[nearest]))
+        slows = _rest_of_drift(ranges) <= (2 * last + SETTLED) * ranges[-1]
+        return others[nearest] if last <= self.near and nearing and slows else None
+
+    def _is_steady(self, segments: Sequence[Segment]) -> bool:
+        last = segments[-thresholds.SETTLING :]
+        if len(last) < thresholds.SETTLING or any(
+            self._difference(segment, last[-1]) > SETTLED for segment in last[:-1]
+        ):
+            return False
+        ranges = [max(segment.range, self.smallest) for segment in last]
+        return (
+            abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
+            or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
+        )
+
+    def _settled_on(self, leg: Result, stays: bool) -> Attractor | None:
+        """The attractor of a motion that has settled; None as long as it is uncertain.
+
+        stays : whether the motion has been steady until the horizon
+        """
+        attractor = self._described(leg)
+        if attractor is None:
+            return None
+        same = next((known for known in self.known if self._same(attractor, known)), None)
+        if same is None and (stays or attractor.points is not None):
+            if attractor.kind is Outcome.UNDECIDED:
+                attractor = replace(attractor, kind=regularity(self.p, leg.final_state, self.tol).kind)
+            self.known.append(attractor)
+            return attractor
+        return same
+
+    def _described(self, leg: Result) -> Attractor | None:
+        """The attractor of a motion, undecided if it is neither a cycle nor rest; None near an unstable cycle."""
+        segment = segment_of(leg)
+        calm = find_calm(self.p, leg, self.tol)
+        if calm is not None:
+            return Attractor(calm, segment)
+        near = cycle_reached(self.p, leg, thresholds.LARGEST_PERIOD)
+        if near is not None and near.follows_cycle:  # of stable cycles only
+            return self._periodic(near, segment)
+        if near is not None and near.lingers:
+            return None
+        return Attractor(Outcome.UNDECIDED, segment)
+
+    def _same(self, first: Attractor, second: Attractor) -> bool:
+        """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
+        if first.points is not None and second.points is not None:
+            apart = min(float(np.linalg.norm(first.points[0] - point)) for point in second.points)
+            return apart <= thresholds.SAME_POINT * self.map.deflection
+        return self._difference(first.segment, second.segment) <= thresholds.SAME
+
+    def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
+        cycle = near.cycle
+        points = [near.x, *near.map.returns(near.x, cycle.releases - 1, may_separate=True)]
+        return Attractor(near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, np.array(points))
+
+
+def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
+    """A state after a perturbation of given energy in a random direction.
+
+    The direction is uniform in the energy norm of the disc's modes: omega a, omega b, alpha, beta of each.  The slider
+    moves with the disc; f and psi are unchanged.  The energy (J) is that of the perturbation alone: of the modes, of
+    the slider's mass m and of its spring k.
+
+    Parameters
+    ----------
+    key : whole numbers that determine the direction
+    """
+    if energy == 0:
+        return state
+    modes = mode_arrays(p)
+    draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
+    draw[2:, modes.diameters == 0] = 0.0
+    a, alpha, b, beta = draw[0] / modes.omega, draw[1], draw[2] / modes.omega, draw[3]
+    u, velocity = float(modes.psi @ a), float(modes.psi @ alpha)
+    own = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
+    size = math.sqrt(energy / own)
+    slope = float(np.sum(modes.diameters * modes.psi * b))
+    return state.replace(
+        a=state.a + size * a,
+        b=state.b + size * b,
+        alpha=state.alpha + size * alpha,
+        beta=state.beta + size * beta,
+        u=state.u + size * u,
+        u_velocity=state.u_velocity + size * (velocity + state.f * slope),
+    )
+
+
+def _rest_of_drift(values: Sequence[float]) -> float:
+    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do not decrease."""
+    changes = np.diff(values[-4:])
+    before, last = abs(changes[-2]), abs(changes[-1])
+    if not (np.all(changes > 0) or np.all(changes < 0)):
+        return 0.0
+    return float(last**2 / (before - last)) if last < before else math.inf

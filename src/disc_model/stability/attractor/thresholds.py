@@ -1,0 +1,92 @@
+"""All thresholds of the search for the outcome of a motion, with their reasons.
+
+Distances and changes are on the section of the return map, relative to the norm of the static deflection.
+"""
+
+# ----------------------------------------------------------------------------------------------------
+# Simulated legs
+
+FIRST_LEG = 5.0
+"""s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
+LONGEST_LEG = 160.0
+"""s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
+SAMPLING_RATE = 4000.0
+"""Hz, of described segments: above twice the highest modal frequency."""
+
+# ----------------------------------------------------------------------------------------------------
+# Linear motion near a cycle, or near steady sliding
+
+AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+"""Distances from the cycle up to which multipliers may represent a departure."""
+NEAR = AMPLITUDES[0]
+"""Distance from a cycle within which a motion counts as near it: none is linear beyond."""
+SAME_POINT = 1e-4
+"""Fixed points nearer than this are the same. Distinct known cycles differ a thousand times as much, and residuals are
+a million times smaller."""
+ARRIVED = 1e-8
+"""A motion as near to a stable cycle is on it: the limit is 10,000 times the rounding."""
+ERROR_OF_TOL = 100
+"""Errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s."""
+TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
+"""s, at which a motion is compared with the linear one; its growth rate is taken between them. The longer test follows
+if the shorter one fails, because it resolves slower rates."""
+WAITS = (0.0, 1.5, 6.0, 15.0)
+"""s, at which the test begins. Near a resonance the start lies outside the range of the linear map, and enters it when
+the strongly damped modes have decayed."""
+LARGEST_ERROR = 0.1
+"""Largest difference between the two motions, relative to the linear one. The error of the linear map is of second
+order in the distance, which is at most a tenth of the static deflection."""
+LARGEST_RATE_ERROR = 0.5
+"""Largest difference between their growth rates, relative to the linear one: it decides the sign of the rate."""
+LARGEST_OUTSIDE = 0.25
+"""Largest share of a departing motion outside the leading eigenspace. It also bounds the relative difference between
+the growth rate and the multiplier's, for which the departure is corrected."""
+CERTAIN = 0.02
+"""Distance from a cycle from which a departure that came to a stable cycle is simulated: farther away, its phase may
+decide between that cycle and separation."""
+LINGERS = 1e-3
+"""Largest change over a period of a motion that stays near an unstable cycle: on a torus it would move."""
+LARGEST_PERIOD = 8
+"""Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
+RISE = 1.5
+"""Factor between changes from period to period that shows growth: rounding and beats with decaying modes cause less."""
+
+# ----------------------------------------------------------------------------------------------------
+# Attracting tori in contact
+
+TORUS_AFTER = 70.0
+"""s of simulation before the first test, which costs as much as 50 to 400 s; it also needs `LONGEST_LEG` to be left."""
+TORUS_WATCHED = 40.0
+"""s for which the motion is watched after a test: it may pass an unstable torus, or a border of its phases that no
+derivative shows."""
+TORUS_LEAST_FORCE = 0.05
+"""Least contact force in that time, over the preload: nearer to a loss of contact none can be excluded."""
+TORUS_RELEASES, TORUS_FURTHER = 200, 400
+"""Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
+TORUS_FEWEST = 40
+"""A near return takes more releases than this: over a shorter time, rates would be less accurate."""
+TORUS_NEAREST, TORUS_PERIODIC = 0.01, 0.001
+"""Largest distance of a near return, and of a return to a cycle of at most `TORUS_FEWEST` releases, over the extent of
+the motion's points."""
+TORUS_STEADY = 0.02
+"""Largest relative change of this extent since the last test."""
+TORUS_TURNED = 1.0
+"""Largest size of the logarithm of the eigenvalue along the torus: its mean is 0 on a torus, and positive in chaos."""
+TORUS_SLOWEST = 0.005
+"""1/s, least rate at which distances from the torus must decay: above the error of rates from inexact returns."""
+TORUS_DISTANCE = 0.02
+"""Largest distance of the motion from the torus, over the static deflection."""
+
+# ----------------------------------------------------------------------------------------------------
+# Attractors of many motions of a case
+
+NEARING, SETTLING = 4, 8
+"""Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
+STEADY = 1e-3
+"""Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
+SAME = 0.05
+"""Segments that differ by less belong to one attractor; the extrapolated rest of a drift may reach half of it."""
+SMALLEST = 1e-3
+"""Range, over the static deflection, below which ranges count as equal: the slider's height is constant."""
+OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
+"""Downward perturbations of the static start from which attractors are sought, over the static deflection."""
