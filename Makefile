@@ -18,7 +18,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc kernels test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
+.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -68,7 +68,7 @@ $(VENV)/.docs: requirements-docs.lock $(STAMP)
 	touch $@
 
 # The pages of docs/ and the reference as a site, in docs/_build/html; a warning, as of a link that leads nowhere, ends it.
-docs: $(VENV)/.docs kernels
+docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
 	@echo "The site begins at docs/_build/html/index.html"
 
@@ -90,12 +90,8 @@ test: env
 
 test-parts: $(PARTS)
 
-$(PARTS): test-%: kernels
+$(PARTS): test-%: env
 	$(BIN)/pytest -m "not slow and not workflow" $(TESTED_$*)
-
-# Compiled once, before parts that run at the same time would each compile them.
-kernels: env
-	$(BIN)/python -m disc_model compile
 
 # What compiling each kind of kernel costs, from an empty cache.
 compile-times: env
@@ -116,14 +112,14 @@ test-long: $(VENV)/.bench
 
 # Lines and branches of everything. Compiled kernels are not seen, so that the engine's own tests run once more without
 # compilation; there they are Python, a thousand times slower, and tests marked `compiled` are left out.
-coverage: kernels
+coverage: env
 	$(BIN)/pytest -m "not slow and not workflow" --cov --cov-report=
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -m "not slow and not workflow and not compiled" tests/engine tests/validation \
 	  tests/stability/test_return_map.py \
 	  --cov --cov-append --cov-fail-under=95 --durations=5
 
 # The whole pipeline on a study of a few seconds.
-test-study: kernels
+test-study: env
 	$(BIN)/snakemake -j$(CORES) --configfile config/test.yaml
 
 lint: env

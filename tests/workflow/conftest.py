@@ -81,8 +81,6 @@ class Project:
     def jobs(self, *options: str) -> Iterator[tuple[str, dict[str, str]]]:
         """Jobs that a run would do: rule and wildcards."""
         shown = self.complete("-n", *options)
-        # a rule with a message shows that and not its name
-        yield from (("compile", {"kind": kind}) for kind in re.findall("Compiling kernels, once: ([^,]+),", shown))
         for block in re.split(r"\n(?=(?:local)?rule \w+:)", shown)[1:]:
             rule = re.match(r"(?:local)?rule (\w+):", block)
             wildcards = re.search(r"^ +wildcards: (.*)", block, re.MULTILINE)

@@ -125,10 +125,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        (
-            "src/disc_model/engine/event_loop.py",
-            lambda project: everything(project) | {"compile:simulate-rigid_vertical", "compile:floquet-rigid_vertical"},
-        ),
+        ("src/disc_model/engine/event_loop.py", everything),
         # multipliers need no simulation
         ("src/disc_model/simulation/api.py", lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project)),
         ("src/disc_model/stability/attractor/outcome.py", whole_map),

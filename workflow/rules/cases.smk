@@ -21,8 +21,6 @@ def cases_made_of():
 rule simulate_case:
     # The job receives everything in one text, which Snakemake records: a case with equal content is not run again,
     # wherever and however its file describes it.
-    input:
-        lambda wildcards: compiled(kinds_of_case(STUDY.specs[wildcards.case])),
     output:
         case_file("{case}"),
     log:

@@ -7,9 +7,7 @@ SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 
 
 rule check_claims:
-    # Some claims need multipliers of the case's cycle.
     input:
-        compiled(["floquet-rigid_vertical"]),
         cases=rules.merge_cases.output,
         scans=list(SCANNED.values()),
     output:
@@ -73,7 +71,6 @@ rule make_table:
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
     input:
-        compiled(["floquet-rigid_vertical"]),
         published="results/paper/cases.nc",
         orthonormal="results/paper_orthonormal/cases.nc",
     output:

@@ -23,7 +23,6 @@ if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
     from disc_model.figures.kind import Plot
-    from disc_model.kernels import KINDS, kinds_of_case
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
     from disc_model.studies.checks import check_owner, check_targets, closing_lines

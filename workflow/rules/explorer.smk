@@ -42,8 +42,6 @@ rule explorer:
 rule compute_motions:
     # Short histories at a few points of a study's grid. As with batches, the file's name is the hash of all that
     # decides its content.
-    input:
-        lambda wildcards: compiled(GRIDS[wildcards.study].kernels),
     output:
         motion_file("{study}", "{key}"),
     log:

@@ -30,8 +30,6 @@ def grid_made_of(study):
 
 
 rule compute_batch:
-    input:
-        lambda wildcards: compiled(GRIDS[wildcards.study].kernels),
     output:
         batch_file("{study}", "{batch}"),
     log:

@@ -9,23 +9,36 @@ import sys
 import tempfile
 from pathlib import Path
 
-from disc_model.kernels import USUAL
-
+COMPLIANT = {"contact_compliance": 2.7e-7}  # close to the residual flexibility
+MODELS = {
+    "the paper's model": {},
+    "normal": {"contact_force": "normal"},
+    "compliant": COMPLIANT,
+    "compliant, normal": {"contact_force": "normal", **COMPLIANT},
+    "more modes": {"n_diameters": 5},
+}
+TASKS = {
+    "simulate": "disc_model.simulate(p, 0.1)",
+    "floquet": "disc_model.floquet(p)",
+    "ramp": "disc_model.simulate(p, 0.1, ramps=disc_model.Ramp(parameter='Omega', to=5, start=0, end=400))",
+}
+KINDS = [(task, model) for model in MODELS for task in TASKS if task != "ramp" or not MODELS[model]]
 SCRIPT = """
 import time
-from disc_model.kernels import example, compile_kernels
+import disc_model
 from disc_model.disc.plate import plate_modes
-from disc_model.stability.cycle import floquet
+p = disc_model.Parameters(N=385, Omega=15, **{model})
+disc_model.floquet
 before = time.process_time()
-plate_modes(example("{kind}"))  # imports are not what is measured
-compile_kernels("{kind}")
+plate_modes(p)  # imports are not what is measured
+{task}
 print(time.process_time() - before)
 """
 
 
-def measure(kind: str, folder: str) -> float:
+def measure(task: str, model: str, folder: str) -> float:
     """Processor time (s) to compile a kind, or to load it from the cache in a folder."""
-    command = [sys.executable, "-c", SCRIPT.format(kind=kind)]
+    command = [sys.executable, "-c", SCRIPT.format(task=TASKS[task], model=MODELS[model])]
     environment = os.environ | {"NUMBA_CACHE_DIR": folder}
     return float(subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout)
 
@@ -38,10 +51,11 @@ def size(folder: str) -> int:
 columns = ("alone, s", "further, s", "again, s", "further kB")
 print(f"{'kernels':36}" + "".join(f"{column:>12}" for column in columns))
 with tempfile.TemporaryDirectory() as common:
-    for kind in USUAL:
+    for kind in KINDS:
         with tempfile.TemporaryDirectory() as own:
-            alone = measure(kind, own)
+            alone = measure(*kind, own)
         before = size(common)
-        further, again = measure(kind, common), measure(kind, common)
-        print(f"{kind:36}{alone:12.1f}{further:12.1f}{again:12.2f}{(size(common) - before) / 1000:12.0f}", flush=True)
+        further, again = measure(*kind, common), measure(*kind, common)
+        name = ", ".join(kind)
+        print(f"{name:36}{alone:12.1f}{further:12.1f}{again:12.2f}{(size(common) - before) / 1000:12.0f}", flush=True)
     print(f"all files: {size(common) / 1e6:.1f} MB")

@@ -1,6 +1,7 @@
 """Commands that print numbers of one case: `modes`, `floquet`."""
 
 import math
+import time
 from typing import Annotated
 
 import typer
@@ -19,8 +20,8 @@ from disc_model.cli.case import (
 from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.tables import damping_ratios, disc_table
-from disc_model.errors import Fault, raise_faults, suggestion
-from disc_model.kernels import KINDS, compile_kernels
+from disc_model.errors import raise_faults
+from disc_model.parameters import Parameters
 from disc_model.units import CYCLE_TOLERANCES, CycleTolerance
 
 TOLERANCE_HELP = f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
@@ -96,15 +97,12 @@ def floquet(
         raise typer.Exit(1)
 
 
-def compile_(
-    kinds: Annotated[
-        list[str] | None, typer.Argument(help="what is compiled: the paper's model if not given", show_default=False)
-    ] = None,
-) -> None:
-    """Compile kernels into the cache, so that jobs started in parallel find them there."""
-    rule = "must be a kind of kernel"
-    unknown = [kind for kind in kinds or () if kind not in KINDS]
-    raise_faults([Fault.of(("kinds",), kind, f"{rule}{suggestion(kind, KINDS)}") for kind in unknown])
-    for kind in kinds or ("simulate-rigid_vertical", "floquet-rigid_vertical"):
-        typer.echo(f"{kind}: {compile_kernels(kind):.1f} s")
-    typer.echo("kernels compiled and cached")
+def compile_() -> None:
+    """Compile the kernels of the default model into the cache, which a first use otherwise does."""
+    from disc_model.simulation.api import simulate
+    from disc_model.stability.cycle import floquet
+
+    began, p = time.perf_counter(), Parameters(N=385, Omega=15)
+    simulate(p, 0.1)
+    floquet(p)
+    typer.echo(f"kernels compiled and cached: {time.perf_counter() - began:.1f} s")

@@ -25,7 +25,6 @@ from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot, Values
 from disc_model.figures.region_map import RegionMap
-from disc_model.kernels import DECIDING, kinds_of
 from disc_model.parameters import (
     AUTO,
     CHOOSING,
@@ -199,13 +198,6 @@ class GridStudy:
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
         """Values along each dimension, by its name."""
         return {dim.name: dim.values for dim in self.dims}
-
-    @property
-    def kernels(self) -> list[str]:
-        """Kinds of kernels that its points need, named as in `disc_model.kernels`."""
-        deciding = [dim for dim in self.dims if not DECIDING.isdisjoint(dim.names)]
-        cases = [case_of({**self.base, **point}, self.discs) for point in points(deciding)]
-        return kinds_of(cases, self.options.tasks)
 
     @property
     def n_points(self) -> int:

@@ -113,7 +113,6 @@ class Quantity(Ruled):
     motion : description of the motions, which begin at `state_at`
     tiled : whether it needs a whole tile of a plane at once
     over : the required dimension over which a merged study is summarised
-    tasks : the tasks of `disc_model.kernels` for which kernels are needed
     """
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
@@ -125,7 +124,6 @@ class Quantity(Ruled):
     motion: ClassVar[str] = ""
     tiled: ClassVar[bool] = False
     over: ClassVar[str] = ""
-    tasks: ClassVar[tuple[str, ...]] = ("simulate", "floquet")
 
     @property
     def seconds(self) -> float:

@@ -41,7 +41,6 @@ class Ramps(Quantity):
     )
 
     scans: ClassVar = ("Omega",)
-    tasks: ClassVar = ("simulate", "ramp")
     COLUMNS: ClassVar[Mapping[str, Variable]] = {
         "status": STATUS,
         "rate_status": STATUS._replace(dims=_DIMS),
