@@ -2,8 +2,6 @@
 
 import json
 import time
-from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,8 +13,6 @@ from disc_model.studies.grid import GridStudy
 from disc_model.studies.run import run_batch
 from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
-
-STUDIES = sorted((Path(__file__).parents[3] / "config" / "studies").glob("*.yaml"))
 
 
 def points(grid: GridStudy) -> list[list[list[Any]]]:
@@ -78,15 +74,6 @@ def test_batches_hold_whole_values_and_about_the_same_work() -> None:
     assert 4 * 41 * 41 <= room < 5 * 41 * 41
 
 
-def test_a_new_value_leaves_the_other_batches_of_a_costly_quantity() -> None:
-    def batches(*loads: float) -> set[str]:
-        axes = {"N": list(loads), "Omega": span_of(41), "normalization": ["as_published", "orthonormal"]}
-        return set(parse_grid(growth(**axes) | {"quantity": "outcome", "options": {"horizon": 1000}}).batches)
-
-    assert len(batches(100, 200, 300)) == 6
-    assert batches(100, 300) < batches(100, 200, 300)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("quantity", "options"), [("floquet", {}), ("outcome", {"horizon": 100}), ("campbell", {})])
 def test_a_point_costs_about_what_its_quantity_says(quantity: str, options: dict[str, float]) -> None:
@@ -135,22 +122,6 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     assert done["n_diameters"][0] < done["n_diameters"][1]
     assert done["n_diameters"].dims == ("normalization",)
     assert json.loads(done.attrs["base"])["n_diameters"] == "auto"
-
-
-def test_what_modes_are_chosen_by_makes_other_batches() -> None:
-    def batches(**phrase: Any) -> set[str]:
-        return set(parse_grid(study(base={"m": 0.2, "n_diameters": "auto", **phrase})).batches)
-
-    usual = batches()
-    assert batches(truncation_quantity="frequencies", truncation_tolerance=1e-3) == usual
-    others = [
-        batches(truncation_tolerance=1e-2),
-        batches(truncation_quantity="growth"),
-        batches(truncation_quantity="growth", truncation_tolerance=2e-2),
-        batches(truncation_quantity="first_separation"),
-    ]
-    assert all(a.isdisjoint(b) for a, b in combinations([usual, *others], 2))
-    assert batches(truncation_quantity="growth", truncation_tolerance="1e-2") == others[1]
 
 
 OUTCOME = "studies.quantities.outcome"

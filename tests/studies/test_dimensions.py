@@ -36,13 +36,6 @@ def test_every_parameter_may_vary(name: str) -> None:
     assert not set(study.base) & later
 
 
-def test_rules_between_parameters_hold_at_every_point() -> None:
-    """Values are right or wrong together: each axis alone would pass, or fail, with the base value of the other."""
-    assert parsed(axes={"a": [0.05, 0.11]}, base={"N": 1, "Omega": 1, "r_0": 0.115}).n_points == 2
-    assert parsed(axes={"mu_s": [0.6, 0.7]}, base={"N": 1, "Omega": 1, "mu_k": 0.5}).n_points == 2
-    assert parsed(zip={"a": [0.01, 0.06], "r_0": [0.05, 0.1]}).n_points == 2
-
-
 def test_extra_values_leave_the_batches_that_there_are() -> None:
     """At any resolution; a value that is there already is not computed twice."""
     axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}

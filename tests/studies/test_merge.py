@@ -8,7 +8,6 @@ import xarray as xr
 
 from disc_model.studies.merge import MergeError, failures, merge_batches
 from disc_model.studies.run import run_batch
-from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
 
 #: The slider stays where it is on the disc: nothing has to be computed.
@@ -53,16 +52,3 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     odd = [batch.assign(extra=extra).assign_coords(sample=[i, i + 1]) for i, batch in enumerate(batches)]
     with pytest.raises(MergeError, match="do not fit together"):
         merge_batches(odd, study.grid, {})
-
-
-@pytest.mark.compiled
-def test_zips_and_two_normalizations_keep_their_order() -> None:
-    axes = {"normalization": ["orthonormal", "as_published"]}
-    zipped = {"N": [300, 100], "Omega": [20, 10]}
-    merged = computed(**study(quantity="floquet", options={}, axes=axes, zip=zipped, batch={}))
-    assert dict(merged["growth_rate"].sizes) == {"N_Omega": 2, "normalization": 2}
-    assert merged["N"].dims == ("N_Omega",)
-    assert list(failures(merged)) == []
-    base = {"normalization": "orthonormal"}
-    alone = computed(**study(quantity="floquet", options={}, base=base, axes={"N": [300], "Omega": [20]}))
-    assert merged["growth_rate"].sel(normalization="orthonormal").values[1] == alone["growth_rate"].item()

@@ -9,11 +9,10 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.states import static_start
-from disc_model.stability.cycle import floquet
 from disc_model.studies.grid import Dimension
-from disc_model.studies.motions import CYCLES_SHOWN, LONGEST, SAMPLES, cycle_length, run_motions
+from disc_model.studies.motions import LONGEST, SAMPLES, cycle_length, run_motions
 from disc_model.studies.quantities.outcome import HorizonOutcome
-from disc_model.studies.quantity import Point, quantity_names, quantity_of
+from disc_model.studies.quantity import Point, quantity_of
 from tests.studies.refused import parse_grid
 
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
@@ -39,12 +38,6 @@ def test_few_values_of_an_axis_are_taken_both_ends_among_them():
     assert dim.thinned(2).values == dim.values
 
 
-def test_quantities_that_have_motions_say_what_they_show():
-    for quantity in map(quantity_of, quantity_names()):
-        assert bool(quantity.motions) == bool(quantity.motion) == ("state_at" in vars(quantity))
-    assert not any(quantity_of(name).motions for name in ("critical_speed", "hysteresis", "stability_curves"))
-
-
 def test_points_of_a_study_and_the_name_of_their_file():
     ((name, text),) = texts("floquet").items()
     points = json.loads(text)["points"]
@@ -53,18 +46,6 @@ def test_points_of_a_study_and_the_name_of_their_file():
     assert texts("floquet") == {name: text}
     assert name not in texts("floquet", options={"tol": 1e-11})
     assert name not in parse_grid({"study": "small", "quantity": "floquet", "axes": AXES}).batches
-
-
-def test_a_history_of_the_cycle_repeats():
-    found = histories("floquet", [200, 300], [20])
-    for i, N in enumerate((200.0, 300.0)):
-        cycle = floquet(Parameters(N=N, Omega=20))
-        # one release a period, counted over half a second in which the unstable cycle hardly grows
-        assert float(found["length"][i]) == pytest.approx(CYCLES_SHOWN * cycle.period, rel=1e-6)
-        # begins and ends at a release, where P jumps a little; all move by much more in between
-        for name, most in (("P", 1e-2), ("u", 1e-3), ("psi", 1e-3)):
-            values = found[name].values[i]
-            assert abs(values[-1] - values[0]) < most * np.ptp(values)
 
 
 def test_the_history_goes_on_from_the_late_stretch():
@@ -90,14 +71,6 @@ def test_samples_are_those_of_the_motion():
         # one sample may fall on a jump of P at a switch, on either side
         close = np.isclose(found[name], expected, atol=1e-4 * np.ptp(expected), rtol=0)
         assert close.sum() >= SAMPLES - 8
-
-
-def test_what_has_no_motion_is_recorded():
-    found = histories("floquet", [0, 200], [20])
-    assert found["status"].values.tolist()[1] == 0
-    assert found["status"].values[0] != 0
-    assert "CycleError" in str(found["message"].values[0])
-    assert np.isnan(found["P"].values[0]).all()
 
 
 def test_a_cycle_without_releases_is_the_free_period():

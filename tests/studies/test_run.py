@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from disc_model.data.variables import Variable
-from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import STATUS, STATUSES, Point, quantity_of
-from tests.studies.conftest import SCAN, compute
+from disc_model.studies.quantity import STATUS, STATUSES, Point
+from tests.studies.conftest import compute
 
 P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 
@@ -50,25 +49,3 @@ def test_a_mistake_in_the_program_is_no_status() -> None:
 
     with pytest.raises(KeyError):
         compute(quantity(compute_point), [P])
-
-
-@pytest.mark.parametrize(
-    ("quantity", "options", "statuses"),
-    [
-        ("critical_speed", {"horizons": [900], "scan": SCAN}, {"status", "scan_status"}),
-        ("hysteresis", {"scan": SCAN, "dwell": 60}, {"status", "sweep_status"}),
-        ("outcome", {"horizon": 9}, {"status"}),
-    ],
-    ids=["critical_speed", "hysteresis", "outcome"],
-)
-def test_of_a_failed_point_nothing_is_known(quantity, options, statuses, fake_motions: None) -> None:
-    """Nor is anything computed for what stands in the place of parameters that could not be made."""
-    kind = quantity_of(quantity)
-    table = compute(kind.model_validate(options), [DiscModelError("no modes")])
-    assert table.messages == ["DiscModelError: no modes"]
-    for name, array in table.arrays.items():
-        flags = kind.COLUMNS[name].flags
-        if flags:
-            assert {flags[i] for i in array.ravel()} == {"failed" if name in statuses else flags[0]}
-        elif array.dtype.kind == "f":
-            assert np.isnan(array).all()

@@ -40,12 +40,6 @@ def with_case(name: str = "A", **changes: Any) -> Study:
 # ---- kinds of studies
 
 
-def test_cases_alone_are_a_study_without_claims() -> None:
-    study = parse_study(CASES)
-    assert (list(study.specs), study.grid, study.claims) == (["A", "B"], None, False)
-    assert study.grids() == ({}, ())
-
-
 def test_a_file_can_say_both_and_figures_of_both() -> None:
     both = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "history"}}
     study = parse_study(CASES | GRID | {"base": {"N": 200, "Omega": 20}, "figures": both})
@@ -93,13 +87,6 @@ def test_null_drops_what_is_inherited() -> None:
     assert spec.windows == ()
     assert spec.events is None
     assert not spec.record.events
-
-
-def test_a_window_may_be_said_in_part() -> None:
-    record = {"windows": {"history": {"envelope": 100}}}
-    [(_, window)] = with_case(record=record).specs["A"].windows
-    assert (window.rate, window.envelope) == (100, 100)
-    assert window.count == 1000, "the last instant has no bin of its own"
 
 
 def test_specification_survives_its_text() -> None:

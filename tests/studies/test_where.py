@@ -35,26 +35,6 @@ def test_points_that_break_the_rule_are_not_computed() -> None:
     assert not list(grid.doubts)
 
 
-def test_a_rule_that_all_points_keep_changes_no_batch() -> None:
-    phrase = raw(axes={"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2]})
-    assert parse_grid(phrase).batches == parse_grid(phrase | {"where": []}).batches
-    assert (
-        parse_grid(phrase | {"where": ["mu_k<=mu_s", "mu_k / mu_s < 2", "h == 0.002"]}).batches
-        == parse_grid(phrase).batches
-    )
-
-
-def test_tiles_and_samples_keep_the_rule() -> None:
-    plane = {"quantity": "regions", "options": {"horizon": 5}, "batch": {"tile": 2}}
-    assert sorted(map(tuple, points(raw(**plane)))) == sorted(
-        (s, k) for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s
-    )
-    uncertain = {"distributions": {"k": {"distribution": "uniform", "low": 1e4, "high": 2e4}}, "samples": 2}
-    assert len(points(raw(quantity="sensitivity", options=uncertain))) == 12
-    rules = ["mu_k <= mu_s", "sample < 1"]
-    assert len(points(raw(quantity="sensitivity", options=uncertain, where=rules))) == 6
-
-
 def test_what_cannot_be_compared_does_not_hold() -> None:
     assert holds(["0.5 < a/b < 2"], {"a": 1.0, "b": 1.0})
     assert not holds(["a/b < 2"], {"a": 1.0, "b": 0.0})

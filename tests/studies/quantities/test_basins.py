@@ -90,23 +90,6 @@ def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.M
 
 
 @pytest.mark.compiled
-def test_shares_are_the_same_to_the_last_digit_whatever_the_batch() -> None:
-    """And more starts leave those before as they are."""
-    study = {
-        "quantity": "basins",
-        "options": {"energies": [0.1, 1.0], "n_starts": 2, "seed": 7, "horizon": 60, "n_bisection_directions": 0},
-        "base": {"N": 385},
-        "axes": {"Omega": [14.5, 15]},
-    }
-    one, two = (computed(**study, batch={"size": size}) for size in (1, 2))
-    for name in one.data_vars:
-        assert np.array_equal(one[name].values, two[name].values, equal_nan=one[name].dtype.kind == "f"), name
-    more = computed(**study | {"options": study["options"] | {"n_starts": 3}})
-    assert np.array_equal(more["kind"].sel(start=[0, 1]).values, one["kind"].values)
-    assert np.array_equal(more["simulated_time"].sel(start=[0, 1]).values, one["simulated_time"].values)
-
-
-@pytest.mark.compiled
 def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
     """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
     axes = {"perturbation_u": [1e-4, 3e-4], "perturbation_u_velocity": [0.0]}

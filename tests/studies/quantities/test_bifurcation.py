@@ -13,7 +13,7 @@ from disc_model.simulation.api import make_initial_state, simulate
 from disc_model.simulation.case import Poincare, Record, Start
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
-from tests.stability.test_attractor import SMALL, paradox
+from tests.stability.test_attractor import SMALL
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
 
@@ -25,16 +25,6 @@ def test_samples_are_those_of_the_simulator() -> None:
     run = simulate(p, 2.6 * turn, tol=1e-9, record=Record(poincare=Poincare(start=0.9 * turn)))
     np.testing.assert_allclose(values["psi"], run.poincare["psi"], rtol=0, atol=1e-7)
     assert values["status"] == "ok"
-
-
-@pytest.mark.parametrize("section", ["stroboscopic", "event"])
-def test_samples_that_are_not_reached_are_missing(monkeypatch: pytest.MonkeyPatch, section: str) -> None:
-    p, start = paradox()
-    monkeypatch.setattr("disc_model.simulation.api.make_initial_state", lambda *_: start)
-    options = Bifurcation(transient=0.1, samples=2, section=section)
-    values, message = options.compute_point(Point(p))
-    assert (values["status"], len(values.get("psi", ())), len(values.get("phase", ()))) == ("paradox", 0, 0)
-    assert message == "the simulation ended early: paradox"
 
 
 def test_without_a_drive_there_is_no_turn_to_sample_once() -> None:
@@ -114,7 +104,11 @@ def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("Omega", "period", "phase"), [(9.5, 1, "stick"), (14.5, 2, "separation")])
+@pytest.mark.parametrize(
+    ("Omega", "period", "phase"),
+    # the last one sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several
+    [(9.5, 1, "stick"), (14.5, 2, "separation"), (22.25, 40, "separation")],
+)
 def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: float, period: int, phase: str) -> None:
     values = at_switches(Omega, transient=60, samples=100)
     assert (values["settled"], values["period_events"]) == ("settled", period)
@@ -131,13 +125,6 @@ def test_a_motion_that_repeats_after_a_thousand_separations_is_periodic() -> Non
     values, _ = options.compute_point(Point(Parameters(N=385, Omega=15, c_p=0.15), start))
     assert (values["period_events"], values["settled"], values["kind"]) == (1066, "settled", Outcome.SEPARATING)
     assert values["period_residual"] < 1e-8
-
-
-@pytest.mark.compiled
-def test_the_period_of_a_motion_that_sticks_rarely_was_missed() -> None:
-    """It sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several."""
-    values = at_switches(22.25, transient=30, max_transient=30)
-    assert (values["period_events"], values["settled"]) == (40, "settled")
 
 
 @pytest.mark.compiled

@@ -1,6 +1,5 @@
 """Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do there."""
 
-import math
 from typing import Any
 
 import numpy as np
@@ -41,19 +40,6 @@ def test_a_crossing_is_where_root_finding_says() -> None:
         # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s
         assert speed == pytest.approx(brentq(detuning, speed - 0.25, speed + 0.25, xtol=1e-6), abs=0.02)
         assert words(one, "crossing_line") == "stick_slip"
-
-
-def test_a_row_has_the_modes_of_its_point() -> None:
-    found = computed(quantity="campbell", options={"modes": 5}, base={"N": 200, **SMALL}, axes={"Omega": [0, 20]})
-    assert words(found, "status") == ["at_rest", "ok"]
-    there = frequencies(Parameters(N=200, Omega=20, **SMALL))
-    n = len(there.frequency)
-    one = found.sel(Omega=20)
-    np.testing.assert_array_equal(one["sliding_frequency"][:n], there.frequency)
-    np.testing.assert_array_equal(one["cycle_growth_rate"][:n], there.cycle_growth_rate)
-    assert words(one, "mode_kind") == ["slider", "disc", "disc", "disc", "none"]
-    assert float(one["rotation_frequency"]) == pytest.approx(20 / (2 * math.pi))
-    assert np.isnan(found.sel(Omega=0)["sliding_frequency"]).all()
 
 
 def made_up(**changes: Any) -> xr.Dataset:
@@ -112,17 +98,6 @@ def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     assert effects(gone) == ["no_cycle"]
     gone["stick_slip_frequency"][195:] = np.nan
     assert Campbell().summarise(gone)["n_crossings"] == 0, "nothing is known beyond the last cycle"
-
-
-def test_speeds_that_a_rule_leaves_out_are_an_end_of_the_axis() -> None:
-    """The window reaches beyond them; the effect was that of a lost cycle."""
-    study = made_up()
-    left_out = study["Omega"].values > 10.05
-    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate", "sliding_frequency"):
-        study[name][left_out] = np.nan
-    study["status"][:] = left_out.astype(int)
-    found = summarised(study, Campbell())
-    assert words(found, "crossing_effect")[0] == "unresolved"
 
 
 def test_no_crossing_lies_between_speeds_of_which_a_rule_leaves_those_between_out() -> None:

@@ -44,18 +44,6 @@ def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> 
 
 
 @pytest.mark.compiled
-def test_the_late_stretch_after_an_early_end_on_a_torus_is_that_of_the_torus() -> None:
-    p = Parameters(N=520, Omega=14)
-    left, words = outcomes([p], horizon=1600, tol=1e-8)
-    whole, whole_words = outcomes([p], horizon=1600, tol=1e-8, early_end=False)
-    assert left["time_reached"][0] < 1000
-    assert words == whole_words == ["growing"]
-    # within 10 s the motion comes near all of its torus, but not to the very extremes
-    for name in ("P_min", "P_max"):
-        assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.05)
-
-
-@pytest.mark.compiled
 def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
     p = Parameters(N=50, Omega=15)
     found, words = outcomes([p], horizon=300, early_end=False)

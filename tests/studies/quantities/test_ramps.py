@@ -64,12 +64,6 @@ def test_onset_and_end_are_speeds_of_the_ramps(made_up: SimpleNamespace) -> None
     assert max(end - start for start, end in made_up.calls if start > 1000) <= 100
 
 
-def test_a_ramp_too_fast_for_separation_has_no_onset(made_up: SimpleNamespace) -> None:
-    found = swept((2.0, 4.0))
-    np.testing.assert_allclose(found["onset_speed"][0], [20.0, math.nan])
-    assert found["top_separation_rate"][0, 1] > 0  # it comes while the speed stays
-
-
 def test_separation_that_goes_on_at_the_lowest_speed_has_no_end(made_up: SimpleNamespace) -> None:
     made_up.goes_on = True
     found = swept((0.01, 0.1))

@@ -81,33 +81,6 @@ def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up, tile: in
     assert (np.isfinite(study["first_separation"].values) == (origin == "simulation")).all()
 
 
-def test_a_plane_may_have_one_value_along_a_dimension(made_up) -> None:
-    study = computed(**raw(axes=raw()["axes"] | {"N": [300]})).isel(normalization=0)
-    assert not wrong(study).any()
-    assert set(np.unique(flag_names(study["method"]))) == {"simulation", "inferred"}
-
-
-def test_normalisations_may_share_batches(made_up) -> None:
-    axes = raw()["axes"] | {"normalization": ["as_published", "orthonormal"]}
-    axes["Omega"]["count"], axes["N"]["count"] = 33, 25  # a quarter of the points, still in two tiles
-    ways = [raw(axes=axes, batch={"tile": 32} | over) for over in ({"over": PLANE}, {})]
-    apart, together = map(parse_grid, ways)
-    assert len(apart.batches) == 2 * len(together.batches)
-    one, two = (computed(**way) for way in ways)
-    assert one.equals(two)
-
-
-def test_the_order_of_a_tile_s_points_changes_nothing(made_up) -> None:
-    axis = [Parameters(N=N, Omega=20) for N in np.linspace(50, 600, 17)]
-    rows = [[p.replace(Omega=Omega) for p in axis] for Omega in np.linspace(5, 50, 17)]
-    options = Regions(horizon=10, initial_cell_size=4)
-    found = options.compute_tile(rows, [])
-    mirrored = options.compute_tile([row[::-1] for row in rows[::-1]], [])
-    assert [[row["outcome"] for row, _ in line] for line in found] == [
-        [row["outcome"] for row, _ in line[::-1]] for line in mirrored[::-1]
-    ]
-
-
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     marks = {"here": {"x": 12.03125, "y": 187.5, "paper_outcome": "quiet"}}
     plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
@@ -124,15 +97,6 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert sampled == [[187.5, 12.03125]]
     # only the tile in which the mark lies is another batch
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
-
-
-def test_a_marked_point_inside_an_undivided_cell_is_simulated(made_up) -> None:
-    plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": {"a": {"x": 50, "y": 600, "paper_outcome": "quiet"}}}
-    plot["marks"]["b"] = {"x": 47.890625, "y": 588.541666667, "paper_outcome": "quiet"}
-    study = computed(**raw(figures={"map": plot})).isel(normalization=0)
-    for mark in plot["marks"].values():
-        here = study.sel(Omega=mark["x"], N=mark["y"], method="nearest")
-        assert flag_names(here["method"]) == "simulation"
 
 
 def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -195,14 +159,6 @@ def follows_one(stable: bool) -> NearCycle:
 
 
 NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
-
-
-def test_a_cycle_that_grows_is_not_filled_as_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
-    growing = {(3, 3), (4, 4), (5, 5)}
-    outcome = {(3, 3): "separation", (5, 5): "growing"}
-    tile = tile_of(9, lambda *at: follows_one(at not in growing), lambda *at: outcome.get(at, "quiet"), monkeypatch)
-    assert {place: tile.outcome(place) for place in outcome} == outcome
-    assert set(tile.results) == growing
 
 
 def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(

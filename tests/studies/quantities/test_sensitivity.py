@@ -11,7 +11,6 @@ from scipy import stats
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
-from disc_model.studies.merge import failures
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile, unit_draws, variants
 from disc_model.studies.quantity import Row
@@ -110,20 +109,6 @@ def test_what_a_rule_leaves_out_has_no_probability(monkeypatch: pytest.MonkeyPat
     assert found["excluded_fraction"].sel(N=200, output="growth_rate") == 0
 
 
-def test_a_variant_that_fails_costs_itself_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    def function(values: dict[str, float]) -> Row:
-        if values["k"] > 5e4:
-            raise np.linalg.LinAlgError("singular")
-        return cycle_row("stable", -1.0)
-
-    evaluating(monkeypatch, function)
-    found = computed(**study({"k": UNIFORM}))
-    assert (flag_names(found["status"]) == "ok").all()
-    failed = flag_names(found["cycle"]) == "failed"
-    np.testing.assert_array_equal(failed[..., :2], found["parameter_values"].sel(parameter="k").values > 5e4)
-    assert any("LinAlgError: singular" in line for line in failures(found))
-
-
 def test_more_samples_keep_those_that_there_are() -> None:
     """A batch's name is its content; the number of samples is no part of it."""
     few, many = (parse_grid(study({"k": UNIFORM}, options={"samples": n})).batches for n in (16, 64))
@@ -143,12 +128,6 @@ def test_a_sample_hangs_on_seed_and_number_alone() -> None:
     whole = stats.qmc.Sobol(6, scramble=True, rng=np.random.default_rng(9)).random(256)
     for number in (200, 0, 64, 63):
         np.testing.assert_array_equal(unit_draws(9, 3, number).ravel(), whole[number])
-
-
-def test_variants_take_one_parameter_each() -> None:
-    drawn = np.array([[1.0, 2.0, 3.0], [10.0, 20.0, 30.0]])
-    expected = [[1, 2, 3], [10, 20, 30], [10, 2, 3], [1, 20, 3], [1, 2, 30]]
-    np.testing.assert_array_equal(variants(drawn), expected)
 
 
 @pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.999])
@@ -185,11 +164,6 @@ def test_what_is_found_is_what_floquet_finds() -> None:
             here = one.sel(variant=variant)
             assert flag_names(here["cycle"]) == sensitivity.cycle_word(cycle)
             np.testing.assert_array_equal(here["growth_rate"], cycle.growth_rate)
-
-
-def test_probabilities_can_be_drawn_as_any_variable() -> None:
-    plot = {"kind": "curve", "variable": "probability_unstable", "x": "N"}
-    assert parse_grid(study({"k": UNIFORM}, figures={"p": plot})).plots
 
 
 def made_up(**changes: Any) -> xr.Dataset:

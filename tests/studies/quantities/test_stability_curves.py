@@ -43,12 +43,3 @@ def test_the_fold_of_the_paper_is_found_once_and_named() -> None:
     assert len(near) == 1
     drawn = [curve for curve in curves_of(one) if curve.kind == "fold"]
     assert "2 f_s = 135.42 Hz" in [curve.label for curve in drawn]
-
-
-@pytest.mark.compiled
-def test_other_parameters_may_span_the_plane() -> None:
-    options = {"x": "N", "y": "c_p", "x_range": [50, 120], "y_lines": {"start": 0.01, "stop": 0.02, "count": 2}}
-    raw = CURVES | {"options": options | {"points": 4, "max_points": 4}, "base": {"Omega": 20}}
-    one = computed(**raw).isel(normalization=0)
-    assert int(one["n_curves"]) >= 1
-    assert np.nanmin(one["x"]) > 40

@@ -1,0 +1,81 @@
+"""What all quantities must keep: a batch of a grid has the results of its points, computed one by one."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import flag_names
+from disc_model.studies.quantity import quantity_names, quantity_of
+from tests.studies.conftest import computed
+from tests.studies.refused import parse_grid
+
+SCAN = {"start": 10, "stop": 20, "count": 2}
+SWEEP = {"dwell": 0.5, "max_dwell": 1, "evaluation_time": 0.2}
+OPTIONS: dict[str, dict[str, Any]] = {
+    "basins": {"energies": [0.01, 0.1], "n_starts": 2, "horizon": 3},
+    "bifurcation": {"transient": 0.5, "samples": 3},
+    "branches": {"scan": SCAN, "max_points": 3} | SWEEP,
+    "campbell": {"modes": 4},
+    "critical_speed": {"horizons": [1, 2], "scan": SCAN, "precision": 5},
+    "floquet": {},
+    "hysteresis": {"scan": SCAN} | SWEEP,
+    "lyapunov": {"transient": 0.5, "duration": 0.5},
+    "outcome": {"horizon": 2, "evaluation_time": 0.2, "after_separation": 0.2},
+    "ramps": {"low": 10, "high": 12, "rates": {"start": 5, "stop": 10, "count": 2}, "dwell": 0.2},
+    "regions": {"horizon": 5, "initial_cell_size": 2},
+    "sensitivity": {
+        "distributions": {"k": {"distribution": "uniform", "low": 4e4, "high": 5e4}},
+        "samples": 2,
+        "simulated_samples": 1,
+        "horizon": 1,
+    },
+    "stability_curves": {
+        "x_range": [10, 20],
+        "y_lines": {"start": 200, "stop": 210, "count": 2},
+        "points": 3,
+        "max_points": 3,
+    },
+}
+
+
+def grid(name: str, **batch: Any) -> dict[str, Any]:
+    """A small grid over the damping of the spring, and a plane or the speed where it is needed."""
+    scanned = quantity_of(name).model_validate(OPTIONS[name]).scanned
+    base = {key: value for key, value in {"N": 200, "Omega": 15}.items() if key not in scanned}
+    axes: dict[str, Any] = {"c_p": [0, 0.02, 0.05]}
+    if name in ("campbell", "regions"):
+        axes["Omega"] = [base.pop("Omega"), 16, 17]
+    raw = {"quantity": name, "options": OPTIONS[name], "base": base | {"n_diameters": 1}, "axes": axes, "batch": batch}
+    return {"study": "small"} | raw
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("name", quantity_names())
+def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
+    """To the last bit: points of a batch share nothing. Tiles of a plane may share a batch."""
+    if name == "regions":
+        tiled = grid(name)
+        tiled["axes"] |= {"normalization": ["as_published", "orthonormal"]}
+        alone, together = ({"over": ["c_p", "Omega"]}, {"over": ["c_p", "Omega", "normalization"]})
+        one, all_ = (computed(**tiled | {"batch": batch}) for batch in (alone, together))
+    else:
+        one, all_ = (computed(**grid(name, size=size)) for size in (1, 100))
+    assert one.identical(all_.assign_attrs(one.attrs))
+    quantity = quantity_of(name)
+    assert {*quantity.COLUMNS, *quantity.SUMMARY_COLUMNS, "message"} == {*one.data_vars}
+    assert set(np.unique(flag_names(one["status"]))) == {"ok"}
+    numbers = [key for key, column in quantity.COLUMNS.items() if not column.flags and not column.whole]
+    # there is no curve in so small a plane
+    assert any(np.isfinite(one[key]).any() for key in numbers) or name == "stability_curves"
+
+
+@pytest.mark.parametrize("name", quantity_names())
+def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> None:
+    quantity = quantity_of(name)
+    options = quantity.model_validate(OPTIONS[name])
+    assert 0 < options.seconds < 600
+    assert options.batch_size >= 1
+    assert bool(quantity.motions) == bool(quantity.motion) == ("state_at" in vars(quantity))
+    assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
+    assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)
