@@ -5,7 +5,7 @@ import json
 import pytest
 import xarray as xr
 
-from disc_model.figures.curve import CurvePlot
+from disc_model.figures.general import CurvePlot
 
 
 @pytest.mark.parametrize(

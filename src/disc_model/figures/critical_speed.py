@@ -111,6 +111,16 @@ class CriticalSpeed(Plot):
         return figure
 
 
+class Thresholds(CriticalSpeed):
+    """Where the cycle becomes unstable and where separation follows, on one chart."""
+
+    roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
+
+    one_horizon = True
+
+    kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
+
+
 # ----------------------------------------------------------------------------------------------------
 # Crossings of a scan
 

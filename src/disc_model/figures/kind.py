@@ -1,15 +1,16 @@
 """What all kinds of figures have in common.
 
-A kind is a module in this package, or, of the paper's figures, in `disc_model.paper.figures`, under its own name. It
-holds a class whose fields are what a study file may say of such a figure, its rules (`faults`) and its drawing
-(`draw`). `kind_of` finds it by its name, and only what a study names is imported. Neither this module nor a kind
-imports matplotlib before something is drawn: it would double the time in which a study is checked.
+A kind is a class in a module of this package, or, of the paper's figures, of `disc_model.paper.figures`. Its fields are
+what a study file may say of such a figure; it has its rules (`faults`) and its drawing (`draw`). `kind_of` finds it by
+its name. Neither this module nor a kind imports matplotlib before something is drawn: it would double the time in which
+a study is checked.
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from textwrap import fill
@@ -37,10 +38,8 @@ KINDS: dict[str, type[Kind]] = {}
 
 def kind_of(name: Any) -> type[Kind]:
     """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
-    package, _, module = str(name).rpartition(".")
     try:
-        import_module(".".join(filter(None, ["disc_model", package, "figures", module])))
-        return KINDS[name]
+        return _kinds_in(str(name).rpartition(".")[0])[name]
     except (ModuleNotFoundError, KeyError, TypeError):
         fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, library_kinds())}")
         raise ParameterError(fault) from None
@@ -48,10 +47,16 @@ def kind_of(name: Any) -> type[Kind]:
 
 def library_kinds() -> dict[str, type[Kind]]:
     """All kinds of this package, by their names."""
-    package = import_module(__package__)
-    for module in iter_modules(package.__path__):
-        import_module(f"{__package__}.{module.name}")
-    return {name: kind for name, kind in KINDS.items() if "." not in name}
+    return _kinds_in("")
+
+
+@cache
+def _kinds_in(part: str) -> dict[str, type[Kind]]:
+    """Kinds of the figures of a part of the package such as ``paper``, or of this one."""
+    figures = import_module(".".join(filter(None, ["disc_model", part, "figures"])))
+    for module in iter_modules(getattr(figures, "__path__", [])):
+        import_module(f"{figures.__name__}.{module.name}")
+    return {name: kind for name, kind in KINDS.items() if name.rpartition(".")[0] == part}
 
 
 def _joined(caption: Any) -> Any:
