@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import operator
-from collections.abc import Mapping, Sized
+from collections.abc import Iterable, Mapping, Sized
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
@@ -76,10 +76,6 @@ _READ = must(
 )
 
 
-Quantity = float | str
-"""A number, or a text that stands for one, with or without its unit."""
-
-
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
     """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`, `lt` and `le`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
@@ -87,6 +83,12 @@ def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
 
 def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
     return _field(default, unit, description, allow_inf_nan=False, **rules)
+
+
+Quantity = float | str
+"""A number, or a text that stands for one, with or without its unit."""
+Column = Iterable[float | str]
+"""Numbers of the modes of a table."""
 
 
 class Disc(Checked):
@@ -122,6 +124,14 @@ class Disc(Checked):
     shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
 
     _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
+
+    if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
+
+        def __init__(
+            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column | None = ...,
+            circles: Column | None = ..., static_compliance: Quantity | None = ..., radii: Column = ...,
+            shapes: Iterable[Column] = ...,
+        ) -> None: ...  # fmt: skip
 
     @model_validator(mode="wrap")
     @classmethod

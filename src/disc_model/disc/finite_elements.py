@@ -149,9 +149,11 @@ def disc_of_section(
     largest = max((a for *_, a, _ in rows), default=0.0)
     transverse = sorted(row for row in rows if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
     raise_faults(violations((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
-    names = ("omega", "diameters", "circles", "amplitude", "shapes")
-    columns = dict(zip(names, map(list, zip(*transverse, strict=True)), strict=True))
-    return Disc(**columns, radii=radii.tolist(), damping_ratio=[iron.damping_ratio] * len(transverse))
+    omegas, diameters, circles, amplitudes, shapes = zip(*transverse, strict=True)
+    return Disc(
+        omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, shapes=shapes, radii=radii.tolist(),
+        damping_ratio=[float(damping_ratio)] * len(transverse),
+    )  # fmt: skip
 
 
 def _pieces(mesh: MeshQuad) -> int:
