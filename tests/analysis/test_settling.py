@@ -54,9 +54,3 @@ def test_a_motion_has_settled_since_its_transient_is_over() -> None:
     found = settling(TIME, np.where(TIME < 400, 2.0, 1.0) * BEAT)
     assert found.answer is Settled.SETTLED
     assert 350 <= found.since <= 500
-
-
-@pytest.mark.parametrize("count", [0, 1, 63])
-def test_few_samples_decide_nothing(count: int) -> None:
-    assert settling(TIME[:count], BEAT[:count]).answer is Settled.UNDECIDED
-    assert settling(TIME, np.full(TIME.size, np.nan)).answer is Settled.UNDECIDED

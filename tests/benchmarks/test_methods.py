@@ -10,7 +10,7 @@ import pytest
 from disc_model import simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels, scipy_ivp
-from disc_model.benchmarks.methods.base import GaveUp, Meter, Problem, RunStatus, run_phases
+from disc_model.benchmarks.methods.base import Meter, Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model.benchmarks.work_precision import fitted_order
@@ -186,30 +186,6 @@ def test_theoretical_order_on_smooth_motion(name, values, order, margin):
     else:
         assert off[2] < 0.1 * off[1] < 0.01 * off[0]
         assert off[2] < 1e-5
-
-
-# ----------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("what", "outcome", "words"),
-    [
-        ("fails", RunStatus.FAILED, "gave up"),
-        ("overflows", RunStatus.NON_FINITE, "no longer finite"),
-        ("crowds", RunStatus.STALLED, "more than 50 events at one instant"),
-    ],
-)
-def test_what_ends_a_run_of_phases(what, outcome, words):
-    def advance(phase, direction, t, y, t_end):
-        if what == "fails":
-            raise GaveUp("gave up")
-        if what == "overflows":
-            return None, t, y * math.nan
-        return 1 if phase == kernels.SLIP else 0, t, y  # one switch after the other, at once
-
-    result = run_phases(advance, Meter(task(), math.inf))
-    assert result.outcome is outcome
-    assert words in result.message
 
 
 def test_turning_points_between_steps_are_seen() -> None:

@@ -11,10 +11,9 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
-from disc_model.figures.drawing import save
 from disc_model.figures.growth_map import Curve
-from tests.figures.reading import draw, labels, lines
-from tests.studies.conftest import SCAN, computed, growth_over
+from tests.figures.reading import draw, labels
+from tests.studies.conftest import SCAN, computed
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
@@ -57,19 +56,3 @@ def test_a_line_does_not_jump_to_another_branch() -> None:
     links = [(0, 17.6, 19.5), (1, 11.5, 12.7), (1, 19.5, 21.3)]
     # 13.8 is as near to 12.7 as to 14.9, which is nearer to 15.9
     assert branches(speeds) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
-
-
-def test_the_speed_goes_across_and_panels_say_how_they_were_computed(
-    speeds: xr.Dataset, sweep: xr.Dataset, plane: xr.Dataset, tmp_path
-) -> None:
-    """Both were titled alike, and speeds went up here and across elsewhere."""
-    others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7)), "curves": plane}
-    both = draw("critical_speed", speeds, others, paper_points=PAPER_POINTS)
-    titles = [ax.get_title(loc="left") for ax in both.axes]
-    assert titles == ["(a) from the static start", "(b) sweeps: 60 to 480 s, then 0.5 rad/s further"]
-    assert both.axes[0].get_xlabel() == "Speed Ω (rad/s)"
-    shown = lines(both.axes[0])
-    assert shown["onset of separation within 1000 s"].get_xdata()[:2].tolist() == [12.4, 12.4]
-    # a shorter horizon has marks only where its speed is another
-    assert set(shown["at another speed within 900 s"].get_ydata()) == {200}
-    save(both, tmp_path / "both.png")

@@ -4,7 +4,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import pytest
 import yaml
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -99,15 +98,3 @@ def test_there_is_one_version() -> None:
     assert cited[1] == disc_model.__version__
     released = re.findall(r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert released[:1] in ([], [disc_model.__version__])
-
-
-# ---- the container
-
-CONTAINER = (ROOT / "Containerfile").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize("target", ["src/disc_model/workflow", "src/disc_model/config"])
-def test_the_container_has_what_the_packages_links_lead_to(target: str) -> None:
-    link = ROOT / target
-    assert link.is_symlink()
-    assert re.search(rf"^COPY {link.resolve().relative_to(ROOT)} ", CONTAINER, re.MULTILINE)

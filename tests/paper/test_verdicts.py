@@ -237,7 +237,6 @@ def test_between_regular_and_chaotic_nothing_is_decided(monkeypatch: pytest.Monk
     ("phrase", "times"),
     [
         ("380 to 400 s: that depends on the tolerance", (398.80, 387.10, 386.67, 380.83)),
-        ("799.5 to 800.0 s: that depends on the tolerance", (799.64, 799.72, 800.0, 799.52)),
         ("479.92 s", (479.9192, 479.9193)),
         ("381.6, 387.2 s, or none: that depends on the tolerance", (381.59, np.nan, 387.16)),
     ],

@@ -59,9 +59,3 @@ def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters
     # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s / 2 = 33 Hz
     np.testing.assert_allclose(found.cycle_frequency[here], found.frequency[here], atol=0.2)
     assert found.mac[here].min() > 0.9
-
-
-def test_without_steady_sliding_or_cycle_there_is_nothing_to_say() -> None:
-    assert len(frequencies(SMALL.replace(Omega=0)).frequency) == 0
-    held = frequencies(SMALL.replace(N=0))
-    assert np.isnan(held.cycle_frequency).all()

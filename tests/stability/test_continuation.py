@@ -12,7 +12,7 @@ from disc_model.simulation.states import State
 from disc_model.stability import branch as branch_module
 from disc_model.stability import continuation
 from disc_model.stability import cycle as cycle_module
-from disc_model.stability.branch import CorrectorFailed, CycleProblem, StepControl
+from disc_model.stability.branch import CorrectorFailed, CycleProblem
 from disc_model.stability.continuation import (
     BORDER,
     changed_event,
@@ -45,16 +45,6 @@ def test_a_branch_goes_round_its_fold():
     # inside the ellipse the rotating pair is the slower one to die out; on the lower branch x_0 grows
     assert {branch.bifurcation_types()[-1], branch.bifurcation_types()[0]} == {"fold", "neimark_sacker"}
     assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
-
-
-def test_a_branch_may_begin_the_other_way_and_stop_short():
-    branch = continue_cycle(P, "Omega", (12.0, 17.0), direction=-1, steps=StepControl(max_points=3))
-    assert branch.ended == "the number of points allowed is reached"
-    assert branch.values[:, 0] == pytest.approx(sorted(branch.values[:, 0], reverse=True))
-    by_load = continue_cycle(P, "N", (250.0, 320.0), direction=-1)
-    assert by_load.folds == pytest.approx(np.array([[250.0]]), abs=1e-6)  # fold(250) = 15
-    assert by_load.values[-1, 0] > 320
-    assert by_load.points[-1, 0] < 1
 
 
 @pytest.mark.parametrize(

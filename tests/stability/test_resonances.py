@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, coupled_natural_frequencies
+from disc_model import Parameters, coupled_natural_frequencies
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies
 from disc_model.stability.resonances import modes_at_rest, nearest_resonance
@@ -44,9 +44,3 @@ def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
     assert resonance.detuning == pytest.approx(resonance.harmonic / period - seen)
     assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")
     assert resonance.label.endswith(f"{'+' if sign > 0 else '-'} {diameters} Ω/2π") == (sign != 0)
-
-
-def test_a_negative_real_multiplier_is_a_half_harmonic():
-    assert nearest_resonance(P, 0.0148, -1.0 + 0j, 1).harmonic % 1 == 0.5
-    with pytest.raises(ParameterError, match="diameters=9: must be those of a mode"):
-        nearest_resonance(P, 0.0148, 1.0 + 0j, 9)

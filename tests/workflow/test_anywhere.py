@@ -78,14 +78,6 @@ def edit(elsewhere: Path) -> Iterator[Callable[[str], int]]:
     (elsewhere / "mine.yaml").write_text(STUDY)
 
 
-def test_from_the_root_or_not_the_workflow_is_the_same(elsewhere: Path) -> None:
-    """Neither the place of the Snakefile nor that of its scripts is among what results depend on."""
-    for place in (ROOT / "Snakefile", ROOT / "src" / "disc_model" / "workflow" / "Snakefile"):
-        phrase = snakemake(elsewhere, "-n", "-s", place, "--configfile", "mine.yaml")
-        assert "Nothing to be done" in phrase
-        assert "KeyError" not in phrase
-
-
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
     """What an included file makes by default is not the default: the root's made nothing, and said that all was so."""
     (tmp_path / "mine.yaml").write_text(STUDY)
