@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 import pytest
 
-from disc_model.explorer.contents import BITS, LEVELS, motion_contents, study_contents
+from disc_model.explorer.contents import BITS, LEVELS, motion_contents
 from disc_model.studies.motions import SAMPLES
 from tests.explorer import made_up
 
@@ -40,12 +40,6 @@ def test_numbers_flags_and_messages_come_through(contents):
     assert (text[tuple(made_up.FAILED.values())], (text != "").sum()) == (made_up.MESSAGE, 1)
     spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
     assert contents["fixed"] == [spring]
-
-
-def test_a_zip_is_one_dimension_of_words():
-    (dim,) = study_contents("line", made_up.line())["dims"]
-    assert dim["values"][0] == "N = 100, Omega = 20"
-    assert dim["parts"] == {"N": made_up.N, "Omega": [20.0, 15.1, 12.0]}
 
 
 def test_motions_are_right_to_half_a_step_and_failed_ones_are_left_out(contents):
