@@ -17,7 +17,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor.basins import Basins, random_perturbation
-from disc_model.stability.attractor.outcome import OutcomeResult, Segment, final_segment, find_outcome, growing
+from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -51,6 +51,8 @@ def test_each_outcome_is_told(which: str) -> None:
     found = find_outcome(Parameters(**values), horizon)
     assert found.outcome is Outcome(outcome)
     assert math.isfinite(found.first_separation) == (outcome == Outcome.SEPARATION)
+    ends = {"separation": {Stage.SEPARATED}, "undecided": {Stage.HORIZON}, "growing": {Stage.HORIZON, Stage.ON_TORUS}}
+    assert found.stage in ends.get(outcome, {Stage.SETTLED})
 
 
 @pytest.mark.compiled

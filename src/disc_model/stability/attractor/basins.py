@@ -105,10 +105,8 @@ class Basins:
         """
         ranges = [max(segment.range, self.smallest) for segment in (first, second)]
         compared = [(*ranges, self.smallest), (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG)]
-        compared += [
-            (getattr(first, name), getattr(second, name), thresholds.SAME)
-            for name in ("stick_fraction", "separation_fraction")
-        ]
+        compared.append((first.stick_fraction, second.stick_fraction, thresholds.SAME))
+        compared.append((first.separation_fraction, second.separation_fraction, thresholds.SAME))
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
     def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
@@ -140,15 +138,11 @@ class Basins:
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
         last = segments[-thresholds.SETTLING :]
-        if len(last) < thresholds.SETTLING or any(
-            self._difference(segment, last[-1]) > SETTLED for segment in last[:-1]
-        ):
+        if len(last) < thresholds.SETTLING or any(self._difference(part, last[-1]) > SETTLED for part in last[:-1]):
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
-        return (
-            abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
-            or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
-        )
+        stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
+        return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
     def _settled_on(self, leg: Result, stays: bool) -> Attractor | None:
         """The attractor of a motion that has settled; None as long as it is uncertain.

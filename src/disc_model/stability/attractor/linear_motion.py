@@ -301,7 +301,8 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
     from scipy.linalg import expm  # as in plate
 
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
-    for time in thresholds.TEST_TIMES[-1]:
+    times = thresholds.TEST_TIMES[-1]
+    for time in times:
         result = simulate(p, state.time + time, tol=tol, initial_state=state, record=Record(events=False))
         if not result.status.complete or result.final_state.phase != "slip":
             return False
@@ -312,9 +313,7 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
             return False
         parts.append(float(abs(leading @ apart)))
         before = time
-    return _grows_at_rate(
-        parts, thresholds.TEST_TIMES[-1][1] - thresholds.TEST_TIMES[-1][0], sliding.growth_rate, least
-    )
+    return _grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
 
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:

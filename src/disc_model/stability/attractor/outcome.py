@@ -115,7 +115,7 @@ class OutcomeResult:
     times : times of these ends, s
     distance : distance from the cycle, over the static deflection, at the end of the search
     segment : the last segment before the horizon, if it was requested and reached
-    stage : stage in which the search ended
+    stage : stage in which the search of `find_outcome` ended
     """
 
     outcome: Outcome | None = None
@@ -131,7 +131,7 @@ class OutcomeResult:
     times: list[float] = field(default_factory=list)
     distance: float = math.nan
     segment: Segment | None = None
-    stage: Stage = Stage.START
+    stage: Stage | None = None
 
     @property
     def word(self) -> str:
@@ -228,8 +228,7 @@ class _OutcomeSearch:
     def _begin(self) -> Stage:
         self.result = OutcomeResult(state=self.start)
         self.leg = thresholds.FIRST_LEG
-        self.cycle: NearCycle | None = None  # that the motion follows
-        self.departed_from: NearCycle | None = None  # the last of such cycles
+        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
         self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
         self.torus_test = TorusTest(self.map) if self.map is not None else None
         self.section_point: Array | None = None  # at the end of the last leg
@@ -243,7 +242,6 @@ class _OutcomeSearch:
 
     def _judge_cycle(self) -> Stage:
         near, result = self.cycle, self.result
-        assert near is not None
         result.near = result.near or near
         if not near.cycle.stable:
             return Stage.DEPARTING
@@ -258,7 +256,6 @@ class _OutcomeSearch:
     def _depart(self) -> Stage:
         """Follow the linear map away from an unstable cycle, as far as it is valid."""
         near, result = self.cycle, self.result
-        assert near is not None
         self.departed_from = near
         if result.time >= self.horizon:
             return Stage.ON_ITS_WAY
@@ -289,10 +286,9 @@ class _OutcomeSearch:
         if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
             result.outcome, result.near = calm, None
             return Stage.SETTLED
-        if self._returns_to_section(leg.final_state) and examined:
-            self.cycle = self._find_followed_cycle()
-            if self.cycle is not None:
-                return Stage.NEAR_CYCLE
+        if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
+            self.cycle = near
+            return Stage.NEAR_CYCLE
         if self._stays_on_torus():
             result.outcome = Outcome.GROWING
             return Stage.ON_TORUS
@@ -360,20 +356,17 @@ class _OutcomeSearch:
     def _stays_on_torus(self) -> bool:
         """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
         result, x = self.result, self.section_point
-        tested = (
-            self.early
-            and result.simulated >= thresholds.TORUS_AFTER
-            and self.horizon - result.time >= thresholds.LONGEST_LEG
-        )
-        if not tested or not self._grows or self.torus_test is None or x is None or not self.torus_test.shows_torus(x):
+        saves = self.horizon - result.time >= thresholds.LONGEST_LEG and result.simulated >= thresholds.TORUS_AFTER
+        if not (self.early and saves and self._grows and x is not None and self.torus_test is not None):
             return False
-        watched, segment = final_segment(
-            self.p, result.state, thresholds.TORUS_WATCHED, thresholds.TORUS_WATCHED, self.tol
-        )
-        result.simulated += watched.final_state.time - result.time
+        if not self.torus_test.shows_torus(x):
+            return False
+        watched = thresholds.TORUS_WATCHED
+        leg, segment = final_segment(self.p, result.state, watched, watched, self.tol)
+        result.simulated += leg.final_state.time - result.time
         if segment is None or segment.P_min < thresholds.TORUS_LEAST_FORCE * self.p.N:
             return False
-        code, x = self.torus_test.map.next_release(watched.final_state)
+        code, x = self.torus_test.map.next_release(leg.final_state)
         return code == RETURNED and self.torus_test.shows_no_change(x)
 
 
