@@ -39,15 +39,7 @@ from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.quantity import quantity_names, quantity_of
 from disc_model.studies.ranges import Blocks, Range
 from disc_model.studies.rules import checked_rule
-from disc_model.units import (
-    Count,
-    Finite,
-    Seconds,
-    Strict,
-    Title,
-    Tolerance,
-    must,
-)
+from disc_model.units import Count, Finite, Seconds, Strict, Title, Tolerance, must
 
 # ----------------------------------------------------------------------------------------------------
 # Names

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -73,7 +73,7 @@ class AttractorBasins(Start, Quantity):
         ),
     )
 
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
         "attractor_index": Variable("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
@@ -95,7 +95,7 @@ class AttractorBasins(Start, Quantity):
         "attractor_period": Variable("s", "its period, nan if not periodic", dims=_KNOWN),
         "attractor_growth_rate": Variable("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
         "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
         "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
@@ -105,7 +105,6 @@ class AttractorBasins(Start, Quantity):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * len(self.energies) * self.n_starts * self.horizon / 6
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

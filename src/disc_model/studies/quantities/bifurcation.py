@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -43,7 +42,7 @@ class Bifurcation(Start, Quantity):
 
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
         "phase": Variable("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
@@ -64,13 +63,12 @@ class Bifurcation(Start, Quantity):
             "1", "share of the time spent sticking: at switches on the cycle or in the later half, otherwise of all"
         ),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "sample": Coordinate("1", "number of the turn after the transient", lambda o: range(o.samples))
     }
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * (self.transient + self.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

@@ -7,7 +7,6 @@ cycle near the static start, is continued in both directions, unless a known bra
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -55,7 +54,7 @@ class Branches(Quantity):
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
     scans: ClassVar = ("parameter",)
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "n_branches": Variable("1", "number of branches found", whole=True),
         "n_continuation_failures": Variable("1", "number of cycles that could not be followed", whole=True),
@@ -72,7 +71,7 @@ class Branches(Quantity):
         "sweep_settled": ANSWER._replace(dims=_SWEEP),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "direction": DIRECTION,
         "sweep_value": Coordinate("", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values),
         "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
@@ -81,7 +80,6 @@ class Branches(Quantity):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

@@ -12,7 +12,7 @@ at its ends.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -54,7 +54,7 @@ class Campbell(Quantity):
     tol: CycleTolerance = 1e-12
 
     over: ClassVar = "Omega"
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
         "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
@@ -70,10 +70,10 @@ class Campbell(Quantity):
         "cycle_growth_rate": Variable("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
         "mac": Variable("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))
     }
-    SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    SUMMARY_COLUMNS: ClassVar = {
         "n_crossings": Variable("1", "number of crossings found", whole=True),
         "crossing_Omega": Variable("rad s-1", "speed of the crossing", dims=_CROSSING),
         "crossing_frequency": Variable("Hz", "frequency of the crossing", dims=_CROSSING),
@@ -89,13 +89,12 @@ class Campbell(Quantity):
         ),
         "crossing_effect": Variable("1", "what the growth rates do at the crossing", EFFECTS, dims=_CROSSING),
     }
-    SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    SUMMARY_COORDINATES: ClassVar = {
         "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))
     }
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return 1.5 * CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

@@ -7,7 +7,7 @@ quarter of the time, but moves first separations by more than 0.05 times of grow
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
@@ -55,7 +55,7 @@ class CriticalSpeed(EarlyEnd):
         return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
 
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "critical_speed": Variable(
             "rad s-1",
@@ -74,7 +74,7 @@ class CriticalSpeed(EarlyEnd):
         "simulations": Variable("1", "number of simulations", whole=True),
         "simulated_time": Variable("s", "simulated time of all of them"),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "horizon": Coordinate("s", "time within which separation must occur", lambda o: o.horizons),
         "crossing_number": Coordinate(
             "1", "number of the crossing, as the speed rises", lambda o: range(o.max_crossings)
@@ -84,7 +84,6 @@ class CriticalSpeed(EarlyEnd):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * self.scan.intervals * self.horizons[-1] / 9
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

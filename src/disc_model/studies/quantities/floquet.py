@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
@@ -23,7 +22,7 @@ class Floquet(Quantity):
 
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
         "period": Variable("s", "period of the stick-slip cycle"),
@@ -35,7 +34,6 @@ class Floquet(Quantity):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

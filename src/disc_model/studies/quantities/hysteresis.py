@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -38,7 +37,7 @@ class Hysteresis(Quantity):
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
 
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "sweep_status": STATUS._replace(dims=_DIMS),
         "sweep_settled": ANSWER._replace(dims=_DIMS),
@@ -51,14 +50,13 @@ class Hysteresis(Quantity):
         "onset_speed": Variable("rad s-1", "speed at which separation first is found on the way up"),
         "offset_speed": Variable("rad s-1", "lowest speed to which it persists without a gap on the way down"),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "direction": DIRECTION,
         "sweep_Omega": Coordinate("rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values),
     }
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * 2 * self.scan.intervals * self.dwell
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

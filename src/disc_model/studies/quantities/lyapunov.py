@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -11,13 +10,7 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    SIMULATED,
-    STATUS,
-    Coordinate,
-    Point,
-    Quantity,
-)
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -44,7 +37,7 @@ class Lyapunov(Start, Quantity):
 
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "exponent": Variable(
             "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
@@ -57,13 +50,12 @@ class Lyapunov(Start, Quantity):
         "averaging_time": Variable("s", "time over which the rates are averaged"),
         "separations": Variable("1", "number of separations in that time", whole=True),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))
     }
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * (self.transient + 20 * self.exponents * self.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

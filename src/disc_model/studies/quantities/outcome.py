@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -44,7 +43,7 @@ class HorizonOutcome(Start, EarlyEnd):
 
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
         "first_separation": SCALARS["first_separation"],
@@ -65,7 +64,6 @@ class HorizonOutcome(Start, EarlyEnd):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * self.horizon / 2
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

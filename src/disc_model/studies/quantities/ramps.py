@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from disc_model.data.variables import Variable
@@ -41,7 +40,7 @@ class Ramps(Quantity):
     )
 
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "rate_status": STATUS._replace(dims=_DIMS),
         "onset_speed": Variable(
@@ -52,13 +51,10 @@ class Ramps(Quantity):
             "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
         ),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
-        "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
-    }
+    COORDINATES: ClassVar = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return SIMULATED * sum(2 * ((self.high - self.low) / rate + self.dwell) for rate in self.rates.values)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

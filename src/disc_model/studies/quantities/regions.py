@@ -5,18 +5,14 @@ A batch is a tile of the plane; `disc_model.studies.refinement` computes it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from disc_model.data.variables import (
-    OUTCOMES_TO_HORIZON,
-    SCALARS,
-    Variable,
-)
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
 from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, Row
 from disc_model.units import Count, Seconds, Tolerance
 
@@ -45,7 +41,7 @@ class Regions(Quantity):
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
         "method": Variable("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
@@ -67,7 +63,6 @@ class Regions(Quantity):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return WORK
 
     def state_at(self, point: Point) -> State:

@@ -175,7 +175,7 @@ class Sensitivity(Quantity):
     _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
 
     over: ClassVar = SAMPLE
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "parameter_values": Variable(
             "", "values of the distributed parameters, SI units", dims=("sample_matrix", "parameter")
@@ -187,14 +187,14 @@ class Sensitivity(Quantity):
         "outcome": Variable("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
         "first_separation": SCALARS["first_separation"],
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "sample_matrix": Coordinate("", "one of the two draws of a sample", lambda o: DRAWS),
         "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
         "variant": Coordinate(
             "", "draw A, draw B, or A with this parameter taken from B", lambda o: (*DRAWS, *sorted(o.distributions))
         ),
     }
-    SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    SUMMARY_COLUMNS: ClassVar = {
         "n_known_cycles": Variable("1", "number of draws, A and B, whose cycle is known", whole=True),
         "n_known_outcomes": Variable("1", "number of draws whose outcome is known", whole=True),
         **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
@@ -209,7 +209,7 @@ class Sensitivity(Quantity):
             "1", "share of samples that the indices leave out: an output is missing", dims=("output",)
         ),
     }
-    SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    SUMMARY_COORDINATES: ClassVar = {
         "cycle_class": Coordinate("", "class of the cycle near the static start", lambda o: KNOWN),
         "outcome_class": Coordinate("", "what becomes of the static start", lambda o: FOLLOWED),
         "output": Coordinate("", "of what the indices are", lambda o: OUTPUTS),
@@ -218,7 +218,6 @@ class Sensitivity(Quantity):
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return CYCLE * (2 + len(self.distributions)) + SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
 
     @property

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -50,7 +49,7 @@ class StabilityCurves(Quantity):
     )
 
     scans: ClassVar = ("x", "y")
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "n_curves": Variable("1", "number of curves found", whole=True),
         "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
@@ -71,14 +70,13 @@ class StabilityCurves(Quantity):
             "Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE
         ),
     }
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {
+    COORDINATES: ClassVar = {
         "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
         "curve_point": Coordinate("1", "number of the point along the curve", lambda o: range(2 * o.max_points)),
     }
 
     @property
     def seconds(self) -> float:
-        """Processor time of a point, s."""
         return WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
