@@ -169,6 +169,9 @@ START_TOGETHER = """
 import time
 from pathlib import Path
 import disc_model.engine.jit
+from numba.core.compiler import CompilerBase
+compile_extra = CompilerBase.compile_extra
+CompilerBase.compile_extra = lambda *of: time.sleep(1.0) or compile_extra(*of)  # so that neither is done too early
 Path(__file__).with_name(f"ready{NUMBER}").touch()
 while len([*Path(__file__).parent.glob("ready*")]) < 2:
     time.sleep(0.001)
@@ -185,13 +188,13 @@ fcntl.flock = flock
 @pytest.mark.parametrize("before", ["", LACKS["merging"], WITHOUT_LOCKS], ids=["locked", "plain numba", "no locks"])
 def test_of_two_processes_one_compiles_and_the_other_waits(before: str, tmp_path: Path) -> None:
     processes = []
+    (tmp_path / "module.py").write_text(KERNEL)
     for i in range(2):
         script = tmp_path / f"script{i}.py"
         # both under one name, as numba's own cache has it
         script.write_text(f"{before}NUMBER = {i}{START_TOGETHER}import module")
         environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
         processes.append(subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, env=environment, text=True))
-    (tmp_path / "module.py").write_text(KERNEL)
     printed = sorted(process.communicate(timeout=300)[0].strip() for process in processes)
     # without locks either may still find the other's file
     assert printed == ["42 0", "42 1"] or (before == WITHOUT_LOCKS and printed == ["42 0"] * 2)

@@ -41,10 +41,11 @@ def test_cycles_in_threads_equal_cycles_in_turn() -> None:
 def test_other_threads_go_on_while_the_engine_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     """With Python's lock held, this thread would stand still for the whole run, which is made one call here."""
     monkeypatch.setattr(api, "STEPS_PER_PAUSE", 10**9)
-    simulate(P, 0.1)
+    sliding = Parameters(N=66, Omega=25, c_p=0.5)  # with hardly any events, whose buffers would make it pause
+    assert simulate(sliding, 10.0).statistics["events"] < 10
     times = [time.perf_counter()]
     with ThreadPoolExecutor(1) as threads:
-        run = threads.submit(simulate, P, 600.0)
+        run = threads.submit(simulate, sliding, 2000.0)
         while not run.done():
             time.sleep(1e-3)
             times.append(time.perf_counter())
