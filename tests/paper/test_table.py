@@ -1,5 +1,6 @@
 """The table of claims: complete, computed, and honest about what it lacks."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -27,7 +28,7 @@ from disc_model.paper.model import (
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
 from disc_model.studies.cases import merge_cases
-from disc_model.studies.study import parse_study
+from disc_model.studies.study import load_study, parse_study
 from tests.paper.made_up import kept_events
 
 
@@ -36,6 +37,17 @@ def cases_of(**cases: dict[str, Any]) -> dict[str, CaseView]:
     study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
     tree = merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)
     return views({"cases": tree})
+
+
+def test_cases_are_those_that_the_texts_speak_of() -> None:
+    specs = load_study(Path(__file__).parents[2] / "config" / "paper.yaml").specs
+    count = 0
+    for claim in CLAIMS:
+        if phrase := re.match(r"(?:.*, )?N = ([\d.]+) N, (?:Omega = )?([\d.]+) rad/s", claim.claim):
+            parameters = [specs[name].parameters for name in claim.cases]
+            assert tuple(map(float, phrase.groups())) in {(p.N, p.Omega) for p in parameters}, claim.id
+            count += 1
+    assert count > 10
 
 
 @pytest.mark.compiled

@@ -345,3 +345,13 @@ def test_grazing_contact() -> None:
     assert separates(high)
     assert not separates(low)
     assert high - low < 1e-11
+
+
+@pytest.mark.parametrize("tol", [1e-8, 1e-13])
+@pytest.mark.parametrize("lifted", [-0.03, -0.003, 0.01])
+def test_equal_friction_coefficients_in_violent_motion(lifted: float, tol: float) -> None:
+    """The error of a release's time gives f' either sign where it is zero; that is no paradox."""
+    p = Parameters(N=300, Omega=20, mu_s=0.4, mu_k=0.4)
+    start = changed(simulate(p, 1e-6).final_state, a=lifted / plate_modes(p).psi[1], u=lifted)
+    events = simulate(p, 0.3, tol=tol, initial_state=start).raise_for_status().events
+    assert {"stick_to_slip", "slip_to_stick"} <= set(events.kind)

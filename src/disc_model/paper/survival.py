@@ -82,7 +82,10 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
 
 def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], Array]:
     """Outcomes, and growth rates at the same points, 1/s: both (N, Omega)."""
-    rates = growth["growth_rate"].sel(N=outcome["N"], Omega=outcome["Omega"])
+    try:
+        rates = growth["growth_rate"].sel(N=outcome["N"], Omega=outcome["Omega"])
+    except KeyError as error:
+        raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
     return flag_names(outcome["outcome"].transpose("N", "Omega")), rates.transpose("N", "Omega").values
 
 
@@ -97,10 +100,13 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
         return Answer(True, growth=[], **speeds)
     # at the map's nearest speeds below and above each interval; nan without a cycle
     at_load = rates["growth_rate"].sel(N=load)
-    beside = [
-        (float(at_load.sel(Omega=high - width, method="pad")), float(at_load.sel(Omega=high, method="backfill")))
-        for high in highs
-    ]
+    try:
+        beside = [
+            (float(at_load.sel(Omega=high - width, method="pad")), float(at_load.sel(Omega=high, method="backfill")))
+            for high in highs
+        ]
+    except KeyError:
+        raise Missing("study survival_growth does not reach as far as survival_speed") from None
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(curves["n_continuation_failures"])
     goes_on = all(rate > SLOW for pair in beside for rate in pair)

@@ -34,6 +34,7 @@ def test_all_that_remains_can_be_imported(clone: Path) -> None:
     run(sys.executable, "-c", WITHOUT.format(path=str(clone)), cwd=clone, PYTHONPATH=str(clone / "src"))
 
 
+@pytest.mark.slow
 @pytest.mark.workflow
 def test_a_study_is_computed(clone: Path) -> None:
     """One that asks for verdicts is refused before anything runs."""
