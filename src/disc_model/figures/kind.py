@@ -40,7 +40,9 @@ def kind_of(name: Any) -> type[Kind]:
     """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
     try:
         return _kinds_in(str(name).rpartition(".")[0])[name]
-    except (ModuleNotFoundError, KeyError, TypeError):
+    except (ModuleNotFoundError, KeyError, TypeError) as error:
+        if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("disc_model"):
+            raise  # a kind's own import, such as that of a library which is not installed
         fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, library_kinds())}")
         raise ParameterError(fault) from None
 
