@@ -1,23 +1,6 @@
 # Named cases: one job for each, and all of them in one file.
 
 
-def case_file(case):
-    return f"{RESULTS}/cases/{case}.nc"
-
-
-LABELS = json.dumps(STUDY.labels, sort_keys=True)
-
-
-def case_made_of(case):
-    spec = STUDY.specs[case]
-    chosen = ["mode_choice"] if spec.modes else []
-    return made_of("simulate_case", *chosen, of=spec.canonical)
-
-
-def cases_made_of():
-    return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
-
-
 rule simulate_case:
     # The job receives everything in one text, which Snakemake records: a case with equal content is not run again,
     # wherever and however its file describes it.

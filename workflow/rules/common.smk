@@ -90,7 +90,7 @@ if not CONDA:
     put_first("PATH", Path(sys.executable).parent)
 if CONDA or str(SOURCES) in sys.path:
     put_first("PYTHONPATH", SOURCES)
-os.environ["PYTHONUTF8"] = "1"  # in any locale
+os.environ.update(PYTHONUTF8="1")  # in any locale
 # Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
 PREFIX = f'set -euo pipefail; job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))

@@ -9,27 +9,6 @@ EXPLORED = sorted(
 )
 
 
-def motion_file(study, key):
-    return f"results/{study}/motions/{key}.nc"
-
-
-def motions_of(study):
-    """The one file of motions of a study, or none."""
-    return [motion_file(study, key) for key in GRIDS[study].motions]
-
-
-def explorer_pictures():
-    """The report's figures, in its order."""
-    for (study, name), figure in FIGURES.items():
-        if study in (STUDY.name, *ASKED):
-            yield {
-                "heading": figure.section or figure.category,
-                "title": figure.title,
-                "caption": figure.caption,
-                "file": f"results/{study}/figures/{name}.png",
-            }
-
-
 PICTURES = list(explorer_pictures())
 
 

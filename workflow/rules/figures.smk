@@ -1,35 +1,6 @@
 # One job per figure, from the files of its cases or grids: a change of another case does not draw it again.
 
 
-FIGURES = STUDY.entries(GRIDS)
-
-
-def figure_of(wildcards):
-    return FIGURES[wildcards.study, wildcards.figure]
-
-
-def files_of(wildcards):
-    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
-    figure = figure_of(wildcards)
-    file = grid_file if isinstance(figure.plot, Plot) else case_file
-    return {role: file(name) for role, name in figure.inputs.items()}
-
-
-def figure_made_of(wildcards):
-    figure = figure_of(wildcards)
-    inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
-    of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
-    return made_of("draw_figure", figure.plot.module, of=of)
-
-
-def figure_names():
-    """Names of figures, by the study in whose folder they are."""
-    figures = {name: [] for name in (STUDY.name, *GRIDS)}
-    for study, name in FIGURES:
-        figures[study].append(name)
-    return figures
-
-
 rule draw_figure:
     input:
         lambda wildcards: list(files_of(wildcards).values()),

@@ -3,32 +3,6 @@
 # restored needs no new job.
 
 
-def batch_file(study, batch):
-    return f"results/{study}/batches/{batch}.nc"
-
-
-def grid_file(study):
-    return f"results/{study}/{study}.nc"
-
-
-def merge_plan(study):
-    """Data of a merge beyond its files, as JSON."""
-    plan = {
-        "batches": sorted(GRIDS[study].batches),
-        "grid": GRIDS[study].grid,
-        "attrs": GRIDS[study].attrs,
-    }
-    return json.dumps(plan, sort_keys=True)
-
-
-def batch_made_of(study):
-    return made_of("compute_batch", *GRIDS[study].sources)
-
-
-def grid_made_of(study):
-    return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
-
-
 rule compute_batch:
     output:
         batch_file("{study}", "{batch}"),

@@ -1,0 +1,113 @@
+# What rules call: names of files, what decides each result, and figures. Rules themselves are in files of their own.
+
+
+def case_file(case):
+    return f"{RESULTS}/cases/{case}.nc"
+
+
+LABELS = json.dumps(STUDY.labels, sort_keys=True)
+
+
+def case_made_of(case):
+    spec = STUDY.specs[case]
+    chosen = ["mode_choice"] if spec.modes else []
+    return made_of("simulate_case", *chosen, of=spec.canonical)
+
+
+def cases_made_of():
+    return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
+
+def batch_file(study, batch):
+    return f"results/{study}/batches/{batch}.nc"
+
+
+def grid_file(study):
+    return f"results/{study}/{study}.nc"
+
+
+def merge_plan(study):
+    """Data of a merge beyond its files, as JSON."""
+    plan = {
+        "batches": sorted(GRIDS[study].batches),
+        "grid": GRIDS[study].grid,
+        "attrs": GRIDS[study].attrs,
+    }
+    return json.dumps(plan, sort_keys=True)
+
+
+def batch_made_of(study):
+    return made_of("compute_batch", *GRIDS[study].sources)
+
+
+def grid_made_of(study):
+    return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
+
+FIGURES = STUDY.entries(GRIDS)
+
+
+def figure_of(wildcards):
+    return FIGURES[wildcards.study, wildcards.figure]
+
+
+def files_of(wildcards):
+    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
+    figure = figure_of(wildcards)
+    file = grid_file if isinstance(figure.plot, Plot) else case_file
+    return {role: file(name) for role, name in figure.inputs.items()}
+
+
+def figure_made_of(wildcards):
+    figure = figure_of(wildcards)
+    inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
+    of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
+    return made_of("draw_figure", figure.plot.module, of=of)
+
+
+def figure_names():
+    """Names of figures, by the study in whose folder they are."""
+    figures = {name: [] for name in (STUDY.name, *GRIDS)}
+    for study, name in FIGURES:
+        figures[study].append(name)
+    return figures
+
+def motion_file(study, key):
+    return f"results/{study}/motions/{key}.nc"
+
+
+def motions_of(study):
+    """The one file of motions of a study, or none."""
+    return [motion_file(study, key) for key in GRIDS[study].motions]
+
+
+def explorer_pictures():
+    """The report's figures, in its order."""
+    for (study, name), figure in FIGURES.items():
+        if study in (STUDY.name, *ASKED):
+            yield {
+                "heading": figure.section or figure.category,
+                "title": figure.title,
+                "caption": figure.caption,
+                "file": f"results/{study}/figures/{name}.png",
+            }
+
+@cache
+def unrecorded():
+    """Results without a record of Snakemake, which would take them for up to date."""
+    store = workflow.persistence
+    if any(Path(store.path, "incomplete").rglob("*")):
+        return []  # an interrupted run comes first: Snakemake knows of it
+    files = [*map(case_file, STUDY.specs), *PRODUCTS]
+    return [x for x in files if Path(x).exists() and not store.metadata(IOFile(x))]
+
+
+def refuse_unrecorded(wildcards):
+    """Stop if there are `unrecorded` results; an input function, since Snakemake has read its records by then."""
+    main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
+    if main and (unknown := unrecorded()):
+        raise WorkflowError(
+            f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
+            " (was .snakemake removed?), so nothing tells whether they are up to date."
+            " If results/ was copied from another folder, copy that folder's .snakemake beside it as well."
+            " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
+        )
+    return []
