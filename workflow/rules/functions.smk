@@ -17,6 +17,7 @@ def case_made_of(case):
 def cases_made_of():
     return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
 
+
 def batch_file(study, batch):
     return f"results/{study}/batches/{batch}.nc"
 
@@ -41,6 +42,7 @@ def batch_made_of(study):
 
 def grid_made_of(study):
     return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
+
 
 FIGURES = STUDY.entries(GRIDS)
 
@@ -70,6 +72,7 @@ def figure_names():
         figures[study].append(name)
     return figures
 
+
 def motion_file(study, key):
     return f"results/{study}/motions/{key}.nc"
 
@@ -89,6 +92,7 @@ def explorer_pictures():
                 "caption": figure.caption,
                 "file": f"results/{study}/figures/{name}.png",
             }
+
 
 @cache
 def unrecorded():
