@@ -230,7 +230,11 @@ class Strict(BaseModel):
 
     if not TYPE_CHECKING:  # type checkers have the fields from pydantic
 
-        def __init__(self, /, **data: Any) -> None:
+        def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+            if unnamed:
+                name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
+                example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
+                raise ParameterError(f"{name} takes named values: {name}({example})")
             try:
                 super().__init__(**data)
             except ValidationError as error:

@@ -297,7 +297,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
 
 
 def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
-    """Write ``given`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
+    """Write ``source`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
 
     Returns whether the engine has to determine the phase at this instant first: the state lies at an event of another
     case.  Raises `ParameterError` if arrays have the wrong shape, numbers are not finite, the phase contradicts the
