@@ -14,10 +14,17 @@ from disc_model.figures.drawing import BLACK, styled
 from disc_model.paper.figures.instants import colour_of, draw_circle, draw_disc, motion_of, scale_of
 from disc_model.studies.study import load_study
 
-SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1", "B2"))
+SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
 OF_GRIDS = (
-    "branches", "fig15", "basins", "map_N", "thresholds", "survival_growth", "sensitivity", "campbell", "ramps",
-)  # fmt: skip
+    "branches",
+    "fig15",
+    "basins",
+    "map_N",
+    "survival_growth",
+    "sensitivity",
+    "campbell",
+    "ramps",
+)
 """Figures of grid studies; where they are not there, the pictures of an earlier run stay."""
 OF_BENCHMARK = {
     "overview": "Speed against accuracy: computing time of a simulated second against the error of event times, one "

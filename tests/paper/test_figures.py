@@ -4,13 +4,11 @@ import functools
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Record, Window, simulate
-from disc_model.data.dataset import events_dataset
 from disc_model.figures.drawing import COLUMN, PAGE
 from disc_model.figures.kind import CasePlot
 from disc_model.paper.figures.instants import motion_of
@@ -63,16 +61,6 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
         known = {"failed"} if damage == "failed" else {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
-
-
-def test_closures_fall_to_rounding_at_the_period_only() -> None:
-    """Releases that repeat after three: nothing showed that motions of long periods are periodic."""
-    times = np.cumsum(np.tile([0.01, 0.02, 0.04], 10))
-    frame = pd.DataFrame({"time": times, "kind": "stick_to_slip", "phase": "slip"})
-    events = events_dataset(frame).assign_attrs(kept_from=0.0, kept_until=2.0)
-    ax = drawn("figB2", xr.DataTree.from_dict({"/": xr.Dataset(), "/events": events})).axes[0]
-    counts, differences = ax.lines[0].get_data()
-    np.testing.assert_array_equal(counts[np.asarray(differences) < 1e-9], [3, 6, 9, 12])
 
 
 # ---- the whole disc
