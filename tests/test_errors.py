@@ -4,14 +4,13 @@ import pickle
 from typing import Any
 
 import pytest
-from pydantic import Field
 
 from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window
 from disc_model.data.variables import CycleStatus
-from disc_model.errors import DiscModelError, Fault, StatusBase, as_text, script
+from disc_model.errors import DiscModelError, Fault, StatusBase, script
 from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError
-from disc_model.units import Checked, CycleTolerance, Real, Strict, Tolerance
+from disc_model.units import Checked, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
 
 WINDOW = {"start": 0, "stop": 1, "rate": 100}
@@ -23,10 +22,8 @@ class Inner(Strict):
 
 class Outer(Checked):
     inner: Inner = Inner()
-    several: dict[str, Inner] = Field({})
     choice: bool | Inner | list[Inner] = True
     tol: Tolerance = 1e-10
-    cycle_tol: CycleTolerance = 1e-12
 
 
 @pytest.mark.parametrize(
@@ -34,11 +31,8 @@ class Outer(Checked):
     [
         ({"inner": {"sise": 1}}, "inner.sise=1: unknown key, did you mean size? (known: size)"),
         ({"inner": 3}, "inner=3: must be a mapping"),
-        ({"inner": {"size": 1, 3: 4}}, "inner.3=4: a name must be text"),
         ({"tol": 0.1}, "tol=0.1: must be within 1e-15 and 0.01"),
-        ({"cycle_tol": 1e-15}, "cycle_tol=1e-15: must be within 1e-14 and 1e-06"),
         ({"tol": "x" * 99}, f"tol={repr('x' * 99)[:57]}...: must be a number"),
-        ({"several": {"a": {"size": "big"}}}, "several.a.size='big': must be a number"),
         ({"choice": [{"size": 1}, {"sise": 1}]}, "choice.1.sise=1: unknown key, did you mean size? (known: size)"),
     ],
 )
@@ -92,11 +86,6 @@ def test_each_word_has_a_sentence(status: StatusBase) -> None:
 def test_a_status_without_a_sentence_is_refused() -> None:
     with pytest.raises(TypeError, match="advice"):
         StatusBase("Mute", {"OK": "ok"})  # type: ignore[call-overload]
-
-
-def test_rounding_is_not_shown() -> None:
-    assert as_text(0.41 * 0.75) == "0.3075"
-    assert as_text(1e22) == "1e+22"
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), DiscModelError("no result")])

@@ -44,15 +44,6 @@ def test_every_quantity_but_frequencies_is_measured() -> None:
     assert all(f"| `{name}`" in table for name in CHOSEN_BY)
 
 
-def test_candidates_come_by_size_and_are_compared_with_larger_ones() -> None:
-    compared = list(mode_choice._compared(P))
-    sizes = [real_modes(*size) for size, *_ in compared]
-    assert sizes == sorted(set(sizes))
-    for size, *others in compared:
-        assert all(real_modes(*other) >= 1.6 * real_modes(*size) for other in others)
-        assert others[-1][1] > size[1]
-
-
 def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Measured) -> None:
     asked = measured(lambda d, c: 1.0 + 0.1 / d**2)
     choice = choose_modes(RESIDUAL, 1e-2, quantity="growth")
@@ -70,15 +61,6 @@ def test_diameters_that_agree_among_themselves_do_not_do(measured: Measured) -> 
         choose_modes(P, 0.1, quantity="growth")
 
 
-def test_undecided_says_what_can_be_done(measured: Measured) -> None:
-    measured(lambda d, c: float(d))
-    advice = "34, 66, 99 modes, more than the tolerance 0.01; give the number of modes, a larger tolerance"
-    with pytest.raises(DiscModelError, match=f"{advice}, or contact_compliance='residual'$"):
-        choose_modes(P, quantity="growth")
-    with pytest.raises(DiscModelError, match=f"{advice}$"):
-        choose_modes(RESIDUAL, quantity="growth")
-
-
 def test_where_there_is_no_such_quantity_nothing_is_chosen(measured: Measured) -> None:
     """Models of few modes agreed that N = 385 N never separates, where larger ones do after 51 s."""
     asked = measured(lambda d, c: math.nan)
@@ -87,31 +69,6 @@ def test_where_there_is_no_such_quantity_nothing_is_chosen(measured: Measured) -
     assert max(real_modes(*size) for size in asked) == 34
     measured(lambda d, c: 1.0 if d >= 6 else math.nan)
     assert choose_modes(P, quantity="growth").parameters.n_diameters == 6
-
-
-def test_that_it_is_there_with_some_models_only_is_no_agreement(measured: Measured) -> None:
-    measured(lambda d, c: 1.0 if c else math.nan)
-    assert choose_modes(P, quantity="growth").parameters.n_circles == 1
-    measured(lambda d, c: math.nan if c else 1.0)
-    with pytest.raises(DiscModelError, match=r"still changes between being there and being not among 34, 66, 99 modes"):
-        choose_modes(P, quantity="growth")
-    measured(lambda d, c: math.nan if d == 1 else 1.0)
-    assert choose_modes(P, quantity="growth").parameters.n_diameters == 2
-
-
-def test_the_record_holds_what_was_compared(measured: Measured) -> None:
-    measured(lambda d, c: 2.0)
-    choice = choose_modes(P, 1e-3, quantity="growth")
-    assert json.loads(choice.to_json()) == {
-        "compared_with": [2, 1],
-        "error": 0.0,
-        "modes": 3,
-        "n_circles": 0,
-        "n_diameters": 1,
-        "quantity": "growth",
-        "tolerance": 1e-3,
-        "values": {"1,0": 2.0, "2,0": 2.0, "2,1": 2.0},
-    }
 
 
 def one_case(**text: Any) -> CaseSpec:

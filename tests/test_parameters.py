@@ -110,14 +110,6 @@ def test_import_is_light() -> None:
     assert python(code).stdout.strip() == "set()"
 
 
-def test_package_lists_its_names() -> None:
-    import disc_model
-
-    assert set(disc_model.__all__) <= set(dir(disc_model))
-    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        _ = disc_model.nothing
-
-
 def test_values_without_names_are_refused_with_the_names_that_they_lack() -> None:
     with pytest.raises(ParameterError, match=r"takes named values: Parameters\(N=385, Omega=15.1\)$"):
         Parameters(385, 15.1)  # type: ignore[misc]

@@ -33,11 +33,6 @@ def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_
     assert (source_hash(paths[0]) == source_hash(paths[1])) == same
 
 
-def test_a_script_is_the_same_beside_the_package_and_within_it() -> None:
-    within = PACKAGE / "workflow" / "scripts" / "compute_batch.py"
-    assert source_hash(within) == source_hash(within.resolve())
-
-
 SOLVE = """
 from typing import TYPE_CHECKING
 from . import laws

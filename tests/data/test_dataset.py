@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Disc, ParameterError, Parameters, Poincare, Record, Result, Window, simulate
+from disc_model import Disc, ParameterError, Parameters, Poincare, Result, Window, simulate
 from disc_model.data.dataset import UnreadableFile, WriteError, load, load_inputs, save
-from disc_model.data.variables import STATUSES, attributes, flag_names
-from disc_model.errors import DiscModelError
+from disc_model.data.variables import STATUSES, flag_names
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.cases import merge_cases
@@ -57,39 +56,12 @@ def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) 
     assert mine.attrs["parameters"] == P.canonical_json
 
 
-def test_a_part_of_a_tree_is_a_file_of_its_own(tree: xr.DataTree, tmp_path: Path) -> None:
-    whole = xr.DataTree()
-    whole["F13"] = tree
-    for name, part in (("whole.nc", whole), ("part.nc", whole["F13"])):
-        save(part, tmp_path / name)
-    xr.testing.assert_identical(load(tmp_path / "whole.nc"), whole)
-    xr.testing.assert_identical(load(tmp_path / "part.nc"), tree)
-
-
-@pytest.mark.parametrize("names", [["a", "a"], ["a", "N"]])
-def test_a_window_takes_no_others_name(names: list[str]) -> None:
-    record = Record(windows=(Window(stop=0.001, rate=1e4), Window(stop=0.001, rate=1e3)))
-    with pytest.raises(ParameterError, match=r"names=.*: must be 2 different names"):
-        simulate(Parameters(N=200, Omega=20), 0.001, record=record).to_tree(names)
-
-
-def test_windows_without_names_are_numbered(result: Result) -> None:
-    assert list(result.to_tree().children) == ["events", "sample_0", "sample_1", "poincare"]
-
-
 @pytest.mark.compiled
 def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:
     for node in tree.subtree:
         for name, variable in node.to_dataset(inherit=False).variables.items():
             assert variable.attrs["units"], name
             assert variable.attrs["long_name"], name
-
-
-@pytest.mark.parametrize("name", ["kind", "phase", "status", "normalization", "contact"])
-def test_flags_say_what_their_values_mean(name: str) -> None:
-    attrs = attributes(name)
-    assert len(attrs["flag_values"]) == len(attrs["flag_meanings"].split())
-    assert attrs["flag_values"].dtype == np.int8
 
 
 @pytest.mark.compiled
@@ -100,13 +72,6 @@ def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
         save(merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}")
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
     assert (tmp_path / "merged_a.nc").read_bytes() == (tmp_path / "merged_b.nc").read_bytes()
-
-
-def test_only_events_asked_for_are_kept(tree: xr.DataTree) -> None:
-    time = tree["events"].to_dataset()["time"].values
-    assert time.min() >= 0.1
-    assert int(tree["n_events"]) > time.size
-    assert run_case(spec_of(events=None))["events"].sizes["event"] == 0
 
 
 @pytest.mark.compiled
@@ -207,31 +172,6 @@ def test_a_device_is_never_replaced(tmp_path: Path) -> None:
         with pytest.raises(ParameterError, match="must be the name of a regular file"):
             save(TREE, path)
     assert pipe.is_fifo()
-
-
-def test_a_link_stays_and_its_target_is_written(path: Path) -> None:
-    link = path.with_name("link.nc")
-    path.write_bytes(b"old")
-    link.symlink_to(path.name)
-    save(TREE, link)
-    assert link.is_symlink()
-    xr.testing.assert_identical(load(path), TREE)
-
-
-@pytest.mark.parametrize(("umask", "mode"), [(0o077, 0o600), (0o002, 0o664)])
-def test_the_umask_says_who_may_read(umask: int, mode: int, path: Path) -> None:
-    """Every file was readable to all, whatever the umask."""
-    before = os.umask(umask)
-    try:
-        save(TREE, path)
-    finally:
-        os.umask(before)
-    assert path.stat().st_mode & 0o777 == mode
-
-
-def test_a_missing_file_is_an_error_of_the_package(tmp_path: Path) -> None:
-    with pytest.raises(DiscModelError, match=r"run\.nc: there is no such file"):
-        load(tmp_path / "run.nc")
 
 
 def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:

@@ -77,13 +77,9 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
     ("change", "phrase"),
     [
         ({"slider": (0.0999, 0.005)}, "slider=(0.0999, 0.005): must be a node of the mesh"),
-        ({"slider": 0.1}, "slider=0.1: must be two numbers, r and z"),
         ({"E": -1.0, "nu": 0.5, "rho": 0}, "E=-1: must be > 0; nu=0.5: must be < 0.5; rho=0: must be > 0"),
-        ({"nu": float("nan"), "damping_ratio": 1}, "nu=nan: must be finite"),
-        ({"highest_Hz": float("inf")}, "highest_Hz=inf: must be finite and > 0"),
         ({"highest_Hz": 1.0}, "highest_Hz=1: must be above a mode that moves under the slider"),
         ({"clamped": lambda x: x[0] < 0.05}, "clamped=0: must hold nodes of the section: coordinates are in m"),
-        ({"clamped": lambda x: False}, "clamped=0: must hold nodes"),
     ],
 )
 def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> None:
@@ -96,15 +92,12 @@ def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> No
     ("rectangles", "size", "phrase"),
     [
         ([(0.1, 0.06, 0, 1)], 0.01, "rectangles.0"),
-        ([], 0.01, "rectangles.0=(): must be (r from"),
-        ([(0.06, 0.1, 0)], 0.01, "rectangles.0=(0.06, 0.1, 0.0): must be (r from"),
         (
             [(60, 120, 0, 10)],
             0.01,
             "size=0.01: must give at most 100,000 elements, not 6e+06: size and rectangles are in m",
         ),
         (RING, 0, "size=0: must be > 0"),
-        (RING, "x", "size='x': must be > 0"),
     ],
 )
 def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: object, phrase: str) -> None:
@@ -118,12 +111,6 @@ def test_units_by_a_thousand_or_more_off_are_told(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
     with pytest.warns(dm.ImplausibleValue), pytest.raises(dm.ParameterError, match="lowest modes of 0 nodal diameters"):
         ring_by_elements(0.005, E=150)
-
-
-def test_a_section_in_pieces_is_refused() -> None:
-    """A ring that nothing held was left out without a word."""
-    with pytest.raises(dm.ParameterError, match="mesh=2: must be one piece"):
-        ring_by_elements(rectangles=[RING[0], (0.11, 0.12, -0.005, 0.005)])
 
 
 def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,7 +22,7 @@ from disc_model.simulation.states import engine_case
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
-from disc_model.studies.study import StudyError, load_study
+from disc_model.studies.study import load_study
 from tests import needs
 from tests.commands import Command
 
@@ -97,18 +97,6 @@ def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> Non
     assert dm.Parameters.model_validate_json(p.canonical_json) == p
 
 
-def test_content_decides_the_key(tmp_path: Path) -> None:
-    """Neither the file's name nor how the numbers are written."""
-    (tmp_path / "a.csv").write_text("diameters,omega_rad_per_s,amplitude_per_sqrt_kg\n1,1000,2\n")
-    (tmp_path / "b.csv").write_text(
-        "# damped\namplitude_per_sqrt_kg, damping_ratio, omega_rad_per_s, diameters\n2.0,0,1e3,1\n"
-    )
-    one, other = (P.replace(disc=dm.read_disc(tmp_path / f"{name}.csv")) for name in "ab")
-    assert one.key == other.key != P.key
-    (tmp_path / "b.csv").write_text(f"diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,{500 / np.pi:.17g},2\n")
-    assert dm.read_disc(tmp_path / "b.csv").omega[0] == pytest.approx(1000, rel=1e-15)
-
-
 def test_the_residual_compliance_is_found_from_the_static_one() -> None:
     disc = dm.Disc(**THREE, static_compliance=1e-5)
     given = P.replace(disc=disc, contact_compliance="residual", contact_force="normal")
@@ -143,14 +131,6 @@ def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
     assert "shape_at_0.073_m" in text
     (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
     assert dm.read_disc(tmp_path / "disc.csv") == disc
-
-
-def test_the_slider_on_a_given_disc_runs_where_the_plate_ends(tmp_path: Path) -> None:
-    """A radius above the plate's b = 0.12 m was refused, and so was another b."""
-    assert dm.Parameters(N=1, Omega=1, disc=dm.Disc(**THREE), r_0=0.13).r_0 == 0.13
-    (tmp_path / "disc.csv").write_text(disc_table(P))
-    for phrase in ("base: {disc: disc.csv, r_0: 0.13, N: 1}", "base: {r_0: 0.13, N: 1}\naxes: {disc: [disc.csv]}"):
-        grid_in(tmp_path, f"study: own\nquantity: floquet\nzip: {{Omega: [15]}}\n{phrase}\n")
 
 
 FIRST_LINES = (
@@ -209,20 +189,6 @@ def test_a_study_names_a_table_beside_it(tmp_path: Path) -> None:
     assert batches[0] == batches[1]
     (tmp_path / "b.csv").write_text(disc_table(P.replace(h=0.0021)))
     assert list(grid_in(tmp_path, OWN.format("b.csv")).batches) != batches[0]
-
-
-def test_a_study_that_is_named_by_another_has_its_tables_beside_it(tmp_path: Path) -> None:
-    """Only the file that was asked for itself had them read."""
-    (tmp_path / "disc.csv").write_text(disc_table(P))
-    (tmp_path / "own.yaml").write_text(OWN.format("disc.csv"))
-    (tmp_path / "all.yaml").write_text(f"study: all\nstudies: [{tmp_path}/own.yaml]\n")
-    grids, _ = load_study(tmp_path / "all.yaml").grids()
-    assert grids["own"].base["disc"]["omega"] == tuple(mode_arrays(P).omega)
-
-
-def test_a_study_without_its_table_says_so(tmp_path: Path) -> None:
-    with pytest.raises(StudyError, match=r"must be a text file that can be read \(No such file or directory\)"):
-        grid_in(tmp_path, OWN.format("nowhere.csv"))
 
 
 def test_discs_are_an_axis(tmp_path: Path) -> None:
@@ -301,20 +267,6 @@ def test_the_page_reads_a_universal_file(tmp_path: Path, monkeypatch: pytest.Mon
     np.testing.assert_allclose(found.amplitude, THREE["amplitude"], rtol=1e-5)
 
 
-def test_a_study_chooses_the_first_modes_of_its_table(tmp_path: Path) -> None:
-    """``auto`` was refused there as a parameter of the plate."""
-    plate = P.replace(n_diameters=8, normalization="orthonormal")
-    (tmp_path / "disc.csv").write_text(disc_table(plate))
-    text = (
-        "study: own\nquantity: floquet\nbase: {disc: disc.csv, n_diameters: auto, truncation_tolerance: 0.01, N: 385}\n"
-    )
-    study = computed(tmp_path, text + "axes: {Omega: [15]}\n")
-    choice = dm.choose_modes(P.replace(disc=dm.read_disc(tmp_path / "disc.csv")), 0.01).parameters
-    assert study["growth_rate"].item() == dm.floquet(choice.replace(Omega=15)).growth_rate
-    assert (study["n_diameters"].item(), study["n_circles"].item()) == (max(choice.disc.diameters), 0)
-    assert 0 < study["n_diameters"].item() < 8
-
-
 def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, command = tmp_path / "disc.csv", Command(capsys)
     path.write_text(command.out("modes", "--normalization", "orthonormal", "--csv"))
@@ -356,9 +308,3 @@ def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
     choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth")
     assert choice.parameters.disc == disc.first(modes)
     assert (choice.modes, choice.rich, choice.error) == (2 * modes - 1, (8,), pytest.approx(error))
-
-
-def test_a_table_without_the_quantity_is_not_chosen_from(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: np.nan)
-    with pytest.raises(dm.DiscModelError, match="undecided: no growth to choose by with 1, 3, 5 modes"):
-        dm.choose_modes(P.replace(disc=dm.Disc(**THREE)), quantity="growth")
