@@ -43,38 +43,24 @@ Table = dict[str, dict[Any, Any]]
 
 
 class Column(NamedTuple):
-    """A quantity of the tables.
+    """A quantity of the table: its title, and the relative tolerance within which models agree.
 
-    title : of a row; costs have none
-    head : of a column
-    tolerance : relative, within which models agree: 1 % or better for the motion in contact, and 10 % for values from
-        ten seconds of an irregular motion
-    scale, digits : for display
+    It is 1 % or better for the motion in contact, and 10 % for values from ten seconds of an irregular motion.
     """
 
     title: str
-    head: str
     tolerance: float
-    scale: float
-    digits: int
-
-    def shown(self, value: float) -> str:
-        """A value as text; a dash if missing."""
-        return "-" if math.isnan(value) else f"{float(f'{value * self.scale:.{self.digits}g}'):.10g}"
 
 
-ALL = {
-    "lowest_coupled": Column("lowest coupled frequency", "lowest frequency, rad/s", 1e-3, 1.0, 6),
-    "growth_rate": Column("growth rate", "growth, 1/s", 1e-2, 1.0, 3),
-    "first_separation": Column("first separation", "first separation, s", 1e-2, 1.0, 5),
-    "separations": Column("rate of separations", "separations per s", 1e-1, 1.0, 3),
-    "separated_share": Column("time in separation", "time in separation", 1e-1, 1.0, 2),
-    "u_range": Column("range of the slider's height", "range, mm", 1e-1, 1e3, 3),
-    "force_max_separating": Column("largest force", "largest force, N", 1e-1, 1.0, 3),
-    "cost": Column("", "cost in contact, ms/s", math.nan, 1e3, 2),
-    "cost_separating": Column("", "cost after it, ms/s", math.nan, 1e3, 2),
+TABLED = {
+    "lowest_coupled": Column("lowest frequency", 1e-3),
+    "growth_rate": Column("growth", 1e-2),
+    "first_separation": Column("first separation", 1e-2),
+    "separations": Column("separations per s", 1e-1),
+    "separated_share": Column("time in separation", 1e-1),
+    "u_range": Column("range", 1e-1),
+    "force_max_separating": Column("largest force", 1e-1),
 }
-TABLED = {name: column for name, column in ALL.items() if column.title}
 LATE = ("separations", "separated_share", "u_range", "force_max_separating")
 """Quantities after the first separation."""
 FEWEST = 3
@@ -167,13 +153,11 @@ def _answers(found: pd.DataFrame) -> Table:
 
 def mode_numbers(study: xr.Dataset) -> dict[str, Any]:
     """Numbers of a run for the pages: a row for each case, contact and model, None where there is no value."""
-    frame = study[["modes", *ALL]].to_dataframe(dim_order=["case", "contact", "model"])
+    frame = study[["modes", *TABLED]].to_dataframe(dim_order=["case", "contact", "model"])
     rounded = frame.map(lambda value: float(f"{value:.5g}")).astype(object)
     return {
         "machine": study.attrs["machine"],
-        "horizon": float(study.attrs["horizon"]),
         "most_growth": float(study.attrs["most_growth"]),
-        "late": json.loads(study.attrs["late"]),
         "values": rounded.where(frame.notna(), None).reset_index().to_dict("split", index=False),
     }
 
@@ -216,7 +200,6 @@ def passages(speed: Mapping[str, Any], modes: Mapping[str, Any]) -> dict[str, st
     }
     values = _convergence(modes) | {
         "speed": speed,
-        "modes": modes,
         "first": answers["series (this package)"]["first_separation"],
         "cycle_growth": answers["series, from the cycle itself"]["growth_rate"],
         "costs_table": _printed(speed["costs"], {head: head for head in heads}),
@@ -259,42 +242,26 @@ def _cell(found: Any) -> str:
 
 
 def _convergence(run: Mapping[str, Any]) -> dict[str, Any]:
-    """Tables on the number of modes: of all models, from which on each quantity is settled, and what is not."""
+    """The table on the number of modes from which on each quantity is settled."""
     study = pd.DataFrame(**run["values"]).set_index(["case", "contact", "model"]).astype(float)
-    tables = [
-        {"title": _upper(str(case)), "table": _of_all_models(part)} for case, part in study.groupby("case", sort=False)
-    ]
-    rows, open_rows = [], []
+    rows = []
     for (case, contact), models in study.groupby(["case", "contact"], sort=False):
         row = {"case": case, "contact": contact}
         for name, column in TABLED.items():
             line = _known(models, name, run["most_growth"])
-            place, last = settled(line.tolist(), column.tolerance), line[-FEWEST:]
-            row[f"{column.head.split(',')[0]}, to {100 * column.tolerance:g} %"] = _from_where(line, place)
-            if place is None:
-                modes = ", ".join(f"{modes:g}" for modes in last.index)
-                open_rows.append((_upper(str(case)), contact, column.title, ", ".join(map(column.shown, last)), modes))
+            first = settled(line.tolist(), column.tolerance)
+            row[f"{column.title}, to {100 * column.tolerance:g} %"] = _from_where(line, first)
         rows.append(row)
     table = pd.DataFrame(rows)
-    undecided = pd.DataFrame(open_rows, columns=("case", "contact", "quantity", "values", "with so many modes"))
-    found = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
-    counts = [{"contact": contact, "settled": part["sum"], "count": part["size"]} for contact, part in found.iterrows()]
+    numbers = (table.set_index(["case", "contact"]) != NOT).stack().groupby("contact", sort=False).agg(["sum", "size"])
+    counts = [
+        {"contact": contact, "settled": part["sum"], "count": part["size"]} for contact, part in numbers.iterrows()
+    ]
     return {
-        "tables": tables,
         "settled_table": as_markdown(table),
-        "open_table": as_markdown(undecided),
         "most": f"{study['modes'].iloc[-1]:g}",
         "counts": counts,
     }
-
-
-def _of_all_models(study: pd.DataFrame) -> str:
-    """The table of a case: a row for each model, with rigid and residual values in each cell."""
-    cells = {column.head: study[name].map(column.shown) for name, column in ALL.items()}
-    table = pd.DataFrame(cells).groupby("model", sort=False).agg(" / ".join)
-    table.insert(0, "modes", study["modes"].groupby("model", sort=False).first().astype(int))
-    table.insert(0, "diameters, circles", table.index.str.replace(",", ", "))
-    return as_markdown(table)
 
 
 def _known(models: pd.DataFrame, name: str, most_growth: float) -> "pd.Series[float]":
@@ -315,10 +282,6 @@ def _from_where(line: "pd.Series[float]", place: int | None) -> str:
     if not math.isnan(line.iloc[place]):
         return where
     return f"none {where}" if place else "none"
-
-
-def _upper(case: str) -> str:
-    return case[:1].upper() + case[1:]
 
 
 def as_markdown(frame: pd.DataFrame) -> str:

@@ -59,13 +59,13 @@ def study() -> xr.Dataset:
     """A case whose residual values have settled from nine modes on, while rigid ones go on growing."""
     rigid, residual = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2.0, 2.001, 2.0, 2.0])
     dims = ("case", "contact", "model")
-    data = {name: (dims, np.array([[rigid, residual]])) for name in pages.ALL}
+    data = {name: (dims, np.array([[rigid, residual]])) for name in pages.TABLED}
     data["modes"] = (dims, np.array([[[1.0, 9.0, 17.0, 34.0, 165.0]] * 2]))
     data["growth_rate"][1][..., -1] = np.nan  # too many modes
     return xr.Dataset(
         data,
         {"case": ["orthonormal, N=1"], "contact": ["rigid", "residual"], "model": ["0,0", "4,0", "8,0", "8,1", "16,4"]},
-        {"machine": "a machine", "late": "[20.0, 10.0]", "most_growth": 80, "horizon": 200.0},
+        {"machine": "a machine", "most_growth": 80},
     )
 
 
@@ -93,14 +93,3 @@ def test_a_run_on_modes_comes_to_words(study: xr.Dataset) -> None:
     assert residual.count("| from 9 ") == 7
     counts = "0 of 7 quantities with rigid contact, 7 of 7 quantities with residual contact"
     assert counted == f"Converged within 165 modes: {counts}."
-    moving = known["truncation_open"]
-    assert "| Orthonormal, N=1 | rigid | lowest coupled frequency | 3, 4, 5 | 17, 34, 165 |" in moving
-    assert "| growth rate | 2, 3, 4 | 9, 17, 34 |" in moving  # with 165 it was not looked for
-    assert "| range of the slider's height | 3000, 4000, 5000 |" in moving  # mm
-    assert "| residual |" not in moving
-    # tables show both contacts in a cell
-    tables = known["truncation_tables"]
-    assert "| 4, 0 | 9 | 2 / 2 | 2 / 2 | 2 / 2 |" in tables
-    assert "| 16, 4 | 165 | 5 / 2 | - / - |" in tables
-    assert "within 200 s" in tables
-    assert "20 to 30 s after the first separation" in tables
