@@ -144,9 +144,3 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
     exponents["converged"] = (each, np.zeros((3, 1), np.int8), known)
     one, other = (xr.Dataset(values | {"status": status}, axes, attrs) for values in (samples, exponents))
     return one, other
-
-
-def in_base(study: xr.Dataset) -> xr.Dataset:
-    """The study as if its one normalization were given in base."""
-    attrs = {"base": json.dumps({"normalization": str(study["normalization"].item())})}
-    return study.squeeze("normalization", drop=True).assign_attrs(attrs)

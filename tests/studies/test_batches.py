@@ -1,16 +1,14 @@
 """Grid studies: what files may say, and how grids become batches."""
 
 import json
-import time
 from typing import Any
 
 import pytest
 import xarray as xr
 
-from disc_model import floquet, mode_choice
+from disc_model import floquet
 from disc_model.mode_choice import choose_modes
 from disc_model.studies.grid import GridStudy
-from disc_model.studies.run import run_batch
 from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
 
@@ -74,21 +72,6 @@ def test_batches_hold_whole_values_and_about_the_same_work() -> None:
     assert 4 * 41 * 41 <= room < 5 * 41 * 41
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("quantity", "options"), [("floquet", {}), ("outcome", {"horizon": 100}), ("campbell", {})])
-def test_a_point_costs_about_what_its_quantity_says(quantity: str, options: dict[str, float]) -> None:
-    """Within a factor of five, for other processors: batches used to cost 15 times their work.
-
-    A test by time is no quick test: without the newer instructions of a processor a point costs ten times as much.
-    """
-    grid = parse_grid(growth(N=[200], Omega=span_of(9)) | {"quantity": quantity, "options": options})
-    (text,) = grid.batches.values()
-    run_batch(text)  # loads the kernels
-    began = time.process_time()
-    run_batch(text)
-    assert 0.2 < (time.process_time() - began) / 9 / grid.options.seconds < 5
-
-
 @pytest.mark.parametrize(
     ("given", "counts"),
     [
@@ -135,12 +118,32 @@ def test_only_batches_whose_modes_a_motion_chooses_depend_on_what_chooses() -> N
     assert sources(n_diameters="auto", truncation_quantity="growth") == (OUTCOME, "mode_choice")
 
 
-def test_modes_chosen_by_a_motion_are_chosen_for_each_point(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Settled from 5 modes on; where the spring is hard it never does, and that point alone fails."""
-    settled = {1: 1.0, 2: 2.0, 4: 2.002, 8: 2.003}
-    monkeypatch.setitem(
-        mode_choice.MEASURES, "growth", lambda p: p.n_diameters if p.k > 1e6 else settled[p.n_diameters]
-    )
-    done = cycles({"k": [5e4, 1e12]}, Omega=0, n_diameters="auto", truncation_quantity="growth")
-    assert done["n_diameters"].values.tolist() == [2, -1]
-    assert "n_diameters: undecided: growth still changes by 0.5 of itself" in str(done["message"].values[1])
+def test_extra_values_leave_the_batches_that_there_are() -> None:
+    """At any resolution; a value that is there already is not computed twice."""
+    axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}
+    for resolution in (1, 2):
+        before, after = (
+            parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}}, resolution)
+            for given in (axis, axis | {"extra": [2, 3.3]})
+        )
+        assert {(3.3,)} == set(after.values["c"]) - set(before.values["c"])
+        assert set(before.batches) < set(after.batches)
+        (new,) = set(after.batches) - set(before.batches)
+        assert json.loads(after.batches[new])["points"] == [[3.3]]
+
+
+def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
+    raw = {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200, "Omega": 20}}
+    raw |= {"batch": {"over": ["c"]}}
+    after = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
+
+    def texts(starts: dict[str, Any], names: list[str]) -> dict[str, dict[str, Any]]:
+        study = parse_grid(raw | {"axes": {"c": [0, 1], "start": names}, "starts": starts})
+        return {key: json.loads(text) for key, text in study.batches.items()}
+
+    before = texts({"apart": after}, ["static", "apart"])
+    assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["static"]]
+    more = texts({"apart": after, "kicked": {"perturbation": {"u": 1e-3}}}, ["static", "apart", "kicked"])
+    assert set(before) < set(more)
+    changed = texts({"apart": after | {"perturbation": {"f": 1}}}, ["static", "apart"])
+    assert len(set(before) & set(changed)) == 1

@@ -3,16 +3,13 @@
 import json
 
 import numpy as np
-import pytest
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.simulation.states import static_start
 from disc_model.studies.grid import Dimension
-from disc_model.studies.motions import LONGEST, SAMPLES, cycle_length, run_motions
-from disc_model.studies.quantities.outcome import HorizonOutcome
-from disc_model.studies.quantity import Point, quantity_of
+from disc_model.studies.motions import SAMPLES, run_motions
+from disc_model.studies.quantity import quantity_of
 from tests.studies.refused import parse_grid
 
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
@@ -48,17 +45,6 @@ def test_points_of_a_study_and_the_name_of_their_file():
     assert name not in parse_grid({"study": "small", "quantity": "floquet", "axes": AXES}).batches
 
 
-def test_the_history_goes_on_from_the_late_stretch():
-    """The contact force stays in the range that the dataset gives for the late stretch of a settled motion."""
-    row, _ = HorizonOutcome(horizon=200).compute_point(Point(Parameters(N=200, Omega=5)))
-    assert row["outcome"] == "quiet"
-    found = histories("outcome", [200], [5], horizon=200)
-    # another phase of sampling finds extremes to a thousandth of the range
-    room = 1e-2 * (row["P_max"] - row["P_min"])
-    assert row["P_min"] - room <= found["P"].min() <= found["P"].max() <= row["P_max"] + room
-    assert np.ptp(found["P"].values) > 0.9 * (row["P_max"] - row["P_min"])
-
-
 def test_samples_are_those_of_the_motion():
     found = histories("bifurcation", [385], [15.1], transient=2.0, samples=1).isel(point=0)
     p = Parameters(N=385, Omega=15.1)
@@ -71,10 +57,3 @@ def test_samples_are_those_of_the_motion():
         # one sample may fall on a jump of P at a switch, on either side
         close = np.isclose(found[name], expected, atol=1e-4 * np.ptp(expected), rtol=0)
         assert close.sum() >= SAMPLES - 8
-
-
-def test_a_cycle_without_releases_is_the_free_period():
-    p = Parameters(N=200, Omega=20, mu_s=0.0, mu_k=0.0)
-    assert cycle_length(p, static_start(p)) == pytest.approx(2 * np.pi * np.sqrt(p.m / p.k_p))
-    slack = p.replace(k_p=0.0)
-    assert cycle_length(slack, static_start(slack)) == LONGEST

@@ -1,13 +1,17 @@
-"""What all quantities must keep: a batch of a grid has the results of its points, computed one by one."""
+"""What all quantities must keep: a batch has the results of its points, and a failure costs its own point alone."""
 
+import math
+from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from disc_model.data.variables import flag_names
-from disc_model.studies.quantity import quantity_names, quantity_of
-from tests.studies.conftest import computed
+from disc_model.data.variables import Variable, flag_names
+from disc_model.parameters import Parameters
+from disc_model.studies.quantity import STATUS, STATUSES, Point, quantity_names, quantity_of
+from tests.studies.conftest import compute, computed
 from tests.studies.refused import parse_grid
 
 SCAN = {"start": 10, "stop": 20, "count": 2}
@@ -79,3 +83,40 @@ def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> N
     assert bool(quantity.motions) == bool(quantity.motion) == ("state_at" in vars(quantity))
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
     assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)
+
+
+P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
+
+
+def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
+    """A quantity of one number."""
+    columns = {"status": STATUS, "value": Variable("1", "a number")}
+    return SimpleNamespace(COLUMNS=columns, COORDINATES={}, compute_point=compute_point)
+
+
+@pytest.mark.parametrize(
+    ("fail", "message"),
+    [
+        (lambda: np.linalg.solve(np.zeros((2, 2)), np.ones(2)), "LinAlgError: Singular matrix"),
+        (lambda: 1 / 0, "ZeroDivisionError: division by zero"),
+    ],
+)
+def test_a_numerical_failure_is_the_status_of_its_point(fail, message) -> None:
+    """One singular matrix used to end all points of a batch."""
+
+    def compute_point(point: Point):
+        N = point.parameters.N
+        return {"status": "ok", "value": fail() if N == 0 else N}, ""
+
+    table = compute(made_up_quantity(compute_point), [P, Q, P])
+    assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
+    np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
+    assert table.messages == ["", message, ""]
+
+
+def test_a_mistake_in_the_program_is_no_status() -> None:
+    def compute_point(point: Point):
+        raise KeyError("horizon")
+
+    with pytest.raises(KeyError):
+        compute(made_up_quantity(compute_point), [P])

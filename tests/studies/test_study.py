@@ -82,13 +82,6 @@ def test_cases_inherit_and_override() -> None:
     assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
 
 
-def test_null_drops_what_is_inherited() -> None:
-    spec = with_case(record={"windows": {"history": None}, "events": False}).specs["A"]
-    assert spec.windows == ()
-    assert spec.events is None
-    assert not spec.record.events
-
-
 def test_specification_survives_its_text() -> None:
     study = with_case(record={"poincare": {"theta": 0.5}}, ramps=[{"parameter": "N", "to": "5", "start": 2, "end": 8}])
     assert [ramp.to for ramp in study.specs["A"].ramps] == [5.0]
@@ -115,62 +108,29 @@ def test_key_depends_on_content_alone() -> None:
 
 def test_keys_given_twice(tmp_path: Path) -> None:
     text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\nstudy: y\n"
-    path = tmp_path / "twice.yaml"
-    path.write_text(text)
-    valid = {"study": "x", "cases": {"A": CASE}}
-    for load in (
-        load_study,
-        lambda file: study_from_config({"study": "x", "cases": {}}, [file]),
-        lambda file: study_from_config(valid, [file]),
-    ):
-        with pytest.raises(StudyError, match=r"twice\.yaml") as caught:
-            load(path)
-        assert "study: given twice, in lines 1 and 4" in caught.value.faults
-        assert "N: given twice, in lines 3 and 3" in caught.value.faults
-
-
-@pytest.mark.parametrize(
-    ("content", "phrase"),
-    [
-        (b"a: [1", r"broken\.yaml"),
-        (b"a: b: c", r"broken\.yaml"),
-        (b"study: \xff", r"broken\.yaml: .*\n.*cannot be read: byte 7 is no UTF-8"),
-        (None, "cannot be read"),
-    ],
-)
-def test_a_file_that_cannot_be_read(tmp_path: Path, content: bytes | None, phrase: str) -> None:
-    path = tmp_path / "broken.yaml"
-    if content is not None:
-        path.write_bytes(content)
-    with pytest.raises(StudyError, match=phrase):
-        load_study(path)
+    (path := tmp_path / "twice.yaml").write_text(text)
+    for load in (load_study, lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file])):
+        faults = faults_of(load, path)
+        assert {"study: given twice, in lines 1 and 4", "N: given twice, in lines 3 and 3"} <= {*faults}
 
 
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
-    plots = {name: {"kind": "growth_map", "overlays": {"curves": name}} for name in ("elsewhere", "four")}
-    plane = {"quantity": "floquet", "axes": {"N": [1], "Omega": [1]}}
-    texts = {
-        "one": "study: one\nquantity: outcome\n",
-        "two": "study: other\nquantity: floquet\naxes: {N: [1], Omega: [1], N: [2]}\n",
-        "three": json.dumps(plane | {"study": "three", "figures": plots}),
-        "four": json.dumps(plane | {"study": "small"}),
-        "five": json.dumps({"study": "five", "cases": {"A": CASE}}),
-    }
+    figure = {"f": {"kind": "growth_map", "overlays": {"curves": "elsewhere"}}}
+    plane = {"study": "three", "quantity": "floquet", "axes": {"N": [1], "Omega": [1]}, "figures": figure}
+    texts = {"one": "study: one\nquantity: outcome\n", "three": json.dumps(plane)}
+    texts["five"] = json.dumps({"study": "five", "cases": {"A": CASE}})
     for name, text in texts.items():
         (tmp_path / f"{name}.yaml").write_text(text)
     study = parse_study({"study": "three", "studies": ["*.yaml"], "cases": {"A": CASE}, "overrides": {"six": {}}})
     found = "\n".join(faults_of(study.grids, [tmp_path]))
     for fault in (
         "one.yaml: options.horizon: is required",
-        "two.yaml: N: given twice, in lines 3 and 3",
         "study = 'three': is the name of another folder of results",
-        "three: figures.elsewhere.overlays.curves = 'elsewhere': no such study (known: five, four, one,",
-        "three: figures.four.overlays.curves = 'four': must be a study of the quantity stability_curves",
-        "study = 'small': must be the name of the file",
+        "three: figures.f.overlays.curves = 'elsewhere': no such study (known: five, one, three)",
         "study = 'five': must be a grid alone",
-        "overrides.six: no such study (known: five, four, one, three, two)",
+        "overrides.six: no such study (known: five, one, three)",
     ):
-        assert fault in found
+        assert fault in found, found
 
 
 def test_overrides_and_resolution_are_laid_over_the_file(tmp_path: Path) -> None:

@@ -12,7 +12,6 @@ from disc_model import Parameters, floquet
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.studies.merge import MergeError, failures, merge_batches
-from disc_model.studies.rules import holds
 from disc_model.studies.run import run_batch
 from tests.studies.refused import parse_grid
 
@@ -33,16 +32,6 @@ def test_points_that_break_the_rule_are_not_computed() -> None:
     assert points(raw()) == [[s, k] for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s]
     assert (grid.n_points, grid.attrs["where"]) == (6, "(mu_k <= mu_s)")
     assert not list(grid.doubts)
-
-
-def test_what_cannot_be_compared_does_not_hold() -> None:
-    assert holds(["0.5 < a/b < 2"], {"a": 1.0, "b": 1.0})
-    assert not holds(["a/b < 2"], {"a": 1.0, "b": 0.0})
-    assert not holds(["contact < 2"], {})
-    assert not holds(["contact*99999999999*99999999999 == 'x'"], {})
-    assert not holds(["contact*n_diameters*n_diameters == 'x'"], {})
-    assert holds(["n_diameters == 4"], {"n_diameters": 4})
-    assert holds(["contact == 'separable'"], {})
 
 
 def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:

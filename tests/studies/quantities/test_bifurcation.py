@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from disc_model.data.variables import Outcome
-from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate
 from disc_model.simulation.case import Poincare, Record, Start
@@ -25,12 +24,6 @@ def test_samples_are_those_of_the_simulator() -> None:
     run = simulate(p, 2.6 * turn, tol=1e-9, record=Record(poincare=Poincare(start=0.9 * turn)))
     np.testing.assert_allclose(values["psi"], run.poincare["psi"], rtol=0, atol=1e-7)
     assert values["status"] == "ok"
-
-
-def test_without_a_drive_there_is_no_turn_to_sample_once() -> None:
-    p = Parameters(N=200, Omega=0, n_diameters=1)
-    with pytest.raises(ParameterError, match="Omega=0: must be > 0, because samples are taken once a turn"):
-        Bifurcation(transient=0.1, samples=2).compute_point(Point(p))
 
 
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
@@ -93,17 +86,6 @@ def test_a_slow_drift_with_equal_intervals_is_not_steady() -> None:
 
 
 @pytest.mark.compiled
-def test_a_long_period_is_found_before_the_motion_has_come_to_it() -> None:
-    """Of 21 separations and 5 releases; simulated to 240 s its intervals repeat to 1e-13 s."""
-    values = at_switches(20, transient=15)
-    assert (values["period_events"], values["settled"]) == (21, "settled")
-    assert values["transient_time"] < 100
-    assert 1e-11 < values["period_residual"] < 1e-6
-    # what is shown is the cycle itself
-    assert np.ptp(np.reshape(values["psi"][-42:], (2, 21)), axis=0).max() < 1e-9
-
-
-@pytest.mark.compiled
 @pytest.mark.parametrize(
     ("Omega", "period", "phase"),
     # the last one sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several
@@ -114,17 +96,6 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
     assert (values["settled"], values["period_events"]) == ("settled", period)
     assert len(np.unique(np.round(values["psi"], 5))) == period
     assert set(values["phase"]) == {phase}
-
-
-@pytest.mark.compiled
-@pytest.mark.slow
-def test_a_motion_that_repeats_after_a_thousand_separations_is_periodic() -> None:
-    """It was said to have no period: a stretch of 5 s has 677 separations, and cycles were looked for in half of it."""
-    start = Start(prerun={"parameters": {"N": 385, "Omega": 15.1, "c_p": 0}, "time": 70})
-    options = Bifurcation(section="event", transient=120, max_transient=120)
-    values, _ = options.compute_point(Point(Parameters(N=385, Omega=15, c_p=0.15), start))
-    assert (values["period_events"], values["settled"], values["kind"]) == (1066, "settled", Outcome.SEPARATING)
-    assert values["period_residual"] < 1e-8
 
 
 @pytest.mark.compiled

@@ -10,7 +10,6 @@ from scipy.optimize import brentq
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.campbell import frequencies
-from disc_model.studies.merge import summarised
 from disc_model.studies.quantities.campbell import Campbell
 from tests.studies.conftest import SMALL, computed
 
@@ -98,25 +97,6 @@ def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
     assert effects(gone) == ["no_cycle"]
     gone["stick_slip_frequency"][195:] = np.nan
     assert Campbell().summarise(gone)["n_crossings"] == 0, "nothing is known beyond the last cycle"
-
-
-def test_no_crossing_lies_between_speeds_of_which_a_rule_leaves_those_between_out() -> None:
-    """The modes' frequencies were interpolated over the gap, and crossings found where no speed is."""
-    study = made_up()
-    gap = abs(study["Omega"].values - 10) < 1
-    for left_out in (gap, np.ones(401)):
-        study["status"][:] = left_out.astype(int)
-        assert summarised(study, Campbell())["n_crossings"] == 0
-
-
-def test_the_rotation_meets_a_mode_at_its_critical_speed() -> None:
-    """f_Omega = 100 Hz at 200 pi rad/s, the speed of a moving load."""
-    speeds = np.linspace(500, 700, 401)
-    cell = made_up(rotation_frequency=speeds / (2 * np.pi), stick_slip_frequency=np.full(401, 70.0))
-    cell = cell.assign_coords(Omega=speeds)
-    found = Campbell().summarise(cell)
-    assert found["crossing_line"] == ["rotation"]
-    assert found["crossing_Omega"][0] == pytest.approx(200 * np.pi, rel=1e-9)
 
 
 def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:

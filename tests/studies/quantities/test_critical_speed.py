@@ -113,11 +113,3 @@ def test_scan_and_map_of_the_results_agree(study: str, least: int) -> None:
     in_map = xr.DataArray(flag_names(mapped["outcome"]) == "separation", dims=mapped["outcome"].dims)
     in_scan = scan["scan_first_separation"] <= 1000  # the map's horizon, s
     assert (in_scan == in_map).all()
-
-
-def test_all_crossings_are_found_where_separation_ends_again(fake_motions: None) -> None:
-    """In steps that see the speeds, from 14.15 to 14.45 rad/s, at which it never comes."""
-    found = speeds_at(400, [1000], 12, 15, 0.1, 0.1)
-    kinds = CriticalSpeed.COLUMNS["crossing_kind"].flags
-    assert [kinds[i] for i in found["crossing_kind"][0, 0, :4]] == ["begins", "ends", "begins", "none"]
-    np.testing.assert_allclose(found["crossing"][0, 0, :3], [12.4, 14.2, 14.5])

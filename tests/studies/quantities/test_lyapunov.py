@@ -6,8 +6,6 @@ from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import paradox
 
-AFTER = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}, "transient": 1}
-
 
 def test_a_transient_that_cannot_be_simulated_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     p, start = paradox()

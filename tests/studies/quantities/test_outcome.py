@@ -8,7 +8,6 @@ import pytest
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.studies.quantities.floquet import Floquet
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantity import STATUSES, Point
 from tests.studies.conftest import SMALL, compute, computed
@@ -18,39 +17,6 @@ def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.nd
     table = compute(HorizonOutcome(**{"horizon": 1000, **options}), map(Point, cases))
     words = HorizonOutcome.COLUMNS["outcome"].flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
-
-
-QUIET = [
-    {"N": 385, "Omega": 15},  # -0.105/s, next to a fold
-    {"N": 50, "Omega": 15},  # -0.0083/s
-    {"N": 200, "Omega": 5},
-    {"N": 200, "Omega": 20, "c": 0.5},
-    {"N": 200, "Omega": 15, "normalization": "orthonormal"},
-]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", QUIET, ids=str)
-def test_a_motion_left_early_would_have_stayed_quiet(case: dict[str, float]) -> None:
-    p = Parameters(**case)
-    left, words = outcomes([p])
-    whole, whole_words = outcomes([p], early_end=False)
-    assert left["time_reached"][0] < 400
-    assert whole["time_reached"][0] == 1000
-    assert words == whole_words == ["quiet"]
-    for name in ("P_min", "P_max"):
-        assert left[name][0] - p.N == pytest.approx(whole[name][0] - p.N, rel=0.02)
-    assert left["stick_fraction"][0] == pytest.approx(whole["stick_fraction"][0], abs=0.01)
-
-
-@pytest.mark.compiled
-def test_the_observed_rate_of_decay_is_that_of_the_multipliers() -> None:
-    p = Parameters(N=50, Omega=15)
-    found, words = outcomes([p], horizon=300, early_end=False)
-    rate = compute(Floquet(), [Point(p)]).arrays["growth_rate"][0]
-    assert words == ["quiet"]
-    assert found["return_map_residual_rate"][0] == pytest.approx(rate, rel=0.2)
-    assert found["cycle_distance"][0] < 1e-2
 
 
 @pytest.mark.compiled

@@ -64,13 +64,6 @@ def test_onset_and_end_are_speeds_of_the_ramps(made_up: SimpleNamespace) -> None
     assert max(end - start for start, end in made_up.calls if start > 1000) <= 100
 
 
-def test_separation_that_goes_on_at_the_lowest_speed_has_no_end(made_up: SimpleNamespace) -> None:
-    made_up.goes_on = True
-    found = swept((0.01, 0.1))
-    assert np.isnan(found["offset_speed"]).all()
-    assert np.isfinite(found["onset_speed"]).all()
-
-
 def test_a_run_that_cannot_go_on_says_at_which_rate(made_up: SimpleNamespace) -> None:
     made_up.breaks_at = 150.0  # on the way up at 0.01 rad/s per s, on the way down at 0.1
     options = Ramps.model_validate({**SPAN, "rates": {"start": 0.01, "stop": 0.1, "count": 2}})

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import CycleStatus, Outcome, flag_names
-from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
@@ -99,29 +98,6 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
 
 
-def test_a_point_that_fails_is_recorded_and_the_others_go_on(made_up, monkeypatch: pytest.MonkeyPatch) -> None:
-    find_outcome = refinement.find_outcome
-
-    def failing(p: Parameters, horizon: float, **how) -> OutcomeResult:
-        if p.Omega == 50 and p.N == 600:
-            raise DiscModelError("no luck")
-        return find_outcome(p, horizon, **how)
-
-    monkeypatch.setattr(refinement, "find_outcome", failing)
-    study = computed(**raw()).isel(normalization=0)
-    corner = study.sel(Omega=50, N=600)
-    assert flag_names(corner["status"]) == "failed"
-    assert "no luck" in str(corner["message"].values)
-    assert (flag_names(study["status"]) == "failed").sum() == 1
-
-
-def test_between_two_corners_that_are_alike_a_neighbour_may_still_find_another(made_up) -> None:
-    """The middle of an edge is presumed in the finest cells only: the made-up border crosses edges twice."""
-    study = computed(**raw(options={"horizon": 10, "initial_cell_size": 2})).isel(normalization=0)
-    assert wrong(study).mean() <= 2e-3
-    assert (flag_names(study["outcome"]) != "failed").all()
-
-
 OPTIONS = Regions(horizon=10, initial_cell_size=8)
 
 
@@ -161,15 +137,6 @@ def follows_one(stable: bool) -> NearCycle:
 NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
 
 
-def test_where_the_start_follows_no_cycle_thin_strips_are_worked_out_and_wide_ones_filled(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    strip, block = {(1, 1), (3, 2), (5, 3), (7, 4)}, {(i, j) for i in range(3, 6) for j in range(6, 9)}
-    tile = tile_of(9, lambda *at: NONE if at in strip | block else follows_one(True), lambda *_: "quiet", monkeypatch)
-    assert strip <= set(tile.results)
-    assert len(block & set(tile.results)) <= 1
-
-
 def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stripe one interval wide, which no corner of the coarse cells meets."""
 
@@ -186,17 +153,6 @@ def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkey
     assert len(tile.results) < 0.4 * 33 * 33
     quiet = tile_of(33, lambda *_: NONE, lambda *_: "quiet", monkeypatch)
     assert len(quiet.results) == 5 * 5
-
-
-def test_separations_that_all_corners_of_a_cell_miss_are_found_in_its_middle(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As between 550 and 583 N on the map over c_p: rounding decides there whether a single motion separates late."""
-
-    def outcome(i: int, j: int) -> str:
-        return "growing" if i % 4 == 0 and j % 4 == 0 else "separation"
-
-    tile = tile_of(9, lambda *_: NONE, outcome, monkeypatch)
-    assert all(tile.outcome((i, j)) == outcome(i, j) for i in range(9) for j in range(9) if (i, j) in tile.results)
-    assert sum(word == "growing" for word in (tile.filled | tile.presumed).values()) == 0
 
 
 @pytest.mark.parametrize(("one", "around"), [("growing", "separation"), ("separation", "other_cycle")])

@@ -12,7 +12,7 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import floquet
 from disc_model.studies.quantities import sensitivity
-from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile, unit_draws, variants
+from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile, variants
 from disc_model.studies.quantity import Row
 from tests.studies.conftest import SMALL, computed
 from tests.studies.refused import parse_grid
@@ -98,17 +98,6 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found["excluded_fraction"].sel(output="growth_rate") == np.mean(np.isnan(rates).any(axis=1))
 
 
-def test_what_a_rule_leaves_out_has_no_probability(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It had one of 0 as if all of its samples had been found stable, and these counted as known."""
-    evaluating(monkeypatch, lambda values: cycle_row("unstable", 1.0))
-    found = computed(**study({"k": UNIFORM}, where="N < 300 and sample < 6"))
-    assert found["n_known_cycles"].values.tolist() == [12, 0]
-    assert found["n_known_outcomes"].values.tolist() == [0, 0]
-    np.testing.assert_array_equal(found["probability_unstable"], [1, np.nan])
-    assert found["cycle_fraction"].sel(N=385).isnull().all()
-    assert found["excluded_fraction"].sel(N=200, output="growth_rate") == 0
-
-
 def test_more_samples_keep_those_that_there_are() -> None:
     """A batch's name is its content; the number of samples is no part of it."""
     few, many = (parse_grid(study({"k": UNIFORM}, options={"samples": n})).batches for n in (16, 64))
@@ -122,12 +111,6 @@ def test_more_samples_keep_those_that_there_are() -> None:
     for change in ({"seed": 4}, {"simulated_samples": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
         other = parse_grid(study({"k": UNIFORM}, options={"samples": 16, **change}))
         assert not few.keys() & other.batches.keys()
-
-
-def test_a_sample_hangs_on_seed_and_number_alone() -> None:
-    whole = stats.qmc.Sobol(6, scramble=True, rng=np.random.default_rng(9)).random(256)
-    for number in (200, 0, 64, 63):
-        np.testing.assert_array_equal(unit_draws(9, 3, number).ravel(), whole[number])
 
 
 @pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.999])
