@@ -4,7 +4,8 @@ Nothing here is shared with the engine.  The equations stand as in the model's t
 compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are quotients of series.  A switch is looked
 for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
 at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
-rates, from corner to corner of a course; u_0 stays that of the first N.
+rates, from corner to corner of a course; u_0 stays that of the first N.  The couple of friction on a surface at
+``offset`` (m) from the middle plane is a force ``t T`` on beta, t = -(offset/r_0) l psi (1/sqrt(kg)).
 """
 
 from functools import cache
@@ -30,12 +31,13 @@ COMPLIANCE = 2.656e-7
 class Problem:
     """A case's numbers in long double, from values by the names of `Parameters`, its modes and their nodal diameters.
 
-    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on.
+    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is that of the friction
+    surface (m), and ``tangential`` the modes' amplitudes there if they do not follow from it.
     """
 
     since = LONG(0)
 
-    def __init__(self, values, omega, psi, l, rates=(0.0, 0.0)):
+    def __init__(self, values, omega, psi, l, rates=(0.0, 0.0), offset=0.0, tangential=None):
         self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
@@ -44,7 +46,11 @@ class Problem:
         w, self.s, self.l = (np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l))
         self.w2 = w * w
         D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
-        self.d = D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
+        disc = values.get("disc")
+        ratio = values.get("damping_ratio") if disc is None else [LONG(x) for x in disc["damping_ratio"]]
+        self.d = D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2 if ratio is None else 2 * np.array(ratio, LONG) * w
+        given = None if tangential is None else np.array([LONG(x) for x in tangential], LONG)
+        self.t = -LONG(offset) / self.r_0 * self.l * self.s if given is None else given
         self.S2 = (self.s**2).sum()
         self.w_0 = -self.N * (self.s**2 / self.w2).sum()
         self.u_0 = self.w_0 - self.C * self.N
@@ -56,10 +62,10 @@ class Problem:
         return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)
 
 
-def problem_of(p, rates=(0.0, 0.0)):
+def problem_of(p, rates=(0.0, 0.0), offset=0.0):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
     modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
-    return Problem(values, modes["omega"], np.abs(modes["psi"]), modes["diameters"], rates)
+    return Problem(values, modes["omega"], np.abs(modes["psi"]), modes["diameters"], rates, offset)
 
 
 def stored_problem(data):
@@ -123,7 +129,7 @@ class Step:
         self.a[j] = (self.alpha[k] + q.l * fb) / j
         self.b[j] = (self.beta[k] - q.l * fa) / j
         self.alpha[j] = (free + q.l * fq - q.s * self.V[k]) / j
-        self.beta[j] = (-q.d * self.beta[k] - q.w2 * self.b[k] - q.l * fp) / j
+        self.beta[j] = (-q.d * self.beta[k] - q.w2 * self.b[k] - q.l * fp + q.t * self.T[k]) / j
         self.psi[j] = (self.drive[k] - f[k]) / j
         if self.phase != "stick":
             dragged = self.T[k] + (product(self.R, self.B, k) / q.r_0 if q.normal else 0)
