@@ -1,8 +1,6 @@
 """The rival methods: that each is right where it should be, and wrong where it must be."""
 
 import dataclasses
-import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +8,9 @@ import pytest
 from disc_model import simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels, scipy_ivp
-from disc_model.benchmarks.methods.base import Meter, Problem, RunStatus
+from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
-from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
+from disc_model.benchmarks.scenes import answer, problem
 from disc_model.benchmarks.work_precision import fitted_order
 from tests import needs
 from tests.benchmarks.problems import BASE, judge, task
@@ -62,15 +60,6 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
     if name == "series-fewest":
         assert result.work < 100
         assert result.final.a.shape == problem(scene).start.a.shape
-
-
-@pytest.mark.parametrize(("name", "most"), [("RK45", 100), ("DOP853", 60), ("LSODA", 20)])
-def test_default_steps_jump_over_losses_of_contact(name, most):
-    scene = dataclasses.replace(problem("separating"), max_step=np.inf)
-    result = METHODS[name].solve(scene, 1e-3, 30.0)  # scipy's defaults
-    assert errors(scene, answer("separating"), result).verdict is Verdict.WRONG_EVENTS
-    assert result.separations < most  # of 131
-    assert result.longest_step > scenes.shortest_phase(answer("separating"))
 
 
 @pytest.mark.compiled
@@ -186,24 +175,6 @@ def test_theoretical_order_on_smooth_motion(name, values, order, margin):
     else:
         assert off[2] < 0.1 * off[1] < 0.01 * off[0]
         assert off[2] < 1e-5
-
-
-def test_turning_points_between_steps_are_seen() -> None:
-    """A cubic is its own interpolant: its turning points come out whatever the steps; w = 2 a, w' = 2 alpha + f b."""
-    one_mode = {"a": slice(0, 1), "b": slice(1, 2), "alpha": slice(2, 3), "f": 3}
-    cubic = np.polynomial.Polynomial([0.1, 1.0, -3.0, 2.0])
-    times = np.array([0.0, 0.4, 1.1])
-    states = np.column_stack([cubic(times) / 2, np.ones(3), (cubic.deriv()(times) - 0.5) / 2, np.full(3, 0.5)])
-    seen = Meter(Problem(BASE, None, 1.0, watched=True), math.inf)
-    seen.physics = SimpleNamespace(**one_mode, shape=np.array([2.0]), slope=np.array([1.0]))
-    seen.steps(times, states)
-    # 6 x^2 - 6 x + 1 = 0
-    turns = (3 + np.array([-1, 1]) * math.sqrt(3)) / 6
-    ends = cubic(times)
-    assert seen.high == pytest.approx(max(cubic(turns[0]), ends.max()), abs=1e-14)
-    assert seen.low == pytest.approx(min(cubic(turns[1]), ends.min()), abs=1e-14)
-    seen.steps(times[:1], states[:1])  # one instant only
-    seen.steps(np.array([0.0, 0.0]), states[:2])  # no time at all
 
 
 # ----------------------------------------------------------------------------------------------------

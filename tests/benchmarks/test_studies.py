@@ -7,7 +7,6 @@ import os
 from functools import lru_cache
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 
@@ -15,16 +14,15 @@ from disc_model.benchmarks import answers, figures, maps, questions, study
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
-from disc_model.benchmarks.questions import SIDE, AnswerStatus, AnswerVerdict, Reply, verdict
+from disc_model.benchmarks.questions import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.scenes import Verdict, errors
 from disc_model.benchmarks.truncation import contact_study, truncation_study
-from disc_model.benchmarks.work_precision import cost_at, fitted_order, headline, measured_points, table
+from disc_model.benchmarks.work_precision import headline, measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.figures.drawing import save
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
-from tests.references.stored import load
 
 RIGHT, WRONG, SILENT = AnswerVerdict
 
@@ -89,16 +87,6 @@ def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict
     assert words[:2].tolist() == ["gave_up", "not_run"]
 
 
-def test_fitted_order():
-    n = np.geomspace(10, 1e4, 7)
-    assert fitted_order(n, np.maximum(3.0 * n**-4, 1e-14)) == pytest.approx(4.0)
-    rough = 3.0 * n**-4
-    rough[:2] = 1e-4  # not yet asymptotic
-    assert fitted_order(n, rough) == pytest.approx(4.0, abs=0.05)
-    assert math.isnan(fitted_order(n[:1], n[:1]))
-    assert math.isnan(fitted_order(n, np.full(7, np.nan)))
-
-
 def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     frame = table(dataset).set_index(["scene", "method", "setting"])
     row = frame.loc["stick_slip", "RK4", "step=0.0001"]
@@ -115,34 +103,6 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     expected = {"series": 1.0, "RK4": pytest.approx(1e-5 / step / 1e-3, rel=1e-3)}
     assert headline(measured_points(dataset)) == {"stick_slip": expected}
     assert table(dataset.sel(solver=["RK4"]))["times_series"].isna().all()
-
-
-def test_a_cost_at_an_error_is_between_settings() -> None:
-    def line(*points: tuple[float, float]) -> pd.DataFrame:
-        return pd.DataFrame(points, columns=["event_error", "further"])
-
-    coarse, fine = (1e-9, 2.0), (1e-11, 8.0)
-    for points in ((coarse, fine), (fine, (math.nan, 0.1), (1e-8, 3.0), coarse)):  # dearer and worse does not count
-        assert cost_at(line(*points), 1e-10) == pytest.approx(4.0)
-    assert cost_at(line(fine), 1e-10) == pytest.approx(8.0)  # nothing coarser was measured
-    assert math.isnan(cost_at(line(coarse), 1e-10))  # no setting is as accurate
-    assert cost_at(line((0.0, 5.0)), 0.0) == pytest.approx(5.0)
-
-
-def test_the_headline_allows_others_the_engines_own_error() -> None:
-    """Of RK4 only whole runs were measured; of the series also a further second, which is what counts."""
-    rows = [
-        ("series", 0, 1e-10, 5e-4, 4e-4, 2e-12),
-        ("RK4", 0, 1e-4, 1e-3, math.nan, 1e-5),
-        ("RK4", 1, 1e-5, 4e-3, math.nan, 1e-10),
-        ("RK4", 2, 1e-6, 4e-2, math.nan, 1e-13),
-    ]
-    frame = pd.DataFrame(rows, columns=["solver", "point", "value", "cost", "marginal_cost", "event_error"])
-    frame = frame.assign(scene="stick_slip", verdict=int(Verdict.CONVERGED))
-    for own, ratio in ((2e-12, 10.0), (1e-5, 2.5)):
-        frame.loc[0, "event_error"] = own
-        made = frame.set_index(["scene", "solver", "point"]).to_xarray()
-        assert headline(measured_points(made)) == {"stick_slip": {"series": 1.0, "RK4": pytest.approx(ratio)}}
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -163,24 +123,6 @@ def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
         (math.nan, AnswerStatus.TOO_SLOW, 54.4, SILENT),
     ):
         assert verdict("first_separation", Reply(value, 1.0, status), right) is expected
-
-
-def test_what_is_stored_fits_the_questions() -> None:
-    cells = questions.right_region()
-    assert cells.shape == (SIDE, SIDE)
-    assert 0.1 < cells.mean() < 0.9  # a region that is all one would ask nothing
-    assert questions.reference("first_separation").value == load("first_separation")["time"]
-    for name, question in questions.QUESTIONS.items():
-        assert questions.reference(name).error < 0.2 * question.enough
-    corner = questions.cell_parameters(SIDE * SIDE - 1)
-    assert (corner.N, corner.Omega) == (questions.REGION_LOADS[1], questions.REGION_SPEEDS[1])
-
-
-def test_the_period_is_counted_in_releases() -> None:
-    gaps = np.tile([1.0, 2.0, 1.5], 6)
-    assert questions.period(np.cumsum(gaps)) == 3
-    assert math.isnan(questions.period(np.cumsum(gaps + np.linspace(0, 0.1, 18))))  # never the same again
-    assert math.isnan(questions.period(np.array([1.0])))
 
 
 @pytest.mark.parametrize(("rate", "drift", "accuracy"), [(0.02, 0.0, 1e-3), (-0.3, 0.0, 1e-3), (0.1, 1e-5, 5e-3)])
@@ -215,27 +157,6 @@ def test_the_speed_of_onset_is_bracketed() -> None:
     assert onset_of(14.0)[2:4] == (AnswerStatus.NONE, "a separation already at 14.6 rad/s")
     assert onset_of(15.08, seconds=6.0).status is AnswerStatus.TOO_SLOW
     assert onset_of(16.0, outcome=RunStatus.NON_FINITE).status is AnswerStatus.UNSTABLE
-
-
-def test_cells_are_drawn_where_not_all_can_be_looked_at() -> None:
-    def judged(wrong: int, seconds: float) -> Reply:
-        """``wrong`` of the cells that are looked at first are judged wrong."""
-        right = questions.right_region().ravel()
-        bad = {*questions.drawn()[:wrong].tolist()}
-        judge = lambda index: (bool(right[index]) != (index in bad), seconds)  # noqa: E731
-        return questions.judged(judge, right.__getitem__, 64.0)
-
-    whole = judged(wrong=32, seconds=0.01)
-    assert (whole.value, whole.low, whole.high, whole.cells) == (1 / 32, 1 / 32, 1 / 32, SIDE * SIDE)
-    part = judged(wrong=2, seconds=1.0)
-    assert (part.value, part.cells, part.seconds) == (2 / 64, 64, SIDE * SIDE)
-    # Wilson's interval of 2 in 64, from its formula
-    z, n, share = 1.959964, 64, 2 / 64
-    half = z / (1 + z * z / n) * math.sqrt(share * (1 - share) / n + z * z / (4 * n * n))
-    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
-    assert (part.low, part.high) == pytest.approx((middle - half, middle + half), rel=1e-5)
-    few = judged(wrong=0, seconds=8.0)
-    assert (few.status, few.seconds) == (AnswerStatus.TOO_SLOW, 8.0 * SIDE * SIDE)
 
 
 @pytest.mark.compiled

@@ -17,8 +17,6 @@ from tests.workflow.browser import Page, browser
 pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
 
 SIZES = {"wide": (1400, 1000), "narrow": (360, 740)}
-LEFT, UP, RIGHT = "\ue012", "\ue013", "\ue014"
-"""Keys as WebDriver calls them."""
 SEEN = Path(__file__).with_name("seen.js").read_text(encoding="utf-8")
 READY = "return document.getElementById('grids').ariaBusy === 'false'"
 
@@ -138,18 +136,6 @@ def test_a_point_that_failed_says_so(shown: Page) -> None:
     assert text(shown, "message") == ""
 
 
-def test_what_was_simulated_is_marked(shown: Page) -> None:
-    """Points whose flag says that they lie in a cell that was not divided have no dot."""
-    assert "how the value is known: simulation" in text(shown, "legend")
-    assert ask(shown, "middle", 0, 0) == [255, 255, 255]
-    assert ask(shown, "middle", made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]) != [255, 255, 255]
-    choose(shown, "Dots", "method=inferred")
-    assert ask(shown, "middle", 0, 0) != [255, 255, 255]
-    choose(shown, "Variable", "method")
-    shown.point(*centre(shown, made_up.UNDIVIDED["Omega"], made_up.UNDIVIDED["N"]))
-    assert "method inferred" in text(shown, "hovered")
-
-
 def test_a_click_shows_the_motion(shown: Page) -> None:
     def history() -> np.ndarray:
         return np.array(shown.run("return motionDrawn && [...motionDrawn.histories[0]]"))
@@ -172,21 +158,6 @@ def test_a_click_shows_the_motion(shown: Page) -> None:
     np.testing.assert_allclose(history().mean(), made_up.force(385.0).mean(), rtol=1e-4)
     shown.point(*ask(shown, "beginning"))
     assert text(shown, "motion-hovered").startswith("0 ms, P 385 N, u −0.0088 m, psi 0 rad")
-
-
-def test_the_keyboard_will_do(shown: Page) -> None:
-    choose(shown, "Variable", "growth_rate")
-    shown.point(*centre(shown, 1, 1), click=True)
-    shown.run("document.getElementById('map').focus()")
-    shown.press(RIGHT, RIGHT, RIGHT, UP, UP)
-    assert "N = 385 N, Omega = 20 rad s⁻¹" in text(shown, "point")
-    assert "Omega = 20" in text(shown, "hovered")
-    shown.press(LEFT)
-    assert "Omega = 15.1" in text(shown, "point")
-    # a choice leaves the focus where it was
-    shown.run("document.getElementById('controls').elements.namedItem('Variable').focus()")
-    choose(shown, "Variable", "outcome")
-    assert shown.run("return document.activeElement.name") == "Variable"
 
 
 def test_text_is_readable_in_light_and_dark(session: Page, file: Path) -> None:

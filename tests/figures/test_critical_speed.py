@@ -1,12 +1,10 @@
 """Charts over speed and preload: thresholds, sweeps, and what lies behind them."""
 
-import json
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.figures import critical_speed
@@ -38,16 +36,6 @@ def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[...,
     assert set(labels(figure)) == named | {"continuation failed: 2"}
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}
-
-
-def test_areas_are_the_outcomes_of_a_map_where_there_is_one(chart: Callable[..., Figure]) -> None:
-    codes, words = np.repeat([[0], [1], [2]], 10, axis=1), {"flag_meanings": "quiet growing separation"}
-    data = {"growth_rate": (("N", "Omega"), codes - 0.1), "outcome": (("N", "Omega"), codes, words)}
-    cycle = xr.Dataset(data, {"N": LOADS, "Omega": SPEEDS}, {"options": json.dumps({"horizon": 900.0})})
-    figure = chart(cycle=cycle)
-    assert {"quiet", "growing, in contact", "separation", "areas: within 900 s"} <= set(labels(figure))
-    (mesh,) = (one for one in figure.axes[0].collections if isinstance(one, QuadMesh))
-    assert not np.ma.getmaskarray(mesh.get_array()).any()
 
 
 def test_a_line_does_not_jump_to_another_branch() -> None:

@@ -81,19 +81,3 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert lines(ax)["no cycle found"].get_xdata() == [0.1], "a cross where one has no value"
     assert ax.get_ylabel() == "Growth rate of disturbances\n(1/s)"
     save(figure, tmp_path / "curve.png")
-
-
-def zipped(study: xr.Dataset) -> xr.Dataset:
-    """Two models along one dimension, which has no values of its own."""
-    return study.rename_dims(normalization="both").assign_coords(contact_force=("both", ["vertical", "normal"]))
-
-
-def test_a_zip_has_a_panel_or_a_line_for_each_of_its_points(study: xr.Dataset) -> None:
-    """Its dimension has no values to be picked by: such a figure was accepted, and could not be drawn."""
-    figure = mapped(zipped(study), "growth_rate", by="both")
-    phrase = ["modes as published, vertical contact force", "orthonormal modes, normal contact force"]
-    assert [" ".join(ax.get_title(loc="left").split())[4:] for ax in figure.axes[:2]] == phrase
-    expected = study["growth_rate"].sel(normalization="orthonormal").transpose("mu_k", "c_p").values
-    np.testing.assert_array_equal(np.ma.filled(figure.axes[1].collections[0].get_array(), np.nan), expected)
-    figure = draw("curve", zipped(study), variable="growth_rate", x="c_p", by="both", at={"mu_k": 0.3})
-    assert list(lines(figure.axes[0]))[:2] == phrase

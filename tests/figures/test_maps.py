@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures.cells import alone, cycles_of, growth_panels, unresolved
 from disc_model.figures.drawing import save
 from disc_model.figures.growth_map import Curve, parted
 from disc_model.studies.quantities.regions import Regions
@@ -21,46 +19,6 @@ STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
 LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 
 # ---- cells
-
-
-def test_what_there_is_without_a_cycle_is_told_apart() -> None:
-    codes = np.array([[0, 1, 2, 3, 3, 4, 5]])
-    plane = ("N", "Omega")
-    values = {
-        "growth_rate": (plane, np.where(codes == 0, 0.1, np.nan)),
-        "status": (plane, codes, STATUS),
-        "sliding_growth_rate": (plane, np.array([[0.1, 0.1, 0.1, -0.1, 0.1, 0.1, 0.1]])),
-    }
-    data = xr.Dataset(values, {"N": [100.0], "Omega": np.arange(7.0)})
-    expected = ["", "no_cycle", "separates", "steady_sliding", "no_cycle", "at_rest", "failed"]
-    assert cycles_of(data)[0].tolist() == expected
-
-
-def test_a_growth_rate_unlike_all_around_is_marked() -> None:
-    rate = np.full((4, 4), 0.01)
-    rate[1, 1] = -0.1
-    rate[2, 3] = rate[3, 2] = -0.02  # corners that touch go on into each other, as thin tongues do
-    rate[0, 3] = np.nan
-    there = np.zeros((4, 4), bool)
-    there[1, 1] = True
-    np.testing.assert_array_equal(alone(rate), there)
-    assert not alone(np.array([[0.1]])).any(), "without neighbours nothing can be said"
-    figure = Figure()
-    axes = figure.subplots()
-    data = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": np.arange(4.0), "Omega": np.arange(4.0)})
-    assert growth_panels(figure, [axes], [data]) >= {"alone"}
-    assert axes.collections[0].get_array()[1, 1] == -0.1, "its value was hidden"
-    decay = (rate < 0) & ~there
-    for found, expected in zip(_hatched(axes), (np.isnan(rate), decay, there), strict=True):
-        assert np.rint(found).tolist() == np.argwhere(expected).tolist()
-
-
-def test_a_tongue_of_one_cell_is_unresolved_and_a_layer_between_two_areas_is_not() -> None:
-    """Tongues finer than the cells stood as boxes of an outcome."""
-    tongue = np.array([list("qqsqq"), list("qqsqq"), list("qqqqq")])
-    assert np.argwhere(unresolved(tongue)).tolist() == [[0, 2], [1, 2]]
-    layers = np.array([list("qqqq"), list("gggg"), list("ssss")])
-    assert not unresolved(layers).any()
 
 
 def _hatched(ax: Any) -> list[Any]:

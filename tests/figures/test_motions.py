@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from disc_model.figures import ramps as drawn
-from disc_model.figures.growth_map import Curve, crossings
+from disc_model.figures.growth_map import Curve
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from tests.figures.reading import crosses, draw, labels, lines
@@ -65,20 +65,6 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
 
 
-def test_the_band_of_fig_15_is_where_both_shares_are_above_zero(
-    shares: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset
-) -> None:
-    others = {"hysteresis": sweep, "cycle": growth_over([200.0, 400.0], np.linspace(12, 15, 7))}
-    shaded = "the cycle is stable where the\nsweep down still separates"
-    assert shaded in labels(draw("critical_speed", speeds, others))
-    figure = draw("critical_speed", speeds, others | {"basins": shares})
-    assert "quiet or separating,\ncomputed at 385 N" in labels(figure)
-    assert shaded not in labels(figure)
-    # not beyond what was measured: the bar used to go on to halfway to the next speed, past the cycle's end
-    bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[1].patches if bar.get_width() > 0]
-    assert bars == [(13.0, 14.0)]
-
-
 # ---- ramps
 
 
@@ -106,12 +92,6 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     assert list(shown["none up to the highest speed"].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     assert [text.get_text() for text in ax.texts] == ["15.10"], "the fold of another cycle, at 11 rad/s, was drawn too"
-
-
-def test_a_curve_may_pass_a_load_several_times() -> None:
-    back = Curve(np.array([10.0, 11.0, 12.0, np.nan, 13.0]), np.array([300.0, 400.0, 300.0, np.nan, 350.0]), "fold")
-    np.testing.assert_allclose(crossings(back, 350.0), [10.5, 11.5])
-    assert (crossings(back, 400.0).tolist(), crossings(back, 500.0).size) == ([11.0], 0)
 
 
 # ---- all figures of grids

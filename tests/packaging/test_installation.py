@@ -20,8 +20,6 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
-UV = Path(sys.prefix, "bin", "uv")
-needs_uv = pytest.mark.skipif(not UV.exists(), reason="uv is not installed")
 PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
 
 
@@ -173,11 +171,3 @@ def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path
 
 
 # ---- the lock file
-
-
-@needs_uv
-@pytest.mark.parametrize("version", VERSIONS)
-def test_the_lock_is_complete_for_every_python(version: str, index: None, tmp_path: Path) -> None:
-    """Each pin has a file for that version, and nothing that a pin then requires is missing."""
-    options = ("--quiet", "--dry-run", "--require-hashes", "--target", tmp_path, "-r", ROOT / "requirements.lock")
-    run(UV, "pip", "install", "--python-version", version, *options, cwd=tmp_path)

@@ -4,7 +4,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import yaml
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -80,14 +79,6 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     assert done.stderr.endswith(
         "error: there is no module yaml: pip install 'disc_model[workflow]' brings all that studies need\n"
     )
-
-
-def test_what_is_required_is_locked_and_in_the_environment_of_conda() -> None:
-    wanted = names(PROJECT["project"]["dependencies"]) | names(EXTRAS["slurm"]) | names(EXTRAS["workflow"])
-    assert wanted <= names((ROOT / "requirements.in").read_text().splitlines())
-    conda = yaml.safe_load((ROOT / "workflow/envs/disc_model.yaml").read_text())["dependencies"]
-    jobs = wanted - {"snakemake", "snakemake-executor-plugin-slurm"}
-    assert jobs <= {canonicalize_name(name.split()[0]) for name in conda}
 
 
 def test_there_is_one_version() -> None:
