@@ -1,0 +1,215 @@
+"""docs/verification.md: every number of its tables is computed here, by the package and in closed form."""
+
+import re
+from math import atan, cos, exp, pi, sin, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
+from disc_model.simulation.states import State, static_start
+
+pytestmark = [pytest.mark.compiled, pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")]
+PAGE = (Path(__file__).parents[2] / "docs" / "verification.md").read_text(encoding="utf-8")
+
+
+def tables():
+    """Of each case of the page: its letter and number, its parameters, its rows without the head."""
+    for section in re.split(r"^## ", PAGE, flags=re.MULTILINE)[1:]:
+        if code := re.search(r"`(Parameters\(.*?\))`", section, flags=re.DOTALL):
+            lines = [line for line in section.splitlines() if line.startswith("|")][2:]
+            rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+            yield section.split(".")[0], eval(code[1], {"Parameters": Parameters, "Disc": Disc}), rows
+
+
+def edge(holds, low, high):
+    """Where a condition that holds at `low` and not at `high` ceases to."""
+    assert holds(low)
+    assert not holds(high)
+    while high - low > 1e-11 * high:
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
+
+
+def times(p, t_end, start=None, kinds=None):
+    """Of events, s; of some kinds."""
+    events = simulate(p, t_end, tol=1e-14, initial_state=start).events
+    return [float(t) for t, kind in zip(events["time"], events["kind"], strict=True) if kinds is None or kind in kinds]
+
+
+# Each function gives what is exact and what the package computes, by the labels of the page; None where a number is
+# known in print alone.
+def annulus(p):
+    """Frequencies over sqrt(D / (rho h)) / b^2: squares of lambda; by the formula, one of them in Hz."""
+    modes = plate_modes(p)
+    unit = sqrt(p.D / (p.rho * p.h)) / p.b**2
+    rows = zip(modes["diameters"], modes["circles"], modes["omega"], strict=True)
+    squares = {f"({l}, {c})": (None, omega / unit) for l, c, omega in rows}
+    return squares | {"(2, 1), Hz": (None, float(modes["omega"].iloc[6]) / (2 * pi))}
+
+
+def shoe(p):
+    """Half a period from stop to stop, each nearer by twice the displacement under friction."""
+    start, half = 8.5e-4, pi / sqrt(p.k_p / p.m)
+    states = static_start(p).replace(psi=start / p.r_0)
+    run = simulate(p, 0.2, tol=1e-14, initial_state=states)
+    stops = [float(t) for t in run.events["time"][1:]]
+    found = {f"stop {j}, s": (j * half, stops[j - 1]) for j in (1, 2, 3, 4)}
+    rest = abs(start - 8 * p.mu_k * p.N / p.k_p)
+    return found | {"rest, mm": (1e3 * rest, 1e3 * abs(run.final_state.psi) * p.r_0)}
+
+
+def belt(p):
+    """The last slip, stick and period of a second."""
+    rate, slack = sqrt(p.k_p / p.m), (p.mu_s - p.mu_k) * p.N / (p.k_p * p.r_0)
+    slip, stick = 2 * (pi - atan(rate * slack / p.Omega)) / rate, 2 * slack / p.Omega
+    *_, begin, end, again = times(p, 1.0, kinds={"stick_to_slip", "slip_to_stick"})[-4:]
+    lengths = sorted([end - begin, again - end], reverse=slip > stick)
+    exact = {"slip, s": slip, "stick, s": stick, "period, s": slip + stick}
+    return {name: (exact[name], own) for name, own in zip(exact, [*lengths, sum(lengths)], strict=True)}
+
+
+def damped_belt(p):
+    """The speed at which the slider, after its first swing, is just as fast as the belt: there it sticks no more."""
+
+    def sticks(Omega, c_p):
+        kinds = simulate(p.replace(Omega=Omega, c_p=c_p), 1.0, tol=1e-13).events["kind"]
+        return "slip_to_stick" in set(kinds)
+
+    def excess(v, c_p):
+        """Velocity of the spring's end after a swing less that of the belt, v (m/s), with which it starts."""
+        square, decay = p.k_p / p.m, c_p / (2 * p.m)
+        w, z = sqrt(square - decay**2), ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
+        rate = -2 * decay * v - square * z
+        t = (2 * pi + atan(w * rate / (square * v + decay * rate))) / w
+        return exp(-decay * t) * (v * cos(w * t) - (square * z + decay * v) / w * sin(w * t)) - v
+
+    found = {}
+    for c_p in (0.5, 1.0, 2.0, 5.0):
+        about = (p.mu_s - p.mu_k) * p.N / sqrt(2 * pi * c_p * sqrt(p.k_p * p.m))  # the rule of thumb for small damping
+        exact = brentq(excess, about / 2, 2 * about, args=(c_p,), xtol=1e-15) / p.r_0
+        own = edge(lambda Omega, c_p=c_p: sticks(Omega, c_p), 0.9 * exact, 1.1 * exact)
+        found[f"$c_p$ = {c_p:g} N s/m, rad/s"] = exact, own
+    return found
+
+
+def divergence(p):
+    """Both ends of the band, for two springs."""
+    (omega,), (l,), (psi,) = p.disc.omega, p.disc.diameters, p.disc.amplitude
+    found = {}
+    for k in (1e4, 5e4):
+        first, last = omega / l, sqrt(omega**2 + k * psi**2) / l
+
+        def grows(Omega, k=k):
+            # a double root of 1e-16 of omega^2 shows as 3e-5 1/s
+            return steady_sliding(p.replace(k=k, Omega=Omega)).growth_rate > 1e-3
+
+        middle = (first + last) / 2
+        own = edge(lambda Omega: not grows(Omega), 0.999 * first, middle), edge(grows, middle, 1.001 * last)
+        for name, exact, value in zip(("begins", "ends"), (first, last), own, strict=True):
+            found[f"$k$ = {k:g} N/m, {name}, rad/s"] = exact, value
+    return found
+
+
+def dashpot(p):
+    """Growth at three speeds of a disc without damping, and the critical speed of a damped one."""
+    (omega,), (l,), (psi,) = p.disc.omega, p.disc.diameters, p.disc.amplitude
+
+    def growth(Omega, damping):
+        """By eigenvalues of one pair of modes; a, b, alpha, beta in the slider's frame."""
+        turn = l * Omega
+        free = np.array(
+            [[0, turn, 1, 0], [-turn, 0, 0, 1], [-(omega**2), 0, -damping, turn], [0, -(omega**2), -turn, -damping]]
+        )
+        free[2] -= p.c * psi**2 * free[0]
+        return np.linalg.eigvals(free).real.max()
+
+    def own(Omega, damping):
+        ratio = damping / (2 * omega)
+        return steady_sliding(p.replace(Omega=Omega, disc=p.disc.replace(damping_ratio=[ratio]))).growth_rate
+
+    found = {f"{Omega:g} rad/s, 1/s": (growth(Omega, 0.0), own(Omega, 0.0)) for Omega in (900.0, 915.0, 1000.0)}
+    limits = [brentq(lambda x, of=of: of(x, 0.2), 1690.0, 1710.0, xtol=1e-11) for of in (growth, own)]
+    return found | {"critical speed, rad/s": tuple(limits)}
+
+
+def impact(p):
+    """Fall, impact, a piece of a harmonic motion together, a flight."""
+    (omega,), (psi,) = p.disc.omega, p.disc.amplitude
+    g, height, mass, M = p.N / p.m, 0.02, 1 / psi**2, p.m + 1 / psi**2  # masses of the disc's mode, and of both
+    t1 = sqrt(2 * height / g)
+    impulse = p.m * mass / M * g * t1
+    # together: w = (cos - 1) N/K - v/w sin; contact ends where w'' = -g
+    K, w = mass * omega**2, omega * sqrt(mass / M)
+    rest, speed = p.N / K, impulse / mass
+
+    def height_of(t):
+        return rest * (cos(w * t) - 1) - speed / w * sin(w * t)
+
+    t2 = brentq(lambda t: -(w**2) * (height_of(t) + rest) + g, pi / w, 1.6 * pi / w, xtol=1e-16)
+    x, v = height_of(t2), -rest * w * sin(w * t2) - speed * cos(w * t2)
+
+    def gap(t):
+        return x + v * t - g * t**2 / 2 - (x * cos(omega * t) + v / omega * sin(omega * t))
+
+    t3 = brentq(gap, 4e-3, 8e-3, xtol=1e-16)
+    start = static_start(p)
+    still = np.zeros(1)
+    fall = start.replace(phase="separation", a=still, alpha=still, u=height, u_velocity=0.0)
+    events = simulate(p, 0.024, tol=1e-14, initial_state=fall).events
+    own = [*events["time"][:3], events["P"][0]]
+    exact = t1, t1 + t2, t1 + t2 + t3, p.N * mass / M
+    names = "impact, s", "contact lost, s", "next impact, s", "force after the impact, N"
+    return {name: pair for name, *pair in zip(names, exact, own, strict=True)}
+
+
+def bounce(p):
+    """Fall, contact and flight."""
+    w = 1 / sqrt(p.m * p.contact_compliance)
+    found = {}
+    for height in (1e-3, 1e-2):
+        v = sqrt(2 * height * p.N / p.m)
+        fall, contact, flight = (
+            v * p.m / p.N,
+            2 * (pi - atan(v / (w * p.N * p.contact_compliance))) / w,
+            2 * v * p.m / p.N,
+        )
+        none = np.zeros(0)
+        start = State(0.0, "separation", 0, 0.0, 0.0, height, 0.0, none, none, none, none)
+        own = times(p, fall + contact + 1.01 * flight, start)[:3]
+        exact = fall, fall + contact, fall + contact + flight
+        for name, *pair in zip(("touches", "leaves", "touches again"), exact, own, strict=True):
+            found[f"from {1e3 * height:g} mm, {name}, s"] = pair
+    return found
+
+
+COMPUTED = {
+    f"E{i + 1}": f for i, f in enumerate((annulus, shoe, belt, damped_belt, divergence, dashpot, impact, bounce))
+}
+
+
+def says(text, value):
+    """Whether a number of the page is the value, rounded to as many digits, up to noise in the last."""
+    digits = text.partition("e")[0].partition(".")[2]
+    return abs(float(text) - value) <= 0.6 * 10.0 ** -len(digits) * 10.0 ** int(text.partition("e")[2] or 0)
+
+
+@pytest.mark.parametrize(("name", "p", "rows"), [pytest.param(*case, id=case[0]) for case in tables()])
+def test_the_page_says_what_is_computed(name, p, rows):
+    """Exact numbers and ours, to the last digit shown; and their relative difference is below what the page says."""
+    found = COMPUTED[name](p)
+    assert [row[0] for row in rows] == list(found)
+    for (label, reference, ours, allowed), (exact, own) in zip(rows, found.values(), strict=True):
+        assert says(ours, own), (label, own)
+        assert exact is None or says(reference.rstrip("*"), exact), (label, exact)
+        difference = abs(own / (float(reference.rstrip("*")) if exact is None else exact) - 1)
+        assert difference < float(allowed), (label, difference)
+        # nor is more allowed than needed, down to the rounding of eigenvalues
+        assert float(allowed) <= max(10 * difference, 1e-8), (label, difference)
+
+
+def test_the_page_has_every_case():
+    assert [name for name, *_ in tables()] == list(COMPUTED)
