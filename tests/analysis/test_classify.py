@@ -31,14 +31,6 @@ def test_periods_are_found_and_named(period: int) -> None:
     assert str(motion) == f"periodic, repeats after {period} releases"
 
 
-@pytest.mark.parametrize("noise", [0.0, 1e-9])
-def test_constant_intervals(noise: float) -> None:
-    motion = motion_of(np.full(50, 0.015) + noise * np.sin(np.arange(50)))
-    assert (motion.period, str(motion)) == (1, "periodic")
-    assert motion.closure < 1e-8
-    assert classify.irregularity(np.ones(5)) == 0
-
-
 def test_a_period_has_to_be_seen_twice() -> None:
     intervals = wandering(300, 2)
     assert motion_of(intervals).period == 300

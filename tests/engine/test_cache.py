@@ -36,20 +36,6 @@ def outer(x):
     return inner(x) + 1.0
 print(inner(1.0), outer(1.0))
 """
-HELPED = """
-import numpy as np
-from disc_model.engine.jit import kernel
-from disc_model.engine.jit.merging import HelperCompiler
-from disc_model.engine.polynomial import set_powers
-compiled = []
-compile_pipelines = HelperCompiler.define_pipelines
-HelperCompiler.define_pipelines = lambda self: compiled.append(self.state.func_id) or compile_pipelines(self)
-@kernel
-def eighth(powers):
-    set_powers(powers, 2.0, 15)
-    return powers[3]
-print(eighth(np.zeros(16)), len(compiled))
-"""
 pytestmark = pytest.mark.compiled
 
 
@@ -58,38 +44,6 @@ def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> su
     script = tmp_path / "script.py"
     script.write_text(before + code)
     return run(sys.executable, script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
-
-
-@pytest.fixture(scope="module")
-def asked(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[list[str]], list[bytes]]:
-    """What four processes printed that asked for the same kernels, a line for each piece, and the code of `eighth`.
-
-    Before the second, `outer` was deleted, and `eighth`, whose helpers stay. Before the third, `twice` was cut short,
-    and `eighth` deleted and its helpers damaged. All pieces are in each process: importing numba is most of its time.
-    """
-    folder = tmp_path_factory.mktemp("asked")
-    printed, codes = list[list[str]](), list[bytes]()
-
-    def the(name: str) -> Path:
-        (path,) = folder.rglob(name)
-        return path
-
-    def ask() -> None:
-        # `eighth` first: names in machine code count what was compiled before
-        printed.append(ask_for_a_kernel(folder, code=HELPED + KERNEL + OUTER).stdout.splitlines())
-        codes.append(cache.read(the("*.eighth.*.kernel"))[0][2][0])
-
-    ask()
-    the("*.outer.*.kernel").unlink()
-    the("*.eighth.*.kernel").unlink()
-    ask()
-    twice, helpers = the("*.twice.*.kernel"), the("*.helpers")
-    twice.write_bytes(twice.read_bytes()[: twice.stat().st_size // 2])
-    the("*.eighth.*.kernel").unlink()
-    helpers.write_bytes(helpers.read_bytes()[:-1])
-    ask()
-    ask()
-    return printed, codes
 
 
 def test_what_was_written_comes_back_and_any_damage_is_noticed(tmp_path: Path) -> None:
@@ -107,21 +61,21 @@ def test_what_was_written_comes_back_and_any_damage_is_noticed(tmp_path: Path) -
     assert cache.read(path) == list(range(20))
 
 
-def test_a_damaged_kernel_is_compiled_again(asked: tuple[list[list[str]], list[bytes]]) -> None:
-    assert [lines[1] for lines in asked[0]] == ["42 0", "42 1", "42 0", "42 1"]
+def test_what_is_in_the_cache_is_found_again_and_what_is_damaged_or_gone_is_compiled(tmp_path: Path) -> None:
+    """As when one of two kernels was compiled before an interruption: the other's file held a stub, and it crashed."""
 
+    def the(name: str) -> Path:
+        (path,) = tmp_path.rglob(name)
+        return path
 
-def test_a_kernel_is_compiled_against_one_from_the_cache(asked: tuple[list[list[str]], list[bytes]]) -> None:
-    """As when one of two was compiled before an interruption: the file held a stub, and calling it crashed."""
-    # the last two have the kernel that was compiled against the other one from the cache as well
-    assert [lines[2] for lines in asked[0]] == ["6.875 7.875"] * 4
-
-
-def test_a_kernel_is_linked_with_the_helpers_of_earlier_ones(asked: tuple[list[list[str]], list[bytes]]) -> None:
-    """The machine code is the same as if they were compiled again, which they are if their file is damaged."""
-    printed, codes = asked
-    assert [lines[0] for lines in printed] == ["8.0 1", "8.0 0", "8.0 1", "8.0 0"]
-    assert codes[1:] == codes[:1] * 3
+    printed = [ask_for_a_kernel(tmp_path, code=KERNEL + OUTER).stdout.splitlines()]
+    the("*.outer.*.kernel").unlink()
+    printed.append(ask_for_a_kernel(tmp_path, code=KERNEL + OUTER).stdout.splitlines())
+    twice = the("*.twice.*.kernel")
+    twice.write_bytes(twice.read_bytes()[: twice.stat().st_size // 2])
+    printed.append(ask_for_a_kernel(tmp_path, code=KERNEL + OUTER).stdout.splitlines())
+    assert [lines[0] for lines in printed] == ["42 0", "42 1", "42 0"]
+    assert [lines[1] for lines in printed] == ["6.875 7.875"] * 3
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:

@@ -60,19 +60,3 @@ def test_both_ways_through_stick_agree_on_the_release(variant: dict[str, float],
         assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release
         on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples)
         assert (on, behind) == ("stick", "slip"), ramps
-
-
-def test_a_later_start_is_a_start_at_another_angle() -> None:
-    """The same motion, seen from a point turned with it."""
-    shift = 0.375  # a binary fraction, so that the shifted clock adds no rounding of its own
-    start, seen = printed.lively("separation", p=P), []
-    for delay in (0.0, shift):
-        window = Window(start=delay, stop=delay + 0.02, rate=5000.0, theta=1.0 + delay * P.Omega)
-        record = Record(windows=(window,))
-        seen.append(simulate(P, delay + 0.02, tol=1e-14, initial_state=start.replace(time=delay), record=record))
-    one, other = seen
-    assert list(one.events["kind"]) == list(other.events["kind"])
-    np.testing.assert_allclose(other.events["time"] - shift, one.events["time"], atol=1e-12, rtol=0)
-    for name in ("w_point", "w_point_velocity", "w", "psi", "P"):
-        values = one.samples[0][name]
-        np.testing.assert_allclose(other.samples[0][name], values, atol=1e-8 * np.abs(values).max(), rtol=0)

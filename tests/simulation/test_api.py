@@ -29,11 +29,6 @@ def test_steps_run_out():
         result.raise_for_status()
 
 
-def test_more_steps_than_the_engine_counts_are_no_bound():
-    """Numba took such a number for one of another kind, and compiled the engine for it, or refused it."""
-    assert simulate(P, 1e-3, execution=Execution(max_steps=2**64)).status == "ok"
-
-
 NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
 
 

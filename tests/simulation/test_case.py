@@ -85,31 +85,6 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
         simulate(p, 1.0, record=Record(**kept_))
 
 
-@pytest.mark.filterwarnings("ignore:windows:UserWarning")
-def test_windows_beyond_floats_that_a_run_does_not_enter_stay_empty():
-    state = simulate(P, 5e-3).final_state
-    record = Record(windows=(Window(stop=1e-3, rate=1e308), Window(start=1.0, stop=1e308, rate=1e3)))
-    assert [len(samples["time"]) for samples in simulate(P, 6e-3, initial_state=state, record=record).samples] == [0, 0]
-
-
-def test_intervals_beyond_floats_leave_one_sample():
-    """The second was at zero times infinity."""
-    result = simulate(P.replace(Omega=1e-320), 5e-3, record=Record(windows=(Window(rate=1e-320),), poincare=Poincare()))
-    assert result.samples[0]["time"].tolist() == result.poincare["time"].tolist() == [0.0]
-
-
-@pytest.mark.parametrize(
-    ("value", "wanted"),
-    [(3, 3), (np.int8(3), 3), (3.0, 3), ("3", 3), (True, None), (np.True_, None), (2.5, None), (np.array(3), None)],
-)
-def test_an_envelope_is_a_whole_number(value, wanted):
-    if wanted is None:
-        with pytest.raises(ParameterError, match=r"envelope=.*: must be a"):
-            Window(rate=1, envelope=value)
-    else:
-        assert Window(rate=1, envelope=value).envelope == wanted
-
-
 def test_a_window_is_counted_from_the_end_of_the_run() -> None:
     result = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000), Window(start=0.04, rate=1000))))
     late, rest = (samples["time"] for samples in result.samples)

@@ -37,22 +37,7 @@ def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:
     assert np.allclose(w.isel(r=1), w.isel(r=1, theta=slice(None, None, -1)).values, atol=1e-15)
 
 
-def test_snapshots_go_on_from_a_state() -> None:
-    first, second = snapshots(P, [0.1, 0.3])
-    (again,) = snapshots(P, 0.3, initial_state=first)
-    assert again.time == second.time == 0.3
-    assert np.array_equal(again.a, second.a)
-    assert np.allclose(simulate(P, 0.3).final_state.a, second.a, rtol=1e-7, atol=1e-12)
-
-
 def test_times_before_a_state_are_refused() -> None:
     (state,) = snapshots(P, 0.1)
     with pytest.raises(ParameterError, match=r"times=0.05: must be >= 0.1 \(the time of the initial state\)"):
         snapshots(P, 0.05, initial_state=state)
-
-
-def test_a_rigid_disc_stays_flat() -> None:
-    rigid = P.replace(n_diameters=-1)
-    w = deflection(rigid, snapshots(rigid, [0.0, 0.1]), [rigid.a, rigid.b], [0.0, 1.0, 2.0])
-    assert w.shape == (2, 2, 3)
-    assert not w.any()

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Ramp, Record, Window, simulate
+from disc_model import ParameterError, Parameters, Ramp, Record, Window, simulate
 from disc_model.data.dataset import load
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.ramps import pieces, values_at
@@ -42,11 +42,6 @@ def test_until_a_ramp_begins_all_is_as_without():
     assert before > 0
     np.testing.assert_array_equal(ramped.event_rows[:before], constant.event_rows[:before])
     assert (ramped.event_rows[before] != constant.event_rows[before]).any()
-
-
-def test_a_section_is_taken_on_ramps_of_the_preload():
-    """On those of Omega it is refused: the drive has no period there."""
-    assert simulate(P, 0.01, ramps=RELIEF, record=Record(poincare=Poincare())).poincare is not None
 
 
 # ------------------------------------------------------------------------ pieces

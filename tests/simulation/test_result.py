@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, ParameterError, Parameters, Record, State, Window, load, simulate
-from disc_model.data.dataset import WriteError
 from disc_model.simulation.states import engine_case
 from tests.simulation.equal import same
 
@@ -69,14 +68,6 @@ def test_names_that_no_file_can_have_are_refused(tmp_path: Path, name: Any) -> N
         with pytest.raises(ParameterError, match=r"^path=.*: must be the name of a regular file, of at most 233 bytes"):
             use(path)
     assert not list(tmp_path.iterdir())
-
-
-def test_a_longest_name_is_written_and_read(tmp_path: Path) -> None:
-    state, path = simulate(P, 0.01).final_state, tmp_path / ("x" * 233)
-    state.save(path)
-    assert State.load(path).time == state.time
-    with pytest.raises(WriteError, match="must be in a folder that exists"):
-        state.save(path / "below")
 
 
 def test_values_are_shown_in_a_line() -> None:

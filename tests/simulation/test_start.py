@@ -23,18 +23,6 @@ from tests.contact_laws import LAWS
 from tests.studies.conftest import computed
 
 
-def test_any_parameter_may_be_prepared_however_it_is_spelled() -> None:
-    def read(**parameters: object) -> dict:
-        raw = {"prerun": {"parameters": parameters, "time": 1}}
-        return Start.model_validate(raw).model_dump()["prerun"]["parameters"]
-
-    assert read() == {}
-    found = read(normalization="orthonormal", N="3e2", n_diameters=4.0, mu_k=0.5, contact="bonded")
-    # mu_k may be right: the point has its own mu_s
-    assert found == {"normalization": "orthonormal", "N": 300.0, "n_diameters": 4, "mu_k": 0.5, "contact": "bonded"}
-    assert isinstance(found["n_diameters"], int)
-
-
 def test_a_preparation_that_fails_is_reported() -> None:
     options = {"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
     raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [15]}, "options": options}
@@ -188,14 +176,6 @@ P = Parameters(N=385, Omega=15)
 def height(p: Parameters, state: State) -> float:
     """Of the disc under the slider."""
     return float(mode_arrays(p).psi @ state.a)
-
-
-def test_the_published_start_is_the_one_taken_without_a_state() -> None:
-    p = P.replace(n_diameters=1)
-    own, given = simulate(p, 0.2), simulate(p, 0.2, initial_state=static_start(p))
-    np.testing.assert_array_equal(own.event_rows, given.event_rows)
-    assert make_initial_state(p, Start(), 1e-10) is None
-    assert make_initial_state(p, Start(perturbation={"u": 0.0}), 1e-10) is None
 
 
 def test_a_kick_moves_slider_and_disc_as_a_steady_force_would() -> None:

@@ -66,20 +66,6 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     assert found.simulated < 0.6 * whole.simulated
 
 
-PASSES = Parameters(N=550, Omega=15, c_p=0.53125, normalization="orthonormal")
-
-
-@pytest.mark.compiled
-def test_a_second_departure_is_extrapolated_too() -> None:
-    """From the cycle near its start the motion comes to another one, which it leaves at 0.0035/s."""
-    found = find_outcome(PASSES, 1000, tol=1e-8)
-    assert found.outcome is Outcome.GROWING
-    assert found.simulated < 200
-    assert found.near is not None
-    assert found.near.cycle.growth_rate == pytest.approx(0.0735, rel=0.01)
-    assert keeps_contact(PASSES, 1000)
-
-
 @pytest.mark.compiled
 @pytest.mark.parametrize("which", REST)
 def test_what_looks_like_rest_is_followed(which: str) -> None:
@@ -103,17 +89,6 @@ def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
     assert (small.outcome, large.outcome) == (Outcome.QUIET, Outcome.SEPARATION)
     assert 0 < small.simulated < 100
     assert 0 < small.distance < 0.1
-
-
-@pytest.mark.parametrize("late", [0.0, 0.5, 4.0])
-def test_what_is_not_left_early_is_followed_to_the_horizon_and_judged_there(late: float) -> None:
-    found = find_outcome(SMALL, 8.0, tol=1e-9, early=False, late=late)
-    assert (found.outcome, found.simulated, found.time) == (Outcome.QUIET, 8.0, 8.0)
-    assert (found.segment is None) == (late == 0)
-    if found.segment is not None:
-        assert found.near is not None
-        assert found.segment.stick_fraction == pytest.approx(found.near.cycle.stick_fraction, abs=0.05)
-        assert found.segment.P_min < SMALL.N < found.segment.P_max
 
 
 def test_a_simulation_that_fails_says_so() -> None:
@@ -243,15 +218,6 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     assert (quiet.kind, quiet.segment.separation_rate) == (Outcome.QUIET, 0)
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
-
-
-@pytest.mark.compiled
-@pytest.mark.slow
-def test_what_stays_near_an_unstable_cycle_has_not_settled() -> None:
-    """At 11 rad/s disturbances of the cycle grow by 0.0004/s: for a minute nothing is seen of it."""
-    basins = Basins(Parameters(N=385, Omega=11), 60.0)
-    assert basins.cycle is None
-    assert basins.follow(static_start(basins.p)).outcome is Outcome.UNDECIDED
 
 
 @pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])

@@ -15,7 +15,6 @@ from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CorrectorFailed, CycleProblem
 from disc_model.stability.continuation import (
     BORDER,
-    changed_event,
     continue_border,
     continue_cycle,
 )
@@ -106,21 +105,6 @@ def with_events(*events):
     """What is read of a simulation of ten seconds: events, each a kind and a time."""
     rows = [(kind, float(time)) for kind, time in map(str.split, events)]
     return SimpleNamespace(t_end=10.0, events=pd.DataFrame(rows, columns=["kind", "time"]))
-
-
-@pytest.mark.parametrize(
-    ("other", "change"),
-    [
-        (("slip_to_stick 2.01", "stick_to_slip 3"), "a separation disappears"),
-        (("separation 1.01", "reattachment 2", "slip_to_stick 3"), "a reattachment appears"),
-        (("separation 1.01", "slip_to_stick 1.5", "stick_to_slip 1.8"), "a stop appears"),
-        (("separation 1.01", "slip_to_stick 2.9"), "a stop disappears"),
-        (("separation 1.01",), "what grazes was not found"),
-    ],
-)
-def test_the_first_event_that_two_motions_do_not_share_is_named(other, change):
-    cycle = with_events("separation 1", "slip_to_stick 2.02", "stick_to_slip 3", "separation 4")
-    assert changed_event(cycle, with_events(*other)) == change
 
 
 def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatch):

@@ -67,25 +67,6 @@ def test_the_cycle_closes_in_a_simulation(p):
     assert result.stick_fraction == pytest.approx(run.statistics["time_stick"] / result.period, abs=1e-9)
 
 
-@COMPILED
-def test_result_is_complete_and_consistent():
-    result = floquet(BASE)
-    assert result.status is CycleStatus.OK
-    assert result.multipliers.shape == (18,)
-    assert np.all(np.diff(np.abs(result.multipliers)) <= 1e-13)
-    assert np.allclose(np.exp(result.exponents * result.period), result.multipliers)
-    assert result.growth_rate == pytest.approx(result.exponents[0].real, rel=1e-12)
-    assert result.bifurcation_type == "neimark_sacker"
-    assert not result.stable
-    assert result.releases == result.sticks == 1
-    assert result.residual < 1e-12
-    assert result.raise_for_status() is result
-    assert result.state.phase == "stick"
-    assert result.state.f == 0
-    with pytest.raises(ValueError, match="read-only"):
-        result.multipliers[0] = 0
-
-
 def test_the_cycle_is_found_again_from_a_simulation():
     result = floquet(P)
     later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state

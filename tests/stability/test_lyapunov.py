@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Status, floquet, plate_modes, simulate, steady_sliding
+from disc_model import ParameterError, Parameters, Status, floquet, plate_modes, steady_sliding
 from disc_model.stability.lyapunov import lyapunov_exponents
 from tests.stability.test_attractor import paradox
 from tests.stability.test_sliding import state_of
@@ -82,27 +82,6 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 10 s
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=1e-3)
-
-
-@pytest.mark.compiled
-def test_columns_that_had_no_time_to_turn_were_taken_for_converged():
-    """A separating cycle, whose rates lie 0.05/s apart: a short time is not taken for enough, and a long one is."""
-    p = Parameters(N=385, Omega=15.0)
-    start = simulate(p.replace(Omega=15.1), 70.0).final_state.replace(time=0.0)
-    start = simulate(p, 30.0, initial_state=start).final_state
-    rate = floquet(p, guess=start, releases=2).growth_rate
-    short, long = (
-        lyapunov_exponents(p, duration, initial_state=start, leave_out_trivial=True, tol=1e-8)
-        for duration in (10.0, 30.0)
-    )
-    assert short.separations > 1000
-    # columns turn as exp(-0.05 t), the difference between the rates: after 10 s more than half of it is still there
-    assert np.all(np.abs(short.exponents - rate) > 0.005)
-    assert not short.converged.any()
-    assert long.converged.all()
-    assert np.all(np.abs(long.exponents - rate) <= long.errors)
-    # a tenth of 0.05/s, exp(-0.05 * 45), is left amid the 30 s over which rates are averaged after 30 s of turning
-    assert np.all(np.abs(long.exponents - rate) < 0.005)
 
 
 def test_exponents_that_drift_have_not_converged():

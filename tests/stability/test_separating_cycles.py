@@ -103,29 +103,3 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
         assert repeats == found
         if shift == 0:
             assert times[2] - times[0] == pytest.approx(branch.period[point], rel=0, abs=1e-9)
-
-
-@pytest.mark.slow
-def test_the_locking_of_45_releases() -> None:
-    """N = 300 N: 2.33387 s within 2.6e-3 rad/s around 20 rad/s; simulated motions lock there, and nowhere beside."""
-    p = Parameters(N=300, Omega=20.0)
-    late = settled(p, 700.0)
-    found = floquet(p, guess=late, releases=45)
-    assert found.residual < 1e-10
-    assert found.separations == 316
-    assert found.period == pytest.approx(2.33387098713, abs=1e-9)
-    assert found.stable
-    ends = []
-    for direction in (-1, 1):
-        branch = continue_cycle(
-            p, "Omega", (19.9, 20.1), guess=late, releases=45, steps=StepControl(step=1e-4), direction=direction
-        )
-        assert branch.ended.endswith("; a stop disappears" if direction == -1 else "; a stop appears")
-        assert np.all(branch.growth_rate < -0.1)
-        ends.append(float(branch.values[-1, 0]))
-    assert ends == pytest.approx([19.99857, 20.00116], abs=2e-5)
-    for Omega in (ends[0] - 2e-4, ends[0] + 2e-4, ends[1] - 2e-4, ends[1] + 2e-4):
-        beside = p.replace(Omega=Omega)
-        times = releases_of(beside, settled(beside, 1300.0, late), 6.0)
-        apart = np.ptp(times[45:] - times[:-45])
-        assert (apart < 1e-8) == (ends[0] < Omega < ends[1])

@@ -3,7 +3,6 @@
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -71,13 +70,6 @@ def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
     return run(sys.executable, "-m", "disc_model", *options, cwd=folder, timeout=300)
 
 
-@pytest.fixture
-def edit(elsewhere: Path) -> Iterator[Callable[[str], int]]:
-    """Writes another text to the file of the study, which is as before afterwards."""
-    yield (elsewhere / "mine.yaml").write_text
-    (elsewhere / "mine.yaml").write_text(STUDY)
-
-
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
     """What an included file makes by default is not the default: the root's made nothing, and said that all was so."""
     (tmp_path / "mine.yaml").write_text(STUDY)
@@ -87,19 +79,6 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
     assert re.search(r"^compute_batch +1$", snakemake(tmp_path / "own", "-n"), re.M)
     phrase = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
     assert re.search(r"^simulate_case +1$", phrase, re.M), "the paper's study, if none is given"
-
-
-def test_what_is_stale_is_listed(elsewhere: Path, edit: Callable[[str], int]) -> None:
-    def listed(text: str) -> str:
-        edit(text)
-        return disc_model(elsewhere, "list", "outdated", "mine.yaml").stdout
-
-    assert re.fullmatch(r"0 of \d\d files are missing or out of date\n", listed(STUDY))
-    another = listed(STUDY.replace("[0.3, 0.4]", "[0.3, 0.45]"))
-    # the batch of the new value is missing, and the figure of the grid is to be drawn again; the case stays
-    assert re.search(r"^results/mine/batches/\w+\.nc: missing$", another, re.MULTILINE), another
-    assert "results/mine/figures/growth.png: " in another
-    assert "cases/A.nc" not in another
 
 
 def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:

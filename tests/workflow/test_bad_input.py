@@ -46,16 +46,3 @@ def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path:
     assert "Job stats" not in shown
     (project.folder / "first.yaml").rename(project.folder / "third.yaml")
     assert "Job stats" in second.complete("-n")
-
-
-def test_a_study_laid_over_another_is_not_taken_for_that(tmp_path: Path) -> None:
-    """Only the first file was compared, so that one overlay overwrote the results of another."""
-    first = {"first.yaml": STUDIES["config/small_growth.yaml"]}
-    overlays = {f"{name}.yaml": f"study: mine\nbase: {{c: {name[1:]}}}\n" for name in ("c1", "c2")}
-    project = replace(copy_repository(tmp_path / "project", first | overlays), config=None)
-    project.complete("check", "-j1", "--configfile", "first.yaml", "c1.yaml")
-    assert "Job stats" in project.complete("-n", "--configfile", "first.yaml", "c1.yaml")
-    shown = project.refused("-n", "--configfile", "first.yaml", "c2.yaml")
-    assert "study = 'mine': is also the name of the study in first.yaml, c1.yaml, whose results are in" in shown
-    (project.folder / "other.yaml").write_text(first["first.yaml"].replace("small_growth", "mine"))
-    assert "is also the name of the study in first.yaml, c1.yaml" in project.refused("-n", "--configfile", "other.yaml")

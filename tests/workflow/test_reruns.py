@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
 import pytest
 import xarray as xr
@@ -53,16 +52,6 @@ def test_a_second_run_does_nothing(project: Project) -> None:
     assert before == {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
 
 
-def test_the_default_is_the_paper_and_another_study_inherits_no_cases(project: Project) -> None:
-    jobs = replace(project, config=None).planned()
-    assert {"simulate_case:F02", "simulate_case:F13", "draw_figure:paper:fig02"} <= jobs
-    assert "simulate_case:X" not in jobs
-    jobs = replace(project, config="config/test.yaml").planned()
-    assert {job for job in jobs if job.startswith("simulate_case")} == {
-        f"simulate_case:{name}" for name in ("F02", "F04", "F11", "F13")
-    }
-
-
 @pytest.mark.parametrize(
     ("file", "old", "new", "jobs"),
     [
@@ -87,13 +76,6 @@ def test_a_value_laid_over_runs_its_own_batch(project: Project) -> None:
     assert jobs > MAP_TAIL
     assert len(jobs - MAP_TAIL) == 1
     assert not jobs & before
-
-
-def test_finer_resolution_keeps_what_is_there(project: Project) -> None:
-    jobs = project.planned("--config", "resolution=2")
-    assert jobs > GROWTH_TAIL
-    assert len(jobs - GROWTH_TAIL) == 3
-    assert not jobs & batches(project, "small_growth")
 
 
 def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
