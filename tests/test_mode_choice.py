@@ -9,9 +9,8 @@ from typing import Any
 import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, simulate
-from disc_model.disc.truncation import CHOSEN_BY, FREQUENCIES, real_modes
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import choose_when_run
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, choose_when_run, real_modes
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
@@ -91,14 +90,14 @@ def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured
 def test_separations_are_counted_from_20_to_30_s_after_the_first_one() -> None:
     """In pieces, without a record of events, as in one run with it."""
     p = Parameters(N=800, Omega=40, n_diameters=2)
-    first = mode_choice.first_separation(p)
+    first = mode_choice.MEASURES["first_separation"](p)
     events = simulate(p, first + 30).events
     times = events["time"][events["kind"] == "separation"]
     assert first == pytest.approx(times.iloc[0], abs=1e-9)
     # the motion is steady by then; one more or less at the ends of the ten seconds
     assert mode_choice.separation_rate(p) == pytest.approx(times.between(first + 20, first + 30).sum() / 10, abs=0.1)
     rigid = P.replace(n_diameters=-1)  # nothing swings that could throw the slider up
-    assert math.isnan(mode_choice.first_separation(rigid))
+    assert math.isnan(mode_choice.MEASURES["first_separation"](rigid))
     assert math.isnan(mode_choice.separation_rate(rigid))
 
 

@@ -1,31 +1,195 @@
-"""Choice of the number of modes that a case needs for a given quantity: `choose_modes`.
+"""How many modes a case needs: `choose_modes`, and requests for it in study files and on the command line.
 
-The choice by ``frequencies`` needs no simulation (`disc_model.disc.truncation`).  The choice by a quantity of the
-motion takes the first model with which two larger ones agree. Without agreement there is no choice, and the error gives
-the difference of the largest models.  For a disc given by a table, the last candidate is the whole table.
+Files and the command line may give ``n_diameters: auto``, which `read_asked` reads. The choice by ``frequencies`` needs
+no simulation. The choice by a quantity of the motion takes the first model with which two larger ones agree; without
+agreement there is none, and the error gives the difference of the largest models. For a disc given by a table, the last
+candidate is the whole table.
 """
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from disc_model.disc.truncation import (
-    FREQUENCIES,
-    ModeChoice,
-    ModeRequest,
-    by_frequencies,
-    count_modes,
-    counts,
-    resized,
-)
-from disc_model.errors import DiscModelError, ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters
+import numpy as np
+from pydantic import Field, model_validator
+
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import coupled_frequencies, mode_arrays
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, violations
+from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
+from disc_model.units import Finite, Strict
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
+
+FREQUENCIES = "frequencies"
+"""The quantity by which modes are chosen by default."""
+CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
+"""Quantities by which modes may be chosen, and their default relative tolerances."""
+RICH = (20, 6)
+"""Diameters and circles of the reference model for frequencies."""
+TRUSTED = 1e-4
+"""Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
+orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only, for any
+quantity, because growth rates and times depend on the frequencies."""
+_PREFIX = "truncation_"
+"""Begins the names of `CHOOSING`, beside the parameters of a case."""
+BAND = 2.0
+"""Upper end of the band of compared frequencies, relative to the lowest frequency of the disc."""
+
+
+@dataclass(frozen=True)
+class ModeChoice:
+    """The smallest model that meets a tolerance, and the basis of the choice.
+
+    Attributes
+    ----------
+    parameters : the case with the chosen n_diameters and n_circles, or with the first modes of its table
+    quantity : the quantity by which the modes were chosen
+    tolerance, error : requested and reached, relative; of the coupled frequencies in the band, or of the quantity
+    modes : number of real modes
+    rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
+    values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
+    """
+
+    parameters: Parameters
+    tolerance: float
+    error: float
+    modes: int
+    rich: tuple[int, ...]
+    quantity: str = FREQUENCIES
+    values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+
+    def to_json(self) -> str:
+        """The choice as JSON text, for an attribute of a dataset."""
+        disc = self.parameters.disc
+        size = {"n_diameters": self.parameters.n_diameters, "n_circles": self.parameters.n_circles}
+        record: dict[str, Any] = {
+            **(size if disc is None else {"modes_of_the_table": len(disc.omega)}),
+            "tolerance": self.tolerance,
+            "error": self.error,
+            "modes": self.modes,
+            "compared_with": list(self.rich),
+        }
+        if self.quantity == FREQUENCIES:
+            record["band"] = BAND
+        else:
+            values = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
+            record |= {"quantity": self.quantity, "values": values}
+        return json.dumps(record, sort_keys=True)
+
+
+class ModeRequest(Strict):
+    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default tolerances."""
+
+    quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
+    tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
+        return {"tolerance": CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])} | values
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """The request as `read_asked` reads it; the default quantity is left out."""
+        quantity = {} if self.quantity == FREQUENCIES else {"truncation_quantity": self.quantity}
+        return {"n_diameters": AUTO, "truncation_tolerance": self.tolerance, **quantity}
+
+
+def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
+    """Find the model with the fewest real modes whose `frequency_error` is within ``tolerance``."""
+    sizes: Sequence[tuple[int, ...]]
+    if p.disc is None:
+        p = resized(p, RICH)
+        every = product(range(RICH[0] + 1), range(RICH[1] + 1))
+        sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
+    else:
+        sizes = [(count,) for count in counts(p.disc)]
+    modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
+    top = BAND * float(modes.omega.min())
+    for size in sizes:
+        of_size = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
+        chosen = resized(p, size)
+        error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
+        if error <= tolerance:
+            return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
+    raise DiscModelError(
+        f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge the tolerance"
+    )
+
+
+def counts(disc: Disc) -> range:
+    """Possible numbers of first modes of a table: at least one of these modes must move under the slider."""
+    return range(1 + next(i for i, each in enumerate(disc.amplitude) if each), len(disc.omega) + 1)
+
+
+def resized(p: Parameters, size: tuple[int, ...]) -> Parameters:
+    """The case with the modes of a size: up to these diameters and circles, or so many first modes of its table."""
+    if p.disc is not None:
+        return p.replace(disc=p.disc.first(*size))
+    return p.replace(n_diameters=size[0], n_circles=size[1])
+
+
+def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
+    """Number of real modes of `resized`: pairs count as two."""
+    return real_modes(*size) if p.disc is None else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
+
+
+def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
+    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one.
+
+    The parameters' own number of modes is then meaningless. Raises `ParameterError`.
+    """
+    rest, request = asked_modes(values)
+    return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
+
+
+def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None]:
+    """Values without those of `CHOOSING`, and the request that these make; raises `ParameterError`."""
+    rest = {name: value for name, value in values.items() if name not in CHOOSING}
+    stated = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
+    if rest.get("n_diameters") != AUTO:
+        rule = f"is used with n_diameters={AUTO!r} only"
+        raise_faults([Fault.of((_PREFIX + name,), value, rule) for name, value in stated.items()])
+        return rest, None
+    del rest["n_diameters"]
+    try:
+        return rest, ModeRequest(**stated)
+    except ParameterError as error:
+        faults = (Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults)
+        raise ParameterError(*faults) from None
+
+
+def frequency_error(p: Parameters, rich: Parameters) -> float:
+    """Largest relative error of the coupled frequencies of ``p`` within the band, with ``rich`` as the reference.
+
+    The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that is missing in ``p``
+    counts as an error of 1.
+    """
+    mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
+    return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
+
+
+def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
+    right = right[right <= top]
+    if mine.size < right.size:
+        return 1.0
+    return min(1.0, float(np.max(np.abs(mine[: right.size] / right - 1.0), initial=0.0)))
+
+
+def real_modes(diameters: int, circles: int) -> int:
+    """Number of real modes of a model: pairs count as two."""
+    return (circles + 1) * (2 * diameters + 1)
+
+
+# ----------------------------------------------------------------------------------------------------
+# The choice
 
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 """Diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes."""
@@ -63,13 +227,9 @@ def choose_modes(
         If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
         growth rate needs a cycle, and a first separation a motion that separates.
     """
-    faults: list[str] = []
-    try:
-        request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
-    except ParameterError as error:
-        faults += error.faults
+    request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     known = isinstance(case, Parameters | Mapping)
-    raise_faults(faults + violations((known, "case", case, "must be Parameters, or a mapping of names to values")))
+    raise_faults(violations((known, "case", case, "must be Parameters, or a mapping of names to values")))
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
@@ -108,10 +268,7 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
 
 
 def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
-    """Candidates, each with the larger models for comparison.
-
-    The first modes of a table are compared with twice as many and with all; the last candidate is the whole table.
-    """
+    """Candidates, each with the larger models for comparison: of a table, twice as many modes, and all of them."""
     if p.disc is None:
         yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in CANDIDATES)
         return
@@ -134,7 +291,7 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
 
 
 # ----------------------------------------------------------------------------------------------------
-# Quantities of the motion.  Simulation is imported inside the functions, because most importers do not need it.
+# Quantities of the motion. Most importers of this module do not need a simulation.
 
 
 def growth(p: Parameters) -> float:
@@ -142,11 +299,6 @@ def growth(p: Parameters) -> float:
     from disc_model.stability.cycle import floquet
 
     return float(floquet(p).growth_rate)
-
-
-def first_separation(p: Parameters) -> float:
-    """Time of the first loss of contact, s; nan if there is none within `HORIZON`."""
-    return _run(p, HORIZON, stop_at="first_separation").first_separation
 
 
 def separation_rate(p: Parameters) -> float:
@@ -169,6 +321,6 @@ def _run(p: Parameters, t_end: float, **how: Any) -> Result:
 
 MEASURES: dict[str, Callable[[Parameters], float]] = {
     "growth": growth,
-    "first_separation": first_separation,
+    "first_separation": lambda p: _run(p, HORIZON, stop_at="first_separation").first_separation,
     "separation_rate": separation_rate,
 }

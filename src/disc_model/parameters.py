@@ -29,7 +29,7 @@ from disc_model.units import (
 )
 
 AUTO = "auto"
-"""Value of ``n_diameters`` in a file for which `disc_model.disc.truncation` chooses the modes."""
+"""Value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes."""
 CHOOSING = ("truncation_quantity", "truncation_tolerance")
 """Keys of files and command lines that control this choice."""
 RESIDUAL = "residual"

@@ -14,7 +14,7 @@ from disc_model.data.dataset import UnreadableFile, WriteError, load, load_input
 from disc_model.data.variables import STATUSES, flag_names
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
-from disc_model.studies.cases import merge_cases
+from disc_model.studies.merge import merge_cases
 
 P = Parameters(N=385, Omega=15.1)
 T_END = 0.5

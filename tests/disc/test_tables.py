@@ -14,7 +14,6 @@ import yaml
 
 import disc_model as dm
 from disc_model import mode_choice
-from disc_model.disc import truncation
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.disc.tables import disc_table
@@ -280,7 +279,7 @@ def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest
 def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(truncation, "RICH", (8, 0))
+    monkeypatch.setattr(mode_choice, "RICH", (8, 0))
     plate = P.replace(n_diameters=8, normalization="orthonormal")
     table = written(tmp_path / "disc.csv", plate)
     of_plate, of_table = (dm.choose_modes(p, 1e-2) for p in (plate, table))

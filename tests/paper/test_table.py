@@ -27,7 +27,7 @@ from disc_model.paper.model import (
 )
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
-from disc_model.studies.cases import merge_cases
+from disc_model.studies.merge import merge_cases
 from disc_model.studies.study import load_study, parse_study
 from tests.paper.made_up import kept_events
 

@@ -103,7 +103,7 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
     ],
 )
 def test_text_that_is_no_study_is_located(text: str, words: str) -> None:
-    assert_named(faults_of(lambda: parse_study(read_yaml(text)[0])), words)
+    assert_named(faults_of(lambda: parse_study(read_yaml(text))), words)
 
 
 def p(**changes: Any) -> dm.Parameters:
@@ -211,7 +211,7 @@ def test_a_study_with_any_value_somewhere(data: st.DataObject) -> None:
 @given(st.sampled_from(TEXTS), st.integers(0, 2000), st.text(max_size=20), st.integers(0, 20))
 def test_any_text_in_a_study_file(text: str, position: int, inserted: str, removed: int) -> None:
     with contextlib.suppress(StudyError):
-        parse_study(read_yaml(text[:position] + inserted + text[position + removed :])[0])
+        parse_study(read_yaml(text[:position] + inserted + text[position + removed :]))
 
 
 @settings(max_examples=settings().max_examples // 5)  # each builds the parser anew

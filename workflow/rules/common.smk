@@ -25,8 +25,13 @@ try:
     from disc_model.figures.kind import Plot
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
-    from disc_model.studies.checks import check_owner, check_targets, closing_lines
-    from disc_model.studies.study import read_file, study_from_config
+    from disc_model.studies.study import (
+        check_owner,
+        check_targets,
+        closing_lines,
+        read_file,
+        study_from_config,
+    )
 
     # Imports of the jobs, so that a dry run does not succeed where they would fail.
     for module in () if CONDA else ("numba", "netCDF4", "matplotlib", "cmcrameri"):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_cases, save
 from disc_model.errors import script
-from disc_model.studies.cases import merge_cases
+from disc_model.studies.merge import merge_cases
 
 
 @script

@@ -29,7 +29,7 @@ from disc_model.benchmarks.questions import (
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
 from disc_model.disc.plate import mode_arrays
-from disc_model.disc.truncation import real_modes
+from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
 
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}

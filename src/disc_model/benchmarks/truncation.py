@@ -20,7 +20,7 @@ import xarray as xr
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.truncation import BAND, RICH, frequency_error, real_modes
+from disc_model.mode_choice import BAND, RICH, frequency_error, real_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window

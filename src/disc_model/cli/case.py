@@ -15,9 +15,8 @@ from rich.table import Column, Table
 
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.disc.tables import read_disc
-from disc_model.disc.truncation import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, read_asked
 from disc_model.errors import Fault, ParameterError
-from disc_model.mode_choice import chosen_modes
+from disc_model.mode_choice import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
 from disc_model.parameters import Parameters
 from disc_model.units import Strict
 

@@ -12,8 +12,8 @@ from pydantic import Field
 
 from disc_model.cli.case import case_lines, option, parameters_of, print_rows, with_case_options
 from disc_model.data.variables import BESIDE_WINDOWS
-from disc_model.disc.truncation import ModeChoice
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
+from disc_model.mode_choice import ModeChoice
 from disc_model.simulation.case import Record, Window
 from disc_model.simulation.ramps import Ramp
 from disc_model.units import TOLERANCES, Count, Seconds, Tolerance

@@ -29,16 +29,15 @@ from pydantic import (
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
-from disc_model.disc.truncation import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kind import Kind, kind_of, library_kinds
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
 from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.quantity import quantity_names, quantity_of
-from disc_model.studies.ranges import Blocks, Range
-from disc_model.studies.rules import checked_rule
+from disc_model.studies.ranges import Blocks, Range, checked_rule
 from disc_model.units import Count, Finite, Seconds, Strict, Title, Tolerance, must
 
 # ----------------------------------------------------------------------------------------------------
@@ -266,11 +265,11 @@ class NamedCase(Strict):
 
     def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
         """Parameters, and how their modes were chosen or will be chosen when the case runs."""
-        p, asked = self.parameters
-        if asked is None or asked.quantity != FREQUENCIES:
-            return p, "", "" if asked is None else json.dumps(asked.model_dump(), sort_keys=True)
+        p, request = self.parameters
+        if request is None or request.quantity != FREQUENCIES:
+            return p, "", "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
         try:
-            choice = by_frequencies(p, asked.tolerance)
+            choice = by_frequencies(p, request.tolerance)
         except DiscModelError as error:  # no number of modes meets the tolerance
             faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
             return p, "", ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,29 +21,16 @@ from pydantic import create_model
 
 from disc_model.data.variables import PERTURBATIONS, START
 from disc_model.disc.plausibility import RULES
-from disc_model.disc.truncation import FREQUENCIES, ModeRequest, asked_modes
-from disc_model.errors import Fault, ParameterError, as_text, suggestion
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.general import General
-from disc_model.figures.kind import Kind, Plot, Values
+from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.region_map import RegionMap
-from disc_model.parameters import (
-    AUTO,
-    CHOOSING,
-    DEFAULTS,
-    PLATE,
-    RATIOS,
-    RELATED,
-    RESIDUAL,
-    Parameters,
-    case_of,
-    cross_faults,
-    with_ratios,
-)
+from disc_model.mode_choice import ModeRequest, asked_modes
+from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, RESIDUAL, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
 from disc_model.studies.quantity import Quantity
-from disc_model.studies.ranges import Blocks, Value
-from disc_model.studies.rules import holds, names_in
+from disc_model.studies.ranges import Blocks, Value, holds, names_in
 from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
@@ -68,13 +56,9 @@ class Dimension:
     @classmethod
     def of(cls, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> Dimension:
         """A dimension from blocks in any order; a value belongs to the first block that has it."""
-        seen: set[Any] = set()
-        kept = []
-        for block in blocks:
-            if new := sorted(set(block) - seen):
-                seen.update(new)
-                kept.append(tuple(new))
-        return cls(tuple(names), tuple(kept))
+        first = {value: i for i, block in reversed([*enumerate(map(set, blocks))]) for value in block}
+        kept = ([value for value in first if first[value] == i] for i in sorted({*first.values()}))
+        return cls(tuple(names), tuple(tuple(sorted(block)) for block in kept))
 
     @property
     def name(self) -> str:
@@ -84,7 +68,7 @@ class Dimension:
     @property
     def values(self) -> tuple[tuple[Value, ...], ...]:
         """All values, sorted."""
-        return tuple(sorted(value for block in self.blocks for value in block))
+        return tuple(sorted(chain(*self.blocks)))
 
     def thinned(self, most: int) -> Dimension:
         """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
@@ -93,21 +77,6 @@ class Dimension:
             last = len(values) - 1
             values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
         return Dimension(self.names, (values,))
-
-
-def points(
-    dims: Sequence[Dimension], where: Sequence[str] = (), base: Mapping[str, Any] | None = None
-) -> Iterator[dict[str, Value]]:
-    """The varying values, by name, at every point of a grid that satisfies the rules."""
-    names = [name for dim in dims for name in dim.names]
-    for point in product(*(dim.values for dim in dims)):
-        found = dict(zip(names, chain.from_iterable(point), strict=True))
-        if not where or holds(where, {**(base or {}), **found}):
-            yield found
-
-
-# ----------------------------------------------------------------------------------------------------
-# Grids
 
 
 class FigureEntry(NamedTuple):
@@ -125,26 +94,33 @@ class FigureEntry(NamedTuple):
 
 
 class GridStudy:
-    """A grid study. `faults` lists what is wrong with it.
+    """A grid study; raises `ParameterError` with the faults between the parts of its file.
 
     document : content of the file
     quantity, options : name of the quantity, and the quantity with its options
     base : values that do not vary
     dims : in the order of `VARIED`; varied : names along them
+    mode_request : the choice of modes that is made at each point, if there is one
     starts : starts of motions, by name
     plots : figures, by name
     """
 
     def __init__(self, document: Document, plots: Mapping[str, Plot]) -> None:
-        self.document, self.plots, self.faults = document, plots, list[Fault]()
+        self.document, self.plots = document, plots
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
         self.options: Quantity = document.options
-        self.base, self.asked = self._base()
-        own = [Dimension((name,), _tupled(blocks)) for name, blocks in self.options.dimensions.items()]
-        self.dims = (*sorted(self._dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *own)
+        self.base, self.mode_request = self._read_base()
+        of_options = [Dimension((name,), _tupled(blocks)) for name, blocks in self.options.dimensions.items()]
+        self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
         self.varied = [name for dim in self.dims for name in dim.names]
-        self._check()
+        raise_faults([*self._wrong_names(), *self._wrong_starts()])
+        raise_faults([*self._wrong_extent()])
+        whole_base, faults = self._base_of_points(), [*self.options.faults(self)]
+        for name, plot in plots.items():
+            faults += (fault.inside(("figures", name)) for fault in self.faults_of(plot))
+        raise_faults(faults)
+        self.base = whole_base
 
     @cached_property
     def batches(self) -> dict[str, str]:
@@ -160,34 +136,51 @@ class GridStudy:
     @cached_property
     def motions(self) -> dict[str, str]:
         """JSON text, by its name, of the batch of points whose motions are stored; empty for some quantities."""
-        most = self.options.motions
-        if not most:
-            return {}
-        few = [dim.thinned(most) for dim in self.dims]
-        return self._texts(few, [{"points": [[*point.values()] for point in points(few)]}])
+        few = [dim.thinned(self.options.motions) for dim in self.dims]
+        return self._texts(few, [{"points": product(*(dim.values for dim in few))}]) if self.options.motions else {}
 
     def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         """Parts of the grid that have points left, each as a text with everything that its result depends on."""
-        names = [name for dim in dims for name in dim.names]
-        options = self.options.model_dump()
-        shared = {"quantity": self.quantity, "options": options, "base": self.base, "names": names}
+        shared = {"quantity": self.quantity, "options": self.options.model_dump(), "base": self.base}
+        shared["names"] = [name for dim in dims for name in dim.names]
         texts = []
         for part in parts:
-            every = [dict(zip(names, point, strict=True)) for point in part["points"]]
-            kept = [point for point in every if not self.where or holds(self.where, {**self.base, **point})]
-            stated = {}
-            for key, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
-                if key in names:
-                    stated[kind] = {name: known[name].model_dump() for name in {str(point[key]) for point in kept}}
-            if kept:
-                texts.append(canonical_json(shared | stated | part | {"points": [[*point.values()] for point in kept]}))
+            points = [*self._points(dims, part["points"], self.base)]
+            texts_of_names = {}
+            for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
+                if name in shared["names"]:
+                    used = {str(point[name]) for point in points}
+                    texts_of_names[kind] = {word: known[word].model_dump() for word in used}
+            if points:
+                content = part | {"points": [[*point.values()] for point in points]}
+                texts.append(canonical_json(shared | texts_of_names | content))
         return {content_key(text): text for text in texts}
+
+    def _points(
+        self, dims: Sequence[Dimension], points: Iterable[Sequence[tuple[Value, ...]]], base: Mapping[str, Any]
+    ) -> Iterator[dict[str, Value]]:
+        """The varying values, by name, at those of some points that keep the file's rules."""
+        names = [name for dim in dims for name in dim.names]
+        for point in points:
+            values = dict(zip(names, chain.from_iterable(point), strict=True))
+            if not self.where or holds(self.where, {**base, **values}):
+                yield values
+
+    def points_along(self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}) -> Iterator[dict[str, Value]]:
+        """The varying values, by name, at every point along some dimensions that keeps the file's rules."""
+        return self._points(dims, product(*(dim.values for dim in dims)), base or self.base)
+
+    def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
+        """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
+        wanted = {*names, *chain(*map(names_in, self.where))}
+        ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
+        wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
+        return self.points_along([dim for dim in self.dims if not wanted.isdisjoint(dim.names)])
 
     @property
     def sources(self) -> tuple[str, ...]:
         """Modules by which its points are computed and that are loaded by name, as `disc_model.sources` has them."""
-        by_motion = self.asked is not None and self.asked.quantity != FREQUENCIES
-        return f"studies.quantities.{self.quantity}", *["mode_choice"] * by_motion
+        return f"studies.quantities.{self.quantity}", *["mode_choice"] * (self.mode_request is not None)
 
     @property
     def grid(self) -> list[dict[str, Any]]:
@@ -202,11 +195,8 @@ class GridStudy:
     @property
     def n_points(self) -> int:
         """Number of points of the grid that are not excluded."""
-        return (
-            sum(1 for _ in points(self.dims, self.where, self.base))
-            if self.where
-            else math.prod(len(dim.values) for dim in self.dims)
-        )
+        whole = math.prod(len(dim.values) for dim in self.dims)
+        return sum(1 for _ in self.points_along(self.dims)) if self.where else whole
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -218,91 +208,59 @@ class GridStudy:
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible points, each with their number."""
         base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
-        base |= next(points(self.dims, self.where, base))
+        base |= next(self.points_along(self.dims))
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
-            looked_at = [dim.thinned(round(300 ** (1 / len(dims)))) for dim in dims]  # about 300 points
-            cases = [base | point for point in points(looked_at, self.where, base)] or [base]
-            found = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, self.discs))))]
-            if found:
-                about = "about " * any(
-                    len(few.values) < len(dim.values) for few, dim in zip(looked_at, dims, strict=True)
-                )
-                yield f"{found[0]} ({about}{len(found) * self.n_points // len(cases)} of {self.n_points} points)"
-
-    # ---- its check
-
-    def _add(self, path: tuple[str, ...], rule: str, *value: Any) -> None:
-        self.faults.append(Fault(path, as_text(value[0]) if value else "", rule))
-
-    def _check(self) -> None:
-        """Check the rules between the parts; those between values only if the parts are right."""
-        if not self.faults:
-            self._check_names()
-            self._check_starts()
-            self._check_where()
-        if not self.faults:
-            self._check_points()
-            self.faults += self.options.faults(self)
-            for name, plot in self.plots.items():
-                self.faults += [fault.inside(("figures", name)) for fault in self.faults_of(plot)]
-        if not self.faults:
-            self._complete_base()
-
-    def _complete_base(self) -> None:
-        """Give `base` all values that do not vary, as one point has them."""
-        point = next(points(self.dims, self.where, self.base))
-        unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
-        try:
-            whole = Parameters(**{**unused, **case_of({**self.base, **point}, self.discs)}).canonical
-        except ParameterError as error:  # faults of varying and fixed values together
-            self.faults += [fault.inside(("base",)) for fault in error.faults]
-            return
-        dropped = {*point, *(RATIOS[name][0] for name in point.keys() & RATIOS)}
-        if self.asked is not None:
-            dropped.add("n_circles")
-            whole |= self.asked.given
-        self.base = {name: value for name, value in whole.items() if name not in dropped}
+            thinned = [dim.thinned(round(300 ** (1 / len(dims)))) for dim in dims]  # about 300 points
+            cases = [base | point for point in self.points_along(thinned, base)] or [base]
+            texts = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, self.discs))))]
+            if texts:
+                about = "" if [len(dim.values) for dim in thinned] == [len(dim.values) for dim in dims] else "about "
+                yield f"{texts[0]} ({about}{len(texts) * self.n_points // len(cases)} of {self.n_points} points)"
 
     # ---- what the file says
 
-    def _base(self) -> tuple[dict[str, Any], ModeRequest | None]:
+    def _read_base(self) -> tuple[dict[str, Any], ModeRequest | None]:
         """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
-        fixed, asked, faults = asked_modes(given_values(self.document.base))
-        self.faults += [fault.inside(("base",)) for fault in faults if isinstance(fault, Fault)]
-        if asked is not None and "n_circles" in fixed:
-            self._add(("base", "n_circles"), f"is chosen for each point, since base.n_diameters is {AUTO!r}")
-        return fixed, asked
+        try:
+            base, request = asked_modes(given_values(self.document.base))
+        except ParameterError as error:
+            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
+        if request is not None and "n_circles" in base:
+            raise ParameterError(Fault(("base", "n_circles"), "", _CHOSEN))
+        return base, request
 
-    def _dimensions(self) -> Iterator[Dimension]:
-        """The valid dimensions of the file."""
-        axes = given_values(self.document.axes)
-        for name, blocks in self._columns(axes, ("axes",), self.document.resolution).items():
-            yield Dimension.of((name,), _tupled(blocks))
+    def _read_dimensions(self) -> list[Dimension]:
+        """The dimensions of the file; raises `ParameterError`."""
+        faults: list[Fault] = []
+        axes = self._columns(self.document.axes, ("axes",), faults, self.document.resolution)
+        dims = [Dimension.of((name,), _tupled(blocks)) for name, blocks in axes.items()]
         for i, group in enumerate(self.document.zip):
             path = ("zip", str(i))
-            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(given_values(group), path).items()}
+            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group, path, faults).items()}
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
-                self._add(path, f"must have columns of equal length, not {lengths}")
+                faults.append(Fault(path, "", f"must have columns of equal length, not {lengths}"))
             elif columns:
-                yield Dimension.of([*columns], [list(zip(*columns.values(), strict=True))])
+                dims.append(Dimension.of([*columns], [list(zip(*columns.values(), strict=True))]))
+        raise_faults(faults)
+        return dims
 
-    def _columns(self, given: Mapping[str, Any], path: tuple[str, ...], resolution: int = 1) -> dict[str, Blocks]:
+    def _columns(self, axes: Any, path: tuple[str, ...], faults: list[Fault], resolution: int = 1) -> dict[str, Blocks]:
         """Valid blocks of values by name, converted to floats, whole numbers or words."""
         columns = {}
-        for name, axis in given.items():
+        for name, axis in given_values(axes).items():
             try:
                 blocks = blocks_of(axis, resolution)
                 columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks)
             except ParameterError as error:
-                self.faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
+                faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
             except ValueError as error:
-                self._add((*path, name), str(error))
+                faults.append(Fault((*path, name), "", str(error)))
         return columns
 
     def _value(self, name: str, value: Value) -> Value:
-        """Convert and check one value by itself; `_check_points` checks them together."""
+        """Convert and check one value by itself; `_base_of_points` checks them together."""
         if name == START and not (isinstance(value, str) and value in self.starts):
             raise ParameterError(Fault.of((), value, f"no such start{suggestion(value, self.starts)}"))
         if name == "disc" and not (isinstance(value, str) and value in self.discs):
@@ -315,121 +273,131 @@ class GridStudy:
 
     # ---- rules between its parts
 
-    def _check_names(self) -> None:
-        """Check which names vary, which are given, and which are lacking."""
-        base, scanned, over = self.document.base.model_fields_set, self.options.scanned, self.document.batch.over
-        quantity, names, wanted = f"the quantity {self.quantity}", [dim.name for dim in self.dims], {*self.varied}
-        for name in sorted(name for name in wanted if self.varied.count(name) > 1):
-            self._add(("axes", name), "varies along two dimensions")
-        if not self.dims:
-            self._add(("axes",), "is required: at least one axis or zip")
+    def _wrong_names(self) -> Iterator[Fault]:
+        """Faults of the names that vary and that are given, and names that are lacking."""
+        given, scanned = self.document.base.model_fields_set, self.options.scanned
+        quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
         for name in scanned:
-            if name in wanted or name in base:
-                self._add(("axes" if name in wanted else "base", name), f"is varied by {quantity}")
-        for name in sorted(wanted):
+            if name in counts or name in given:
+                yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
+        for name in sorted(counts):
             stands_for, other = RATIOS.get(name, ("", ""))
-            others = [RATIOS.get(one, (one,))[0] for one in (*wanted - {name}, *base, *scanned)]
-            if "disc" in {*wanted, *base} and not {name, stands_for, other}.isdisjoint((*PLATE, "damping_ratio")):
-                self._add(("axes", name), "must be left out where a disc is given: it is a parameter of the plate")
-            if stands_for in others:
-                self._add(("axes", name), f"stands for {stands_for}, which is given as well")
-            elif other in scanned:
-                self._add(("axes", name), f"needs {other}, which {quantity} varies")
-            if name in base:
+            others = {RATIOS.get(word, (word,))[0] for word in (*counts.keys() - {name}, *given, *scanned)}
+            of_plate = not {name, stands_for, other}.isdisjoint((*PLATE, "damping_ratio"))
+            if name in given:
                 value = getattr(self.document.base, name)
-                self._add(("base", name), "varies as well: give it in base or as an axis, not both", value)
-            if self.asked is not None and name in ("n_diameters", "n_circles"):
-                self._add(("axes", name), f"is chosen for each point, since base.n_diameters is {AUTO!r}")
+                yield Fault.of(("base", name), value, "varies as well: give it in base or as an axis, not both")
+            for broken, rule in (
+                (counts[name] > 1, "varies along two dimensions"),
+                (of_plate and "disc" in {*counts, *given}, "must be left out where a disc is given"),
+                (stands_for in others, f"stands for {stands_for}, which is given as well"),
+                (other in scanned, f"needs {other}, which {quantity} varies"),
+                (self.mode_request is not None and name in ("n_diameters", "n_circles"), _CHOSEN),
+            ):
+                if broken:
+                    yield Fault(("axes", name), "", rule)
         for name in REQUIRED:
-            if name not in {*wanted, *base, *scanned}:
-                self._add(("axes", name), "is required, here, in a zip or in base")
-        if self.options.over and self.options.over not in names:
-            self._add(("axes", self.options.over), f"is required: {quantity} looks along it")
-        for name in over or ():
-            if name not in names:
-                self._add(("batch", "over"), f"must name dimensions (known: {', '.join(names)})", name)
-        if self.options.tiled and not self.faults and len(_plane(self.dims, over)) != 2:
-            rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
-            self._add(("batch", "over"), rule, over and list(over))
-        if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
-            self._add(("axes",), f"must make at most {MOST_POINTS} points, and not {size}")
+            if name not in {*counts, *given, *scanned}:
+                yield Fault(("axes", name), "", "is required, here, in a zip or in base")
+        if not self.dims:
+            yield Fault(("axes",), "", "is required: at least one axis or zip")
+        if self.options.over and self.options.over not in self.values:
+            yield Fault(("axes", self.options.over), "", f"is required: {quantity} looks along it")
+        known = f"must name dimensions (known: {', '.join(self.values)})"
+        for name in self.document.batch.over or ():
+            if name not in self.values:
+                yield Fault.of(("batch", "over"), name, known)
 
-    def _check_starts(self) -> None:
+    def _wrong_starts(self) -> Iterator[Fault]:
         """Only some quantities accept another start, and the file must give it in one place only."""
         for name in {START, *PERTURBATIONS}.intersection(self.varied):
             coordinate = name.removeprefix("perturbation_")
             if "perturbation" not in type(self.options).model_fields:
-                self._add(("axes", name), f"the quantity {self.quantity} follows no motion from a start")
+                yield Fault(("axes", name), "", f"the quantity {self.quantity} follows no motion from a start")
                 continue
             if coordinate in self.options.perturbation:  # type: ignore[attr-defined]
-                self._add(("options", "perturbation", coordinate), f"is given, and varies as axes.{name}")
+                yield Fault(("options", "perturbation", coordinate), "", f"is given, and varies as axes.{name}")
             for key in self.options.model_fields_set & {"prerun", "perturbation"} if name == START else ():
-                self._add(("options", key), "must not be given where the start varies: say it under starts")
+                yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
 
-    def _check_where(self) -> None:
-        """Check the file's own rules: they must compare known values and leave some points."""
-        known = {**Parameters.model_fields, **dict.fromkeys(self.varied)}
-        for rule in self.where:
-            for name in sorted(names_in(rule) - known.keys()):
-                more = suggestion(name, [*known], all_of_them=False)
-                self._add(("where",), f"{name} is no value of a point{more}", rule)
-        if self.where and not self.faults and next(self.points_of(()), None) is None:
-            self._add(("where",), "leaves no point")
+    def _wrong_extent(self) -> Iterator[Fault]:
+        """Faults of the plane and number of points, and of rules, which must compare known values and leave points."""
+        over, known = self.document.batch.over, [*{**Parameters.model_fields, **dict.fromkeys(self.varied)}]
+        if self.options.tiled and len(_plane(self.dims, over)) != 2:
+            rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
+            yield Fault.of(("batch", "over"), over and list(over), rule)
+        if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
+            yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
+        unknown = [(name, rule) for rule in self.where for name in sorted(names_in(rule).difference(known))]
+        for name, rule in unknown:
+            more = suggestion(name, known, all_of_them=False)
+            yield Fault.of(("where",), rule, f"{name} is no value of a point{more}")
+        if self.where and not unknown and next(self.points_of(()), None) is None:
+            yield Fault(("where",), "", "leaves no point")
 
-    def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
-        """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
-        wanted = {*names, *chain(*map(names_in, self.where))}
-        ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
-        wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
-        return points([dim for dim in self.dims if not wanted.isdisjoint(dim.names)], self.where, self.base)
-
-    def _check_points(self) -> None:
-        """Check the rules between parameters of which some vary; each is reported where it is broken first."""
-        found = [cross_faults(DEFAULTS | with_ratios({**self.base, **point})) for point in self.points_of(RELATED)]
+    def _base_of_points(self) -> dict[str, Any]:
+        """All values that do not vary; raises `ParameterError` by rules between values, each where it first breaks."""
+        unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
+        first = next(self.points_along(self.dims))
+        faults: dict[str, Fault] = {}
+        whole: dict[str, Any] = {}
+        for point in self.points_of(RELATED):
+            try:
+                values = unused | case_of({**self.base, **first, **point}, self.discs)
+                whole = Parameters(**values).canonical
+            except ParameterError as error:
+                faults = {fault.path[0]: fault for fault in error.faults} | faults
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
-        for fault in first_of_each(chain(*found)):
-            name, hint = fault.path[0], ""
-            if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and not all(found):
+        for name, fault in faults.items():
+            part, hint = "axes" if name in self.varied or name in ratios else "base", ""
+            if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and whole:
                 hint = f"; where: {name} {rule[1]} {rule[2]} leaves out the points that break this"
-            if name in ratios:
-                self._add(("axes", ratios[name]), f"{fault}{hint}")
-            else:
-                path = ("axes" if name in self.varied else "base", name)
-                self.faults.append(Fault(path, fault.value, fault.rule + hint))
+            path = (ratios.get(name, name), *[name] * (name in ratios), *fault.path[1:])
+            faults[name] = Fault((part, *path), fault.value, fault.rule + hint)
+        raise_faults([*faults.values()])
+        dropped = {*first, *(RATIOS[name][0] for name in first.keys() & RATIOS)}
+        if self.mode_request is not None:
+            dropped.add("n_circles")
+            whole |= self.mode_request.given
+        return {name: value for name, value in whole.items() if name not in dropped}
+
+    # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
         """Faults that keep a figure from showing this grid."""
         if isinstance(plot, General):
-            return _general(plot, self.options, self.values)
+            return self._faults_of_general(plot)
         if self.quantity in plot.quantities:
             return plot.faults(self.values)
         return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
+
+    def _faults_of_general(self, plot: General) -> Iterator[Fault]:
+        """Faults of a general figure, checked against the variables and dimensions of the quantity."""
+        from disc_model.studies.run import coordinates_of  # reads xarray, which other figures do not need
+
+        quantity, values = self.options, dict[str, list[Any]]()
+        for name, along in self.values.items():
+            values[name] = [value[0] if len(value) == 1 else value for value in along]
+        others, variables = [name for name in values if name != quantity.over], dict[str, Any]()
+        for columns, coordinates, dims in (
+            (quantity.COLUMNS, quantity.COORDINATES, [*values]),
+            (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
+        ):
+            variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
+            values |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
+        return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
         """A figure of this grid, as lists and reports show it."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
-        stated = f"{plot.caption} From the grid study {self.name}.".strip()
-        return FigureEntry(plot, inputs, category, plot.section, title, stated)
+        return FigureEntry(
+            plot, inputs, category, plot.section, title, f"{plot.caption} From the grid study {self.name}.".strip()
+        )
 
 
-def _general(plot: General, quantity: Quantity, values: Values) -> Iterator[Fault]:
-    """Faults of a general figure, checked against the variables and dimensions of the quantity."""
-    # reads xarray, which other figures do not need
-    from disc_model.studies.run import coordinates_of
-
-    grid = {name: [one[0] if len(one) == 1 else one for one in along] for name, along in values.items()}
-    own: dict[str, list[Any]] = {}
-    variables: dict[str, Any] = {}
-    others = [name for name in grid if name != quantity.over]
-    for columns, coordinates, dims in (
-        (quantity.COLUMNS, quantity.COORDINATES, [*grid]),
-        (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
-    ):
-        variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
-        own |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
-    return plot.faults_among(grid | own, variables)
+_CHOSEN = f"is chosen for each point, since base.n_diameters is {AUTO!r}"
 
 
 def _tupled(blocks: Blocks) -> tuple[tuple[tuple[Value], ...], ...]:
@@ -437,22 +405,16 @@ def _tupled(blocks: Blocks) -> tuple[tuple[tuple[Value], ...], ...]:
     return tuple(tuple((value,) for value in block) for block in blocks)
 
 
-def first_of_each(faults: Iterable[Fault]) -> list[Fault]:
-    """The first fault of each parameter."""
-    return list({fault.path[0]: fault for fault in reversed([*faults])}.values())[::-1]
-
-
 # ----------------------------------------------------------------------------------------------------
 # Batches
 
 
-def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[list[Value]]]:
-    """Points of each batch, a list of values in the order of the dimensions."""
+def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[tuple[Any, ...]]]:
+    """Points of each batch, each with its values along the dimensions."""
     # an uncut dimension is taken as blocks of one value each
     blocks = [dim.blocks if over is None or dim.name in over else [(value,) for value in dim.values] for dim in dims]
     for chosen in product(*blocks):
-        for part in _parts(chosen, size):
-            yield [[*chain.from_iterable(point)] for point in part]
+        yield from _parts(chosen, size)
 
 
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
@@ -479,11 +441,11 @@ def _tiles(
     gathered = batch.over or [dim.name for dim in others]
     shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
     for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
-        along, kept = zip(*tile, strict=True)
-        own = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *kept], strict=True))
-        points = [[*chain.from_iterable(point)] for point in product(*(own[dim.name] for dim in dims))]
-        within = [[_at(mark[name], values) for name, values in zip(names, along, strict=True)] for mark in sampled]
-        inside = sorted(places for places in within if None not in places)
+        along, within_tile = zip(*tile, strict=True)
+        values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
+        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in sampled]
+        inside = sorted(index for index in indices if None not in index)
+        points = product(*(values[dim.name] for dim in dims))
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
 
 
@@ -493,9 +455,9 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
     return [dim for dim in numbers if over is None or dim.name in over[:2]]
 
 
-def _at(value: float, along: Sequence[Value]) -> int | None:
+def _index(value: float, along: Sequence[Value]) -> int | None:
     """Index of a value along the side of a tile."""
-    return next((i for i, one in enumerate(along) if math.isclose(value, float(one), rel_tol=1e-12)), None)
+    return next((i for i, other in enumerate(along) if math.isclose(value, float(other), rel_tol=1e-12)), None)
 
 
 def _cuts(values: Sequence[tuple[Value, ...]], size: int) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:

@@ -1,13 +1,17 @@
-"""Evenly spaced values, of axes and of options, and conditions between the keys of one part of a file."""
+"""Evenly spaced values, of axes and of options, and rules: between the keys of a part of a file, and of a point."""
 
+import ast
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from itertools import chain
+from types import CodeType
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from disc_model.units import Count, Finite, Positive, Strict
+from disc_model.parameters import DEFAULTS, with_ratios
+from disc_model.units import Count, Finite, Positive, Strict, number
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
@@ -97,3 +101,49 @@ class Range(Ruled):
         if self.scale == "log":
             return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
         return float(f"{self.start + share * (self.stop - self.start):.12g}")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid
+
+_MADE_OF = (
+    *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),
+    *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.And, ast.Or),
+    *(ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq),
+)
+
+
+def checked_rule(rule: str) -> str:
+    """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
+    _compiled(rule)
+    return rule
+
+
+def names_in(rule: str) -> frozenset[str]:
+    """Names in a rule."""
+    return frozenset(_compiled(rule).co_names)
+
+
+@cache
+def _compiled(rule: str) -> CodeType:
+    """A rule of comparisons, with floats only: a whole number could repeat a word without end."""
+    try:
+        tree = ast.parse(rule.strip(), mode="eval")
+        nodes = list(ast.walk(tree.body))
+        if not isinstance(tree.body, ast.Compare | ast.BoolOp) or not all(isinstance(node, _MADE_OF) for node in nodes):
+            raise ValueError
+        for node in nodes:
+            if isinstance(node, ast.Constant) and not isinstance(node.value, str):
+                node.value = number(node.value)
+        return compile(tree, "where", "eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise ValueError("must compare values in SI, without units, such as mu_k <= mu_s") from None
+
+
+def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
+    """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by zero, does not."""
+    floats = {name: float(x) if isinstance(x, int) else x for name, x in (DEFAULTS | with_ratios(values)).items()}
+    try:
+        return all(eval(_compiled(rule), {"__builtins__": {}}, floats) for rule in rules)
+    except (ArithmeticError, TypeError):
+        return False

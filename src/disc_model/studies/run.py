@@ -14,10 +14,9 @@ from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.disc.plate import mode_arrays
-from disc_model.disc.truncation import read_asked
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import chosen_modes
-from disc_model.parameters import AUTO, case_of
+from disc_model.mode_choice import chosen_modes, read_asked
+from disc_model.parameters import AUTO, Parameters, case_of
 from disc_model.simulation.case import Start
 from disc_model.sources import source_hash
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
@@ -108,8 +107,10 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     """The parameters of a point, or the error if no number of modes meets the tolerance."""
     values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
-        p, asked = read_asked(values)
-        return p if asked is None else chosen_modes(p, asked).parameters
+        if values.get("n_diameters") != AUTO:
+            return Parameters(**values)
+        p, request = read_asked(values)
+        return p if request is None else chosen_modes(p, request).parameters
     except DiscModelError as error:
         return error
 

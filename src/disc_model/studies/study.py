@@ -1,13 +1,14 @@
 """Studies: their files are read and checked, and yield named cases and grids.
 
 `load_study` reads files, `study_from_config` takes what Snakemake read from one or more files, and `parse_study` takes
-the mapping itself. All raise one `StudyError` that lists every fault with its path: those of single values first, and
+the mapping itself. All raise one `StudyError` that lists the faults with their paths: those of single values first, and
 those between values once these are right. The keys of a file are defined in `disc_model.studies.document`. Each case
 inherits the study's base values and default records.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial, reduce
 from glob import glob
@@ -20,14 +21,14 @@ import yaml
 from disc_model.data.variables import values_text
 from disc_model.disc.plausibility import RULES
 from disc_model.disc.tables import read_disc
-from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Plot
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.document import Document
 from disc_model.studies.grid import GRID_KEYS, FigureEntry, GridStudy
 
 # ----------------------------------------------------------------------------------------------------
-# Reading: what YAML itself would ignore, or report in its own form, is a fault
+# Reading
 
 
 class StudyError(DiscModelError, ValueError):
@@ -44,8 +45,8 @@ class StudyError(DiscModelError, ValueError):
         return (partial(type(self), source=self.source), self.faults)
 
 
-def read_file(path: Path) -> tuple[Any, list[str]]:
-    """A YAML file's content and the keys that it gives twice; raises `StudyError` if it cannot be read."""
+def read_file(path: Path) -> Any:
+    """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
     try:
         return read_yaml(path.read_text(encoding="utf-8"), str(path))
     except OSError as error:
@@ -54,43 +55,41 @@ def read_file(path: Path) -> tuple[Any, list[str]]:
         raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
 
 
-def _given_twice(root: yaml.Node) -> list[str]:
+def read_yaml(text: str, source: str = "study") -> Any:
+    """A YAML document; raises `StudyError` if the text is none or gives a key twice."""
+    try:
+        loader = yaml.SafeLoader(text)
+        node = loader.get_single_node()
+        faults = _given_twice(node)
+        if not faults:
+            return None if node is None else loader.construct_document(node)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        line = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
+        faults = [line + ", ".join(part for part in (error.context, error.problem) if part)]
+    except (yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
+        # ValueError and what follows: a value looks like a number or date, or has a tag, that it does not fit
+        faults = [f"a value does not fit its form or tag ({' '.join(str(error).split())})"]
+    raise StudyError(*faults, source=source)
+
+
+def _given_twice(root: yaml.Node | None) -> list[str]:
     """Keys that are given twice, of which YAML itself would take the last value."""
-    nodes, faults, visited = [root], [], set[int]()
+    nodes, visited, faults = [root], set[int](), list[str]()
     for node in nodes:
         if id(node) in visited:  # an alias of an earlier node
             continue
         visited.add(id(node))
         if isinstance(node, yaml.MappingNode):
-            first: dict[Any, int] = {}
-            for key, line in ((key.value, key.start_mark.line + 1) for key, _ in node.value):
-                if key in first and key != "<<":
-                    faults.append(f"{key}: given twice, in lines {first[key]} and {line}")
-                first.setdefault(key, line)
+            lines: dict[Any, list[int]] = {}
+            for key, _ in node.value:
+                lines.setdefault(key.value, []).append(key.start_mark.line + 1)
+            twice = {key: places for key, places in lines.items() if len(places) > 1 and key != "<<"}
+            faults += [f"{key}: given twice, in lines {lines[0]} and {lines[1]}" for key, lines in twice.items()]
             nodes += chain(*node.value)
         elif isinstance(node, yaml.SequenceNode):
             nodes += node.value
     return faults
-
-
-def read_yaml(text: str, source: str = "study") -> tuple[Any, list[str]]:
-    """A YAML document and the keys that it gives twice; raises `StudyError` if the text is none."""
-    try:
-        loader = yaml.SafeLoader(text)
-        node = loader.get_single_node()
-        faults = [] if node is None else _given_twice(node)
-        return None if node is None else loader.construct_document(node), faults
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        place = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        fault = place + ", ".join(part for part in (error.context, error.problem) if part)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        # ValueError: text that looks like a number or date but is none
-        fault = " ".join(str(error).split())
-    except (AttributeError, KeyError, TypeError) as error:
-        # raised by a tag such as !!timestamp or !!bool before an invalid value
-        fault = f"a value does not fit its tag ({' '.join(str(error).split())})"
-    raise StudyError(fault, source=source)
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
@@ -98,15 +97,16 @@ def mapping(value: Any) -> Mapping[Any, Any]:
     return value if isinstance(value, Mapping) else {}
 
 
-def inherit(base: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Any]:
-    """`own` over `base`, mappings merged key by key; None drops what is inherited."""
+def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """`changes` over `base`, mappings merged key by key; None drops what is inherited."""
     merged = dict(base)
-    for key, value in own.items():
-        old = merged.get(key)
+    for key, value in changes.items():
         if value is None and key in base:
             del merged[key]
+        elif isinstance(value, Mapping) and isinstance(merged.get(key), Mapping):
+            merged[key] = inherit(merged[key], value)
         else:
-            merged[key] = inherit(old, value) if isinstance(old, Mapping) and isinstance(value, Mapping) else value
+            merged[key] = value
     return merged
 
 
@@ -122,7 +122,7 @@ MODES = {
 
 
 class Study:
-    """A study. `faults` lists what is wrong with it.
+    """A study; raises `ParameterError` with the faults between the parts of its file.
 
     document : content of the file; the study has its name, title, claims, cases, and files of further grid studies
     specs : what is simulated of each case, in the order of the file
@@ -133,41 +133,41 @@ class Study:
     def __init__(self, document: Document) -> None:
         self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
         self.cases, self.studies, self.figures = document.cases, document.studies, document.figures
-        self.faults: list[Fault] = []
         self.specs: dict[str, CaseSpec] = {}
+        self.grid: GridStudy | None = None
+        faults: list[Fault] = []
         for name, case in self.cases.items():
             try:
                 self.specs[name] = case.spec()
             except ParameterError as error:
-                self.faults += [fault.inside(("cases", name)) for fault in error.faults]
+                faults += [fault.inside(("cases", name)) for fault in error.faults]
         keys = document.model_fields_set
-        own = {name: plot for name, plot in self._plots if plot.study in ("", self.name)}
-        self.grid = GridStudy(document, own) if document.options is not None else None
         if self.name in ("compiled", "bench"):  # folders beside those of studies
-            self.faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
-        if self.grid is not None:
-            self.faults += self.grid.faults
+            faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
+        if document.options is not None:
+            try:
+                plots = {name: plot for name, plot in self._grid_plots if plot.study in ("", self.name)}
+                self.grid = GridStudy(document, plots)
+            except ParameterError as error:
+                faults += error.faults
         elif keys & GRID_KEYS:
-            self.faults.append(Fault(("quantity",), "", "is required"))
+            faults.append(Fault(("quantity",), "", "is required"))
         elif not keys & {"cases", "studies"}:
             rule = "must say what to compute: cases, or quantity and axes, or studies"
-            self.faults.append(Fault(("study",), "", rule))
-        self.faults += self._wrong_figures()
-
-    @property
-    def _plots(self) -> Iterator[tuple[str, Plot]]:
-        """The figures of grids, with their names."""
-        return ((name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot))
-
-    def _wrong_figures(self) -> Iterator[Fault]:
-        """Faults of the figures of cases, and of those of a grid that the file lacks."""
-        cases = {name: self.specs[name].sections if name in self.specs else None for name in self.cases}
+            faults.append(Fault(("study",), "", rule))
+        recorded = {name: self.specs[name].sections if name in self.specs else None for name in self.cases}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
-                yield from (fault.inside(("figures", name)) for fault in plot.faults(cases))
-            elif isinstance(plot, Plot) and not plot.study and self.grid is None:
+                faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
+            elif isinstance(plot, Plot) and not plot.study and document.options is None:
                 rule = "shows a grid: this study has none, and no other one is named as its study"
-                yield Fault.of(("figures", name, "kind"), plot.kind, rule)
+                faults.append(Fault.of(("figures", name, "kind"), plot.kind, rule))
+        raise_faults(faults)
+
+    @property
+    def _grid_plots(self) -> list[tuple[str, Plot]]:
+        """The figures of grids, with their names."""
+        return [(name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot)]
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -189,19 +189,19 @@ class Study:
 
     def _entry_of(self, name: str, plot: CasePlot) -> FigureEntry:
         """A figure of cases; its caption has their parameters."""
-        every = [self.specs[case].parameters for case in plot.cases]
-        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in every))
-        modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in every}))
-        stated = f"{plot.caption or f'{plot.title or name}:'} {values}; everything else as in Table 1; {modes}."
-        section = plot.section or plot.case
-        return FigureEntry(plot, {case: case for case in plot.cases}, "Figures", section, plot.title or name, stated)
+        parameters = [self.specs[case].parameters for case in plot.cases]
+        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
+        modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in parameters}))
+        title, inputs = plot.title or name, {case: case for case in plot.cases}
+        caption = f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
+        return FigureEntry(plot, inputs, "Figures", plot.section or plot.case, title, caption)
 
     @property
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible cases, each with their number."""
         for rule in RULES.values():
-            if found := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
-                yield f"{found[0]} ({len(found)} of {len(self.specs)} cases)"
+            if texts := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
+                yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
         """All grids, the file's own and those of its further files, and the names of the requested ones.
@@ -211,39 +211,43 @@ class Study:
         folders : searched for the files; the first that has one counts
         """
         grids = {} if self.grid is None else {self.name: self.grid}
-        paths = [path for pattern in self.studies for path in _found(pattern, folders)]
-        asked = (*grids, *(path.stem for path in paths))
-        shown = {name for _, plot in self._plots for name in (plot.study, *plot.overlays.values()) if name}
-        shown_too = shown.difference(asked)
-        helpers = [path for name in sorted(shown_too) for path in _found(f"{name}.yaml", folders) if path.is_file()]
-        known = {*asked, *(path.stem for path in helpers)}
+        paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
+        requested = (*grids, *(path.stem for path in paths))
+        shown = {name for _, plot in self._grid_plots for name in (plot.study, *plot.overlays.values()) if name}
+        further = [path for name in sorted(shown.difference(requested)) for path in _matching(f"{name}.yaml", folders)]
+        paths += (path for path in further if path.is_file())
+        known = {*requested, *(path.stem for path in paths)}
         faults: list[str] = []
-        for path in [*paths, *helpers]:
+        for path in paths:
             self._add_grid(path, grids, faults)
         for name in self.document.overrides.keys() - known:
             faults.append(f"overrides.{name}: no such study{suggestion(name, sorted(known))}")
-        for name in sorted(grids.keys() & set(asked)):
-            for figure, plot in grids[name].plots.items():
-                faults += _misfits(f"{name}: figures.{figure}", plot, grids[name], grids, known)
-        for figure, plot in self._plots:
+        plots = [(grids[name], figure, plot) for name in sorted({*grids} & {*requested})
+                 for figure, plot in grids[name].plots.items()]  # fmt: skip
+        for figure, plot in self._grid_plots:
             if plot.study in grids and plot.study != self.name:
-                shown_grid = grids[plot.study]
-                faults += [fault.inside(("figures", figure)).in_file for fault in shown_grid.faults_of(plot)]
-                faults += _misfits(f"{self.name}: figures.{figure}", plot, shown_grid, grids, known)
+                plots.append((grids[plot.study], figure, plot))
+                misfits = grids[plot.study].faults_of(plot)
+                faults += [fault.inside(("figures", figure)).in_file for fault in misfits]
             elif plot.study and plot.study not in known:
                 rule = f"no such study{suggestion(plot.study, sorted(known))}"
                 faults.append(Fault.of(("figures", figure, "study"), plot.study, rule).in_file)
+        for grid, figure, plot in plots:
+            for role, other in plot.overlays.items():
+                rules = [f"no such study{suggestion(other, sorted(known))}"] if other not in known else []
+                rules += _misfits(plot, role, grid, grids[other]) if other in grids else []
+                owner = grid.name if figure in grid.plots else self.name
+                faults += [f"{owner}: figures.{figure}.overlays.{role} = {other!r}: {rule}" for rule in rules]
         if faults:
             raise StudyError(*faults, source="grid studies")
-        return grids, asked
+        return grids, requested
 
     def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
         """Add the grid of another file, with the overriding values applied."""
         try:
-            raw, more = read_file(path)
-            own = inherit(mapping(raw), self.document.overrides.get(path.stem, {}))
-            raw = {"resolution": self.document.resolution, **own}
-            study = parse_study(raw, path.parent, _shown_path(path), more)
+            content = inherit(mapping(read_file(path)), self.document.overrides.get(path.stem, {}))
+            raw = {"resolution": self.document.resolution, **content}
+            study = parse_study(raw, path.parent, _shown_path(path))
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
             return
@@ -265,8 +269,7 @@ def load_study(*paths: str | Path) -> Study:
 
 def read_files(*paths: str | Path) -> Any:
     """Contents of study files, later ones laid over earlier ones."""
-    contents = (read_file(Path(path))[0] for path in paths)
-    return reduce(lambda below, own: inherit(mapping(below), mapping(own)), contents)
+    return reduce(lambda below, changes: inherit(mapping(below), mapping(changes)), map(read_file, map(Path, paths)))
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -275,28 +278,22 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     The files are searched for duplicate keys, which the mapping no longer shows.
     """
     paths = [Path(file) for file in files]
-    faults = [fault for path in paths for fault in read_file(path)[1]]
-    folder = paths[-1].parent if paths else Path()
-    return parse_study(config, folder, ", ".join(map(_shown_path, paths)) or "study", faults)
+    for path in paths:
+        read_file(path)
+    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(_shown_path, paths)) or "study")
 
 
-def parse_study(raw: Any, folder: Path | None = None, source: str = "study", known: Iterable[str] = ()) -> Study:
-    """Check the mapping that a study file holds; raises one error with its faults and those known before.
+def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
+    """Check the mapping that a study file holds; raises one `StudyError`.
 
     folder : contains the tables of discs, if the file may name any
     """
-    faults: list[str] = [*known]
-    if folder is not None:
-        raw = _with_discs(raw, folder, faults)
     try:
-        study = Study(_document(raw))
-        faults += study.faults
+        return Study(_document(raw if folder is None else _with_discs(raw, folder)))
     except ParameterError as error:
         # what is wrong in the values for all cases is wrong in each
-        faults += [fault for fault in error.faults if fault.path[:1] != ("cases",)] or error.faults
-    if faults:
-        raise StudyError(*faults, source=source)
-    return study
+        faults = [fault for fault in error.faults if fault.path[:1] != ("cases",)] or error.faults
+        raise StudyError(*faults, source=source) from None
 
 
 def _document(raw: Any) -> Document:
@@ -316,62 +313,46 @@ def _document(raw: Any) -> Document:
     return Document.model_validate(content)
 
 
-def _with_discs(raw: Any, folder: Path, faults: list[str], place: tuple[str, ...] = ()) -> Any:
+def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
     """A file's content in which the names of disc tables, relative to the folder, are replaced by the discs.
 
-    Recomputation thus depends on a table's content and not on its name.
+    Recomputation thus depends on a table's content and not on its name. Raises `ParameterError`.
     """
     if not isinstance(raw, Mapping):
         return raw
-    if not place:  # names along an axis of discs are tables too
-        axes = [mapping(group).get("disc") for group in _groups(raw)]
+    if not path:  # names along an axis of discs are tables too
+        zips = raw.get("zip")
+        groups = [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
+        axes = [mapping(group).get("disc") for group in groups]
         varied = [name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)]
         if varied:
             raw = {**raw, "discs": {**{name: name for name in varied}, **mapping(raw.get("discs"))}}
-    made = {}
+    content = {}
     for key, value in raw.items():
-        here = (*place, str(key))
-        if isinstance(value, str) and (place == ("discs",) or here[-2:] in (("base", "disc"), ("parameters", "disc"))):
+        inner = (*path, str(key))
+        if isinstance(value, str) and (path == ("discs",) or inner[-2:] in (("base", "disc"), ("parameters", "disc"))):
             try:
-                made[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
+                content[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
             except ParameterError as error:
-                faults += [Fault(here, "", str(fault)).in_file for fault in error.faults]
+                raise ParameterError(*(Fault(inner, "", str(fault)) for fault in error.faults)) from None
         else:
-            made[key] = _with_discs(value, folder, faults, here)
-    return made
-
-
-def _groups(raw: Mapping[str, Any]) -> list[Any]:
-    """What a file gives as axes, and as each zip."""
-    zips = raw.get("zip")
-    return [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
+            content[key] = _with_discs(value, folder, inner)
+    return content
 
 
 def _shown_path(path: Path) -> str:
     """The shortest form of a path, relative to the current folder if possible."""
-    whole, here = path.resolve(), Path.cwd()
-    return str(whole.relative_to(here) if whole.is_relative_to(here) else path)
+    whole, current = path.resolve(), Path.cwd()
+    return str(whole.relative_to(current) if whole.is_relative_to(current) else path)
 
 
-def _found(pattern: str, folders: Sequence[Path]) -> list[Path]:
+def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
     """Files that match a pattern, in the first folder that has any; the pattern itself if there are none."""
-    found = (sorted(glob(str(folder / pattern))) for folder in folders)
-    return [Path(path) for path in next(filter(None, found), [pattern])]
+    matches = (sorted(glob(str(folder / pattern))) for folder in folders)
+    return [Path(path) for path in next(filter(None, matches), [pattern])]
 
 
-def _misfits(
-    where: str, plot: Plot, study: GridStudy, grids: Mapping[str, GridStudy], known: Collection[str]
-) -> Iterator[str]:
-    """Faults of the further studies that a figure of a study shows."""
-    for role, other in plot.overlays.items():
-        if other not in known:
-            yield f"{where}.overlays.{role} = {other!r}: no such study{suggestion(other, sorted(known))}"
-        elif other in grids:
-            misfits = misfits_of(plot, role, study, grids[other])
-            yield from (f"{where}.overlays.{role} = {other!r}: {rule}" for rule in misfits)
-
-
-def misfits_of(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Iterator[str]:
+def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Iterator[str]:
     """Rules that a further study breaks in a role of a study's figure."""
     wanted = plot.roles[role]
     if other.quantity not in (wanted.quantity, wanted.instead):
@@ -379,15 +360,80 @@ def misfits_of(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Ite
         yield f"must be a study of the quantity {good}, and not {other.quantity}"
         return
     for name, value in wanted.options.items():
-        if (found := getattr(other.options, name)) != value:
-            yield f"must have options.{name} = {value!r}, and not {found!r}"
+        if (option := getattr(other.options, name)) != value:
+            yield f"must have options.{name} = {value!r}, and not {option!r}"
     needs = plot.dims if wanted.dims is None else wanted.dims
     if (dims := other.values.keys() - {NORM}) != set(needs):
-        needed, found = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
-        yield f"must vary {needed} beside {NORM}, and not {found}"
-    elif absent := _normalizations(study) - _normalizations(other):
+        needed, varied = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
+        yield f"must vary {needed} beside {NORM}, and not {varied}"
+        return
+    of_study, of_other = (
+        {str(value) for (value,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other)
+    )
+    if absent := of_study - of_other:
         yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
 
 
-def _normalizations(study: GridStudy) -> set[str]:
-    return {str(value) for (value,) in study.values.get(NORM, [(study.base.get(NORM),)])}
+# ----------------------------------------------------------------------------------------------------
+# Checks of what is requested of a workflow and of its folder, and what a finished run says
+
+
+def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
+    """Raise DiscModelError if other study files of this name have made the results, which these would overwrite.
+
+    The same files with further ones laid over them, or without these, are the same study in other detail.
+
+    owner : file that lists the study files of the last run
+    """
+    former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
+    shorter = min(len(files), len(former))
+    exist = all(Path(file).is_file() for file in former)
+    if exist and former[:shorter] != files[:shorter] and mapping(read_files(*former)).get("study") == name:
+        raise DiscModelError(
+            f"study = {name!r}: is also the name of the study in {', '.join(former)}, whose results are in {results}"
+            " and would be overwritten; give one of them another name, or another folder with --directory"
+        )
+
+
+def check_targets(
+    targets: Iterable[str], study: Study, grids: Mapping[str, GridStudy], figures: Mapping[str, Sequence[str]]
+) -> None:
+    """Raise DiscModelError if a file is requested by a name that no study, figure or case has, and say which there are.
+
+    figures : names of figures, by the study in whose folder of results they are
+    """
+    known: Collection[str]
+    for target in targets:
+        match Path(target).parts:
+            case ["results", name, _, *_] if name not in (*figures, "compiled", "bench"):
+                kind, wanted, known, where = "study", name, figures, ""
+            case ["results", name, "figures", file] if name in figures:
+                kind, wanted, known, where = "figure", Path(file).stem, figures[name], f" in {name}"
+            case ["results", study.name, "cases", file]:
+                kind, wanted, known, where = "case", Path(file).stem, study.specs, f" in {study.name}"
+            case ["results", name, "batches", file] if name in grids:
+                kind, wanted, known, where = "batch", Path(file).stem, grids[name].batches, ""
+            case _:
+                continue
+        if wanted not in known:
+            listed = ", ".join([*known][:50] + ["..."] * (len(known) > 50)) or "none"
+            raise DiscModelError(f"{target}: there is no {kind} {wanted}{where} (known: {listed})")
+
+
+def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, GridStudy]) -> Iterator[str]:
+    """Summary of a run of a whole study: its figures, points without a result, and how to examine each point."""
+    if figures:
+        folders = {str(figure.parent) for figure in figures}
+        folder = folders.pop() if len(folders) == 1 else "results/*/figures"
+        yield f"{study.name}: {len(figures)} figure{'s' * (len(figures) > 1)} in {folder}"
+    if grids:
+        lists = [Path(f"results/{name}/{name}.failed.txt") for name in grids]
+        failures = {file: file.read_text(encoding="utf-8").splitlines() for file in lists}
+        points, failed = sum(grid.n_points for grid in grids.values()), [*chain(*failures.values())]
+        lacking = f", for others see {', '.join(str(file) for file in failures if failures[file])}" if failed else ""
+        yield f"{points - len(failed)} of {points} points have a result{lacking}"
+        reasons = Counter(line.partition(": ")[2] for line in failed)
+        yield from (f"  {count} x {reason}" for reason, count in reasons.most_common(5))
+        page = f"results/{study.name}/explorer.html"
+        yield f"The same command with the target `explorer` makes a page of every point: {page}"
+        yield "(disc-model study ... --target explorer, or snakemake ... explorer)"

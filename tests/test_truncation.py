@@ -6,7 +6,7 @@ import pytest
 
 from disc_model import Parameters, choose_modes
 from disc_model.cli.case import parameters_of
-from disc_model.disc.truncation import RICH, frequency_error
+from disc_model.mode_choice import RICH, frequency_error
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
