@@ -15,9 +15,7 @@ import disc_model
 from disc_model import Parameters, mode_choice, simulate
 from disc_model.cli import studies as cli_studies
 from disc_model.cli.case import option_name
-from disc_model.cli.run import plot_record
 from disc_model.simulation import api
-from disc_model.simulation.quicklook import quicklook
 from disc_model.studies.study import load_study
 from tests.commands import Command
 from tests.processes import run
@@ -69,17 +67,6 @@ def test_run_agrees_with_simulate(command: Command) -> None:
     result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
     assert f"events              {result.statistics['events']}\n" in out
     assert f"key {result.parameters.key}" in out
-
-
-@pytest.mark.compiled
-def test_a_run_that_ends_early_is_drawn_to_its_end(command: Command, tmp_path: Path) -> None:
-    drawn, wanted = tmp_path / "drawn.png", tmp_path / "wanted.png"
-    asked = ("--t-end", "60", "--stop-at", "first_separation", "--plot", str(drawn))
-    assert "stopped" in command.out("run", *BASE, *asked)
-    p = Parameters(N=385, Omega=15.1)
-    reached = simulate(p, 60, stop_at="first_separation").first_separation
-    quicklook(simulate(p, reached, record=plot_record(reached))).savefig(wanted, dpi=150)
-    assert drawn.read_bytes() == wanted.read_bytes()
 
 
 def test_module_runs_as_a_program() -> None:
@@ -210,13 +197,6 @@ def test_a_wrong_study_is_told_before_snakemake_starts(
     head, *faults = err.splitlines()
     assert (code, out, head) == (2, "", f"error: {mine.name}: 2 faults")
     assert [fault.split(":")[0] for fault in faults] == ["  quantity = 'flo'", "  axes.mu"]
-    assert called() is None
-
-
-def test_without_a_file_nothing_is_computed(command: Command, called: Callable[[], None]) -> None:
-    """The study of the paper was, whatever the folder held."""
-    for asked in (["study"], ["list", "figures"]):
-        assert "Missing argument 'files'" in command.error(*asked)
     assert called() is None
 
 

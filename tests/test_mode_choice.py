@@ -10,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, simulate
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, choose_when_run, real_modes
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, choose_when_run
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
@@ -58,16 +58,6 @@ def test_diameters_that_agree_among_themselves_do_not_do(measured: Measured) -> 
     measured(lambda d, c: 1.0 + c)
     with pytest.raises(DiscModelError, match=r"^n_diameters: undecided: growth still changes by 0\.33 of itself"):
         choose_modes(P, 0.1, quantity="growth")
-
-
-def test_where_there_is_no_such_quantity_nothing_is_chosen(measured: Measured) -> None:
-    """Models of few modes agreed that N = 385 N never separates, where larger ones do after 51 s."""
-    asked = measured(lambda d, c: math.nan)
-    with pytest.raises(DiscModelError, match=r"n_diameters: undecided: no growth to choose by with 9, 17, 34 modes"):
-        choose_modes(P, quantity="growth")
-    assert max(real_modes(*size) for size in asked) == 34
-    measured(lambda d, c: 1.0 if d >= 6 else math.nan)
-    assert choose_modes(P, quantity="growth").parameters.n_diameters == 6
 
 
 def one_case(**text: Any) -> CaseSpec:

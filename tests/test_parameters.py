@@ -108,8 +108,3 @@ def test_import_is_light() -> None:
     heavy = "{'numba', 'xarray', 'pandas', 'matplotlib', 'pint'}"
     code = f"import sys, disc_model; disc_model.Parameters(N='1e2', Omega=1); print({heavy} & set(sys.modules))"
     assert python(code).stdout.strip() == "set()"
-
-
-def test_values_without_names_are_refused_with_the_names_that_they_lack() -> None:
-    with pytest.raises(ParameterError, match=r"takes named values: Parameters\(N=385, Omega=15.1\)$"):
-        Parameters(385, 15.1)  # type: ignore[misc]

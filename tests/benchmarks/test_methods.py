@@ -62,26 +62,6 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
         assert result.final.a.shape == problem(scene).start.a.shape
 
 
-@pytest.mark.compiled
-@pytest.mark.parametrize("name", SEPARATING)
-def test_all_methods_see_the_same_range_and_end_at_the_separation_that_they_find(name: str) -> None:
-    value = {"step": 1e-5, "epsilon": 1.0}.get(METHODS[name].setting, 1e-4 if name == "Radau" else 1e-6)
-    whole = problem("separating")
-    short = dataclasses.replace(whole, t_end=whole.start.time + 0.01, watched=True)
-    low, high = METHODS["series"].solve(short, 1e-12).heights
-    # some ten steps a turn, between which a cubic is right to 1e-4; the smooth model is another one
-    tolerance = 0.03 if METHODS[name].setting == "epsilon" else 1e-3
-    assert METHODS[name].solve(short, value).heights == pytest.approx((low, high), abs=tolerance * (high - low))
-    longer = Problem(whole.parameters, whole.start, whole.start.time + 0.3)
-    free, stopped = (
-        METHODS[name].solve(dataclasses.replace(longer, stop=stop, watched=stop), value) for stop in (False, True)
-    )
-    count = free.kinds.index("separation") + 1
-    assert stopped.kinds == free.kinds[:count]
-    assert stopped.times == pytest.approx(free.times[:count], abs=1e-12)
-    assert stopped.final.time == pytest.approx(free.times[count - 1], abs=1e-9)
-
-
 # ----------------------------------------------------------------------------------------------------
 # Short motions of every phase, and single switches
 

@@ -4,7 +4,6 @@ import json
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 import xarray as xr
 
@@ -52,44 +51,3 @@ def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -
 
 # ----------------------------------------------------------------------------------------------------
 # Numbers of modes
-
-
-@pytest.fixture
-def study() -> xr.Dataset:
-    """A case whose residual values have settled from nine modes on, while rigid ones go on growing."""
-    rigid, residual = np.array([1.0, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2.0, 2.001, 2.0, 2.0])
-    dims = ("case", "contact", "model")
-    data = {name: (dims, np.array([[rigid, residual]])) for name in pages.TABLED}
-    data["modes"] = (dims, np.array([[[1.0, 9.0, 17.0, 34.0, 165.0]] * 2]))
-    data["growth_rate"][1][..., -1] = np.nan  # too many modes
-    return xr.Dataset(
-        data,
-        {"case": ["orthonormal, N=1"], "contact": ["rigid", "residual"], "model": ["0,0", "4,0", "8,0", "8,1", "16,4"]},
-        {"machine": "a machine", "most_growth": 80},
-    )
-
-
-@pytest.mark.parametrize(
-    ("values", "first"),
-    [
-        ([1.0, 2.0, 2.01, 2.0, 2.0], 1),
-        ([2.0, 2.0, 2.5, 2.0, 2.0], None),  # two that agree are too few
-        ([2.0, 2.5, 2.0, 2.0, 2.0], 2),  # that the first agrees too is chance
-        ([1.0, 2.0, None, None, None], 2),  # settled to none
-        ([2.0, 2.0, 2.0, 2.0, None], None),
-        ([-2.0, -2.0, -2.01], 0),
-    ],
-)
-def test_what_has_settled_agrees_with_two_larger_models(values: list[float | None], first: int | None) -> None:
-    assert pages.settled(values, 0.01) == first
-
-
-def test_a_run_on_modes_comes_to_words(study: xr.Dataset) -> None:
-    run = pages.mode_numbers(study)
-    assert json.loads(json.dumps(run)) == run
-    known = pages.passages(SPEED, run)
-    rigid, residual, _, counted = known["truncation_settled"].strip().splitlines()[2:]
-    assert rigid.startswith("| orthonormal, N=1 | rigid | **not** |")
-    assert residual.count("| from 9 ") == 7
-    counts = "0 of 7 quantities with rigid contact, 7 of 7 quantities with residual contact"
-    assert counted == f"Converged within 165 modes: {counts}."

@@ -11,12 +11,12 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import answers, figures, maps, questions, study
-from disc_model.benchmarks.methods import METHODS, Method
+from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
 from disc_model.benchmarks.questions import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.scenes import Verdict, errors
-from disc_model.benchmarks.truncation import contact_study, truncation_study
+from disc_model.benchmarks.truncation import truncation_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
@@ -125,40 +125,6 @@ def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
         assert verdict("first_separation", Reply(value, 1.0, status), right) is expected
 
 
-@pytest.mark.parametrize(("rate", "drift", "accuracy"), [(0.02, 0.0, 1e-3), (-0.3, 0.0, 1e-3), (0.1, 1e-5, 5e-3)])
-def test_growth_is_read_from_releases(rate: float, drift: float, accuracy: float) -> None:
-    """Of a swing beside a steady 15 ms; a drift, which stands highest at the lowest frequencies, is not taken for it.
-
-    The fit is exact but for where in its stretch a gap is taken to stand, and for what a drift leaves in it.
-    """
-    k = np.arange(400)
-    swing = 1e-6 if drift else 1e-5
-    gaps = 0.015 + swing * np.exp(rate * 0.015 * k) * np.cos(0.9 * k) + drift * np.exp(-0.01 * k)
-    assert questions.growth(np.cumsum(gaps)) == pytest.approx(rate, abs=accuracy)
-    assert math.isnan(questions.growth(np.cumsum(gaps)[:10]))
-
-
-def test_the_speed_of_onset_is_bracketed() -> None:
-    def onset_of(threshold: float, outcome: RunStatus = RunStatus.FINISHED, seconds: float = 1.0) -> Reply:
-        def solve(problem: Problem, budget: float) -> MethodResult:
-            if budget < seconds:
-                return result(problem, [], outcome=RunStatus.TOO_SLOW, seconds=budget)
-            times = [50.0] if problem.parameters.Omega > threshold else []
-            return result(problem, times, outcome=outcome, seconds=seconds)
-
-        return questions.onset(solve, 20.0)["onset"]
-
-    reply = onset_of(15.0834)
-    assert reply.low < 15.0834 <= reply.high
-    assert reply.high - reply.low <= questions.ONSET_WITHIN
-    assert reply.value == pytest.approx(15.0834, abs=questions.ONSET_WITHIN)
-    assert reply.seconds == 2 + math.ceil(math.log2(1.0 / questions.ONSET_WITHIN))
-    assert onset_of(16.0)[2:4] == (AnswerStatus.NONE, "no separation at 15.6 rad/s")
-    assert onset_of(14.0)[2:4] == (AnswerStatus.NONE, "a separation already at 14.6 rad/s")
-    assert onset_of(15.08, seconds=6.0).status is AnswerStatus.TOO_SLOW
-    assert onset_of(16.0, outcome=RunStatus.NON_FINITE).status is AnswerStatus.UNSTABLE
-
-
 @pytest.mark.compiled
 def test_the_engine_gives_the_right_answers() -> None:
     """By methods that share no code with it; 1e-9 s and 1e-6 1/s leave room for rounding that grows and for the fit."""
@@ -201,24 +167,6 @@ def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_t
     first, *_, last = answers.in_words(priced)[["line", "at", "verdict", "status", "message"]].values.tolist()
     assert first == ["late", "tol=1", "wrong", "none", "no separation within 55 s"]
     assert last == ["rigid", "8 diameters", "right", "found", ""]
-
-
-def test_maps_of_an_answer(late: Method, monkeypatch: pytest.MonkeyPatch) -> None:
-    separation = maps._separation
-
-    def known(solve, budget, diameters):
-        right = Reply(54.42 if diameters < 4 else math.nan, 0.0, AnswerStatus.FOUND)
-        return right if budget == math.inf else separation(solve, budget, diameters)
-
-    monkeypatch.setattr(maps, "_separation", known)
-    drawn = maps.answer_map(late.name, (1, 4), (1.0, 0.3, 1e-2, 1e-6, 1e-7))
-    assert drawn["verdict"].values.tolist() == [
-        [WRONG, WRONG, RIGHT, SILENT, SILENT],
-        [RIGHT, WRONG, WRONG, SILENT, SILENT],
-    ]
-    assert math.isnan(drawn["seconds"].values[0, 4])  # not tried where a coarser one took too long
-    assert drawn["modes"].values.tolist() == [3, 9]
-    assert figures.answer_maps(drawn, drawn).axes[1].get_title(loc="left") == "(b) late"
 
 
 def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
@@ -265,20 +213,3 @@ def test_what_truncation_does_to_a_study(tmp_path):
     assert (dataset["impact_share"].diff("diameters") < 0).all()
     assert np.isnan(dataset["growth_rate"]).all()
     save(figures.truncation(dataset), tmp_path / "truncation.png")
-
-
-@pytest.mark.compiled
-@pytest.mark.slow  # kernels of one more law of contact
-def test_what_residual_flexibility_changes(tmp_path):
-    case = {"N=800": {"N": 800.0, "Omega": 30.0, "normalization": "orthonormal"}}
-    dataset = contact_study(((3, 0), (4, 0)), case, horizon=20.0).isel(case=0)
-    rigid, residual = (dataset.sel(contact=contact) for contact in ("rigid", "residual"))
-    assert float(rigid["first_separation"].sel(model="4,0")) == pytest.approx(13.546, abs=1e-3)
-    assert float(residual["first_separation"].sel(model="4,0")) == pytest.approx(18.399, abs=1e-3)
-    assert (residual["frequency_error"] < rigid["frequency_error"]).all()
-    assert (rigid["contact_compliance"] == 0).all()
-    assert np.isfinite(dataset.to_dataarray()).all()
-    assert (dataset["tol_late"] == 1e-10).all()
-    # once apart, a compliant contact is met again and again
-    assert (residual["separations"] > 2 * rigid["separations"]).all()
-    save(figures.contact_truncation(dataset.expand_dims("case")), tmp_path / "truncation.png")

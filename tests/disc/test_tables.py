@@ -276,20 +276,6 @@ def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest
     assert shown.count("0.00375") == 5
 
 
-def test_the_first_modes_of_a_table_are_chosen_as_those_of_the_plate(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(mode_choice, "RICH", (8, 0))
-    plate = P.replace(n_diameters=8, normalization="orthonormal")
-    table = written(tmp_path / "disc.csv", plate)
-    of_plate, of_table = (dm.choose_modes(p, 1e-2) for p in (plate, table))
-    assert of_table.parameters.disc == table.disc.first(of_plate.parameters.n_diameters + 1)
-    assert (of_table.modes, of_table.error) == (of_plate.modes, pytest.approx(of_plate.error))
-    assert dm.choose_modes(table.replace(disc=table.disc.first(1)), 1e-2).error == 0
-    still = dm.Disc(diameters=[3, 0, 1], omega=[1e3, 1.5e3, 1.6e3], amplitude=[0.0, 1.5, 2.2])
-    assert len(dm.choose_modes(P.replace(disc=still), 1e-2).parameters.disc.omega) > 1
-
-
 @pytest.mark.parametrize(
     ("growth", "modes", "error"),
     [

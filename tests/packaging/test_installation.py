@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -20,7 +19,6 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 VERSIONS = tuple(needs.PYTHONS)
 THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
-PIN = re.compile(r"^([A-Za-z0-9._-]+)==(\S+)", re.MULTILINE)
 
 
 def run(*command: str | Path, cwd: Path, **environment: str) -> str:
@@ -154,20 +152,6 @@ def test_a_study_needs_no_clone(installed: Installed) -> None:
     installed.run("disc-model", "study", "own/my_study.yaml", "-n", "--directory", "own")
     assert "my_study" in installed.run("disc-model", "list", "studies", "own/my_study.yaml")
     installed.run("snakemake", "-n", "--directory", "own", "-s", "own/Snakefile")
-
-
-def test_a_plain_installation_serves_what_the_readme_shows(wheel: Path, tmp_path: Path) -> None:
-    """Without extras: all of its Python, and for the picture the extra that draws it."""
-    run(sys.executable, "-m", "venv", tmp_path / "venv", cwd=tmp_path)
-    plain = Installed(tmp_path / "venv" / "bin", tmp_path)
-    pins = PIN.findall((ROOT / "requirements.lock").read_text())
-    (tmp_path / "pins.txt").write_text("".join(f"{name}=={version}\n" for name, version in pins))
-    plain.run("python", "-m", "pip", "install", "-c", "pins.txt", wheel)
-    [shown] = re.findall(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(), re.DOTALL | re.MULTILINE)
-    drawn = "try:\n    r.plot()\nexcept ImportError as error:\n    print(error)\n"
-    phrase = plain.run("python", "-I", "-c", re.sub(r"^r\.plot\(\).*\n", drawn, shown, flags=re.MULTILINE))
-    assert "pip install 'disc_model[workflow]'" in phrase
-    assert (tmp_path / "run.nc").stat().st_size > 0
 
 
 # ---- the lock file

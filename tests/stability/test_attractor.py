@@ -220,15 +220,6 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     assert quiet.points is not None
 
 
-@pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])
-@pytest.mark.parametrize("early", [True, False])
-def test_steady_sliding_that_has_arrived_is_known_at_any_tolerance(tol: float, early: bool) -> None:
-    """At 1e-8 the errors of the simulation were larger than what counted as arrived: undecided, after the horizon."""
-    found = find_outcome(Parameters(N=100, Omega=20, D_star=1e-3, c_p=5), 40, tol=tol, early=early)
-    assert found.outcome is Outcome.STEADY_SLIDING
-    assert found.simulated == (5 if early else 40)
-
-
 def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
     shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}

@@ -7,7 +7,6 @@ import numpy as np
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record, Window
-from disc_model.studies.grid import Dimension
 from disc_model.studies.motions import SAMPLES, run_motions
 from disc_model.studies.quantity import quantity_of
 from tests.studies.refused import parse_grid
@@ -23,16 +22,6 @@ def texts(quantity: str, **more) -> dict[str, str]:
 def histories(quantity: str, N: list[float], Omega: list[float], **options):
     (text,) = texts(quantity, axes={"N": N, "Omega": Omega}, options=options).values()
     return run_motions(text)
-
-
-def test_few_values_of_an_axis_are_taken_both_ends_among_them():
-    dim = Dimension(("Omega",), (tuple((float(x),) for x in range(11)),))
-    assert dim.thinned(4).values == ((0.0,), (3.0,), (7.0,), (10.0,))
-    assert dim.thinned(11).values == dim.thinned(99).values == dim.values
-    assert dim.thinned(1).values == ((0.0,),)
-    # words are all taken
-    dim = Dimension(("start",), (tuple((word,) for word in "abcde"),))
-    assert dim.thinned(2).values == dim.values
 
 
 def test_points_of_a_study_and_the_name_of_their_file():

@@ -89,20 +89,6 @@ def test_specification_survives_its_text() -> None:
         assert CaseSpec.from_canonical(spec.canonical) == spec
 
 
-def test_key_depends_on_content_alone() -> None:
-    def key(**change: Any) -> str:
-        return with_case(**change).specs["A"].key
-
-    same = key()
-    assert key(title="other", reference="elsewhere") == same
-    assert key(t_end="1e1") == same
-    assert key(parameters={"c": "0.10", "Omega": 15.0}) == same
-    assert key(t_end=11) != same
-    assert key(tol=1e-9) != same
-    assert key(parameters={"Omega": 15, "m": 0.2}) != same
-    assert key(record={"windows": {"history": {"rate": 200}}}) != same
-
-
 # ---- files
 
 

@@ -88,19 +88,3 @@ def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> 
     snakemake(tmp_path, "-j2")
     for name in ("mine.nc", "cases.nc"):
         assert (tmp_path / "results" / "mine" / name).is_file()
-
-
-@pytest.mark.parametrize(
-    ("target", "message"),
-    [
-        ("results/mine/figures/groth.png", "there is no figure groth in mine (known: growth, seen)"),
-        ("results/nine/nine.nc", "there is no study nine (known: mine)"),
-        ("results/mine/cases/B.nc", "there is no case B in mine (known: A)"),
-        ("results/mine/batches/0123456789ab.nc", "there is no batch 0123456789ab (known: "),
-    ],
-)
-def test_what_there_is_not_is_told_with_what_there_is(elsewhere: Path, target: str, message: str) -> None:
-    phrase = snakemake(elsewhere, "-n", "-s", SNAKEFILE, target, "--configfile", "mine.yaml", fails=True)
-    assert message in phrase
-    assert "KeyError" not in phrase
-    assert "Traceback" not in phrase

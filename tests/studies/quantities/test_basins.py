@@ -15,7 +15,7 @@ from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
 from disc_model.studies.quantity import STATUSES, Point
 from tests.stability.test_attractor import stretch
-from tests.studies.conftest import compute, computed
+from tests.studies.conftest import compute
 
 CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
 QUIET = Attractor(Outcome.QUIET, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
@@ -87,13 +87,3 @@ def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.M
     assert (table.arrays["attractor_index"][0, 0] > 0).tolist() == [True, False, False, True]
     monkeypatch.setattr(Made, "classes", dict.fromkeys(range(4), lost))
     assert STATUSES[found(energies=[0.1], n_starts=4).arrays["status"][0]] == "paradox"
-
-
-@pytest.mark.compiled
-def test_kicks_of_an_axis_are_starts_of_their_own() -> None:
-    """A plane of two coordinates: at 15 rad/s a kick of 0.3 mm leads to separation, one of 0.1 mm dies out."""
-    axes = {"perturbation_u": [1e-4, 3e-4], "perturbation_u_velocity": [0.0]}
-    options = {"horizon": 200, "n_bisection_directions": 0}
-    plane = computed(quantity="basins", options=options, base={"N": 385, "Omega": 15}, axes=axes)
-    kinds = plane["kind"].squeeze().values
-    assert [basins.LONG_TERM_OUTCOMES[kind] for kind in kinds] == ["quiet", "separating"]

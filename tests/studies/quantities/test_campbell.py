@@ -86,26 +86,3 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert effects(flat) == ["no_rise"]
     assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
-
-
-def test_a_crossing_where_there_is_no_cycle_is_found() -> None:
-    gone = made_up()
-    for name in ("growth_rate", "stick_slip_frequency", "cycle_growth_rate"):
-        gone[name][195:210] = np.nan
-    found = Campbell().summarise(gone)
-    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)
-    assert effects(gone) == ["no_cycle"]
-    gone["stick_slip_frequency"][195:] = np.nan
-    assert Campbell().summarise(gone)["n_crossings"] == 0, "nothing is known beyond the last cycle"
-
-
-def test_a_line_that_meets_the_cycles_frequency_and_not_slidings_is_a_crossing() -> None:
-    """It was missed: 10 f_s at 23.85 rad/s, orthonormal modes, 1.8 Hz below the frequency of sliding."""
-    speeds = np.linspace(8, 12, 401)[:, None]
-    locked = np.abs(speeds - 10) < 0.05
-    own, mac = np.where(locked, 10 * speeds, 100.0), np.where(locked, 0.5, 0.9)
-    cell = made_up(cycle_frequency=own, mac=mac, sliding_frequency=np.full((401, 1), 130.0))
-    found = Campbell().summarise(cell)
-    # where the multiplier is bound to the line it says nothing of the mode
-    assert found["n_crossings"] == 1
-    assert found["crossing_Omega"][0] == pytest.approx(10, abs=1e-9)

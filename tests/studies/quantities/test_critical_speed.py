@@ -15,7 +15,7 @@ from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.quantities import critical_speed
 from disc_model.studies.quantities.critical_speed import CriticalSpeed
 from disc_model.studies.quantity import STATUSES, Point
-from tests.studies.conftest import compute, computed
+from tests.studies.conftest import compute
 
 
 def speeds_at(
@@ -84,19 +84,6 @@ def test_first_separations_are_not_extrapolated() -> None:
     options = {"horizons": [15, 82], "scan": {"start": 17, "stop": 18, "step": 1}, "precision": 1, "tol": 1e-10}
     found = critical_speed.motion(p, CriticalSpeed.model_validate(options))
     assert found.first_separation == pytest.approx(14.526487, abs=1e-5)  # at tolerances of 1e-10 to 1e-13
-
-
-@pytest.mark.slow
-def test_scan_and_map_agree_at_every_common_point() -> None:
-    """Fig. 15 drew an onset over cells of the map without separation, and the map one beside the scan's windows."""
-    axes = {"N": [385, 500, 600], "Omega": {"start": 13, "stop": 17, "step": 0.5}}
-    scan = {"horizons": [500], "scan": axes["Omega"], "tol": 1e-8, "precision": 0.5}
-    scanned = computed(quantity="critical_speed", options=scan, axes={"N": axes["N"]})
-    every = {"horizon": 500, "initial_cell_size": 1}  # a cell that is inferred may hide a window
-    mapped = computed(quantity="regions", options=every, axes=axes, batch={"over": ["N", "Omega"]})
-    separates = flag_names(mapped["outcome"].transpose("N", "Omega")) == "separation"
-    assert 5 < separates.sum() < separates.size - 5
-    assert np.array_equal(np.isfinite(scanned["scan_first_separation"].transpose("N", "scan_Omega")), separates)
 
 
 RESULTS = Path(__file__).parents[3] / "results"

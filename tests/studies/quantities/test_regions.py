@@ -2,7 +2,6 @@
 
 import json
 import math
-from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,13 +12,9 @@ from disc_model.data.variables import CycleStatus, Outcome, flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Record
-from disc_model.stability.attractor.linear_motion import NearCycle
 from disc_model.stability.attractor.outcome import OutcomeResult
-from disc_model.stability.cycle import floquet
 from disc_model.studies import refinement
 from disc_model.studies.quantities.regions import Regions
-from disc_model.studies.quantity import Point
-from tests.stability.test_attractor import SMALL
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
@@ -98,79 +93,6 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
 
 
-OPTIONS = Regions(horizon=10, initial_cell_size=8)
-
-
-def tile_of(
-    size: int,
-    start: Callable[[int, int], object],
-    outcome: Callable[[int, int], str],
-    monkeypatch: pytest.MonkeyPatch,
-    whole: Callable[[int, int], str] | None = None,
-) -> refinement.Tile:
-    """A square tile with made-up starts and outcomes; row i has N = 100 + i, column j Omega = 10 + j.
-
-    whole : outcome if the departure is simulated as a whole; without it there are no departures
-    """
-
-    def place(p: Parameters) -> tuple[int, int]:
-        return round(p.N - 100), round(p.Omega - 10)
-
-    monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: start(*place(p)))
-
-    def find_outcome(p: Parameters, *_, furthest: float, **__) -> OutcomeResult:
-        word = whole(*place(p)) if whole and not furthest else outcome(*place(p))
-        return OutcomeResult(word, 1.0, extrapolated=follows_one(False) if whole and furthest else None)
-
-    monkeypatch.setattr(refinement, "find_outcome", find_outcome)
-    monkeypatch.setattr(refinement, "stays_linear_until", lambda *_: False)
-    points = [[Parameters(N=100 + i, Omega=10 + j) for j in range(size)] for i in range(size)]
-    return refinement.Tile(points, **OPTIONS.model_dump())
-
-
-def follows_one(stable: bool) -> NearCycle:
-    """A start that follows a cycle."""
-    nothing = np.zeros(1)
-    return NearCycle(SimpleNamespace(stable=stable), True, None, nothing, nothing, np.eye(1))  # type: ignore[arg-type]
-
-
-NONE = SimpleNamespace(status=CycleStatus.NO_CYCLE)
-
-
-def test_stripes_of_separation_are_looked_for_where_all_corners_only_grow(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stripe one interval wide, which no corner of the coarse cells meets."""
-
-    def outcome(i: int, j: int) -> str:
-        return "separation" if j - i // 4 in (11, 12) else "growing"
-
-    tile = tile_of(33, lambda *_: NONE, outcome, monkeypatch)
-    there = [(i, j) for i in range(33) for j in range(33) if outcome(i, j) == "separation"]
-    assert not any(i % 8 == 0 and j % 8 == 0 for i, j in there if i < 16)
-    phrase = tile.presumed | tile.filled | {place: tile.outcome(place) for place in tile.results}
-    found = {place for place, word in phrase.items() if word == "separation"}
-    assert len(found & set(there)) > 0.9 * len(there)
-    assert len(found - set(there)) < 0.1 * len(there)
-    assert len(tile.results) < 0.4 * 33 * 33
-    quiet = tile_of(33, lambda *_: NONE, lambda *_: "quiet", monkeypatch)
-    assert len(quiet.results) == 5 * 5
-
-
-@pytest.mark.parametrize(("one", "around"), [("growing", "separation"), ("separation", "other_cycle")])
-def test_an_outcome_unlike_both_beside_it_is_that_of_the_whole_departure(
-    one: str, around: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """As at 567 N and 0.5 N s/m on the map over c_p: the phase of the departure is lost, which all simulations keep."""
-
-    def outcome(i: int, j: int) -> str:
-        return one if (i, j) == (8, 8) else around
-
-    tile = tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=lambda *_: around)
-    assert tile.outcome((8, 8)) == around
-    assert tile.results[8, 8].simulated == 2.0
-    assert one not in {*tile.filled.values(), *tile.presumed.values()}
-    assert tile_of(17, lambda *_: NONE, outcome, monkeypatch, whole=outcome).outcome((8, 8)) == one
-
-
 @pytest.mark.slow
 @pytest.mark.compiled
 def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cells() -> None:
@@ -231,22 +153,6 @@ def test_a_cycle_that_is_passed_in_the_first_seconds_is_not_the_one_that_the_sta
     assert early["growth_rate"] == pytest.approx(passed, abs=5e-4)
     assert row["growth_rate"] == pytest.approx(left, abs=5e-4)
     assert row["outcome"] == "growing"
-
-
-@pytest.mark.compiled
-def test_a_motion_is_shown_on_the_cycle_that_attracts_it_or_5_s_after_contact_was_lost() -> None:
-    options = Regions(horizon=50)
-    state = options.state_at(Point(SMALL))
-    cycle = floquet(SMALL)
-    later = simulate(SMALL, state.time + cycle.period, initial_state=state).final_state
-    assert cycle.stable
-    # to the tolerance of simulations, 1e-10
-    assert later.psi == pytest.approx(state.psi, rel=1e-9)
-    assert later.a == pytest.approx(state.a, abs=1e-9 * np.abs(state.a).max())
-    apart = Parameters(N=800, Omega=40, n_diameters=2)
-    first = simulate(apart, 50, stop_at="first_separation").first_separation
-    # the departure up to a tenth of the static deflection is that of multipliers: it may err by ln(1.1) / 0.48 s
-    assert options.state_at(Point(apart)).time == pytest.approx(first + 5, abs=0.2)
 
 
 @pytest.mark.compiled
