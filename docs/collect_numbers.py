@@ -33,7 +33,8 @@ PAGES = ["README.md", "docs/**/*.md", "config/**/*.yaml"]
 NUMBER = r"[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?"
 COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
 NOISE = 1e-6
-"""Relative difference to which results of two processors agree (docs/accuracy.md)."""
+"""Relative difference to which results of two processors agree (docs/accuracy.md), but for what `tolerances` of
+statements.yaml names: there a last bit decides."""
 Value = float | str
 
 
@@ -52,6 +53,24 @@ def agrees(text: str, value: Value, spec: str) -> bool:
     """Whether `text` shows the value; where noise decides how the last digit is rounded, both ways are right."""
     values = [value] if isinstance(value, str) else [value * (1 - NOISE), value * (1 + NOISE)]
     return text.lower() in {shown(one, spec).lower() for one in values}
+
+
+def reproduced(expression: str, text: str, value: Value, spec: str) -> bool:
+    """Whether a value that was computed anew is that of `text`, as far as another processor gives it."""
+    if agrees(text, value, spec):
+        return True
+    for tolerance in STATEMENTS["tolerances"]:
+        if re.match(tolerance["expression"], expression):
+            relative, absolute = tolerance.get("relative", 0.0), tolerance.get("absolute", 0.0)
+            words, numbers = zip(*(_parts(one) for one in (text, shown(value, spec))), strict=True)
+            return words[0] == words[1] and bool(np.allclose(*numbers, rtol=relative, atol=absolute * (1 + 1e-9)))
+    return False
+
+
+def _parts(text: str) -> tuple[list[str], list[float]]:
+    """A text without its numbers, and these; counts in words are numbers as well."""
+    text = str(COUNTS.index(text)) if text in COUNTS else text
+    return re.split(NUMBER, text), _numbers(text)
 
 
 class Statement(NamedTuple):
