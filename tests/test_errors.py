@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Status, Window
+from disc_model import ParameterError, Parameters, Poincare, Status, Window
 from disc_model.data.variables import CycleStatus
 from disc_model.errors import DiscModelError, Fault, StatusBase, script
 from disc_model.stability.sliding import SlidingStatus
@@ -50,7 +50,7 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
         assert (str(again), again.faults) == (str(error), error.faults)
 
 
-@pytest.mark.parametrize("make", [Parameters, Window, Poincare, Record])
+@pytest.mark.parametrize("make", [Parameters, Window, Poincare])
 def test_what_is_no_json_or_no_mapping_is_said_to_be_none(make: Any) -> None:
     for text in ("{", "", "nul", b"\xff", '{"N": 1,}', "[" * 10**5, None):
         with pytest.raises(ParameterError, match=r"^json_data=.*: must be JSON"):
@@ -63,10 +63,10 @@ def test_what_is_no_json_or_no_mapping_is_said_to_be_none(make: Any) -> None:
 
 
 def test_a_changed_copy_is_checked() -> None:
-    record = Record(windows=(Window(**WINDOW),))
-    assert record.replace(audit_every_step=True).windows == record.windows
-    assert faults_of(record.replace, audit_every_step=3) == ["audit_every_step=3: must be true or false"]
-    assert faults_of(record.windows[0].model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
+    window = Window(**WINDOW)
+    assert window.replace(theta=2).rate == window.rate
+    assert faults_of(window.replace, theta="x") == ["theta='x': must be a number"]
+    assert faults_of(window.model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
 
 
 # ---- statuses

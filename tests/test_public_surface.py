@@ -19,7 +19,7 @@ P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.nan, "negative": -1.5, "huge": 10**400}
 WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object()}
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
-RUN = dm.simulate(P, 1e-4, record=dm.Window(rate=1e5))
+RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
 PLANE = {"p": P, "names": ("Omega", "N"), "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
 
@@ -39,8 +39,12 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     *((function, {}, {}) for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)),
     (dm.steady_sliding, {}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
-    (dm.simulate, {"p": P, "t_end": 1.0}, dict.fromkeys(("initial_state", "record", "stop_at"), "None")),
-    (run, {}, {"progress": "None True", "max_steps": "None huge"}),
+    (
+        dm.simulate,
+        {"p": P, "t_end": 1.0},
+        dict.fromkeys(("initial_state", "windows", "stop_at"), "None") | {"events": "True"},
+    ),
+    (run, {}, {"progress": "None True", "max_steps": "None huge", "audit_every_step": "True"}),
     (
         start,
         {},
@@ -59,12 +63,10 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),
     (dm.Poincare, {}, {"stop": "huge", "theta": "negative"}),
-    (dm.Record, {}, {"events": "True", "audit_every_step": "True", "poincare": "None"}),
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix"}),
-    (RUN.to_tree, {}, {"names": "None text"}),
-    (RUN.save, {"path": "x"}, {"path": "text", "names": "None text"}),
-    *((function, {}, {"path": "text"}) for function in (RUN.final_state.save, dm.State.load, dm.load)),
+    (RUN.save, {}, {}),
+    *((function, {}, {"path": "text"}) for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)),
     (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text"}),
 ]
 ARGUMENTS = [

@@ -27,7 +27,7 @@ _NAMES = {
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
     "simulation.api": "simulate Execution",
-    "simulation.case": "Record Window Poincare",
+    "simulation.case": "Window Poincare",
     "simulation.deflection": "snapshots deflection",
     "simulation.ramps": "Ramp",
     "simulation.result": "Result",
@@ -59,7 +59,7 @@ if TYPE_CHECKING:
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
     from disc_model.simulation.api import Execution, simulate
-    from disc_model.simulation.case import Poincare, Record, Window
+    from disc_model.simulation.case import Poincare, Window
     from disc_model.simulation.deflection import deflection, snapshots
     from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result

@@ -205,7 +205,8 @@ def choose_modes(
 ) -> ModeChoice:
     """Find the model with the fewest real modes whose error of a quantity is within ``tolerance``.
 
-        >>> disc_model.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
+        >>> import disc_model as dm
+        >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
         3
 
     Parameters
@@ -314,9 +315,8 @@ def separation_rate(p: Parameters) -> float:
 def _run(p: Parameters, t_end: float, **how: Any) -> Result:
     """A complete simulation without a record of events."""
     from disc_model.simulation.api import simulate
-    from disc_model.simulation.case import Record
 
-    return simulate(p, t_end, record=Record(events=False), **how).raise_for_status()
+    return simulate(p, t_end, events=False, **how).raise_for_status()
 
 
 MEASURES: dict[str, Callable[[Parameters], float]] = {

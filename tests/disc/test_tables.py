@@ -90,7 +90,7 @@ TABLES = {
 @pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
 def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> None:
     p = P.replace(disc=dm.Disc(**table))
-    run = dm.simulate(p, 0.02, record=dm.Record(audit_every_step=True)).raise_for_status()
+    run = dm.simulate(p, 0.02, execution=dm.Execution(audit_every_step=True)).raise_for_status()
     assert run.statistics["energy_residual"] < 1e-10  # as for the plate
     assert dm.plate_modes(p)["omega"].tolist() == table["omega"]
     assert dm.Parameters.model_validate_json(p.canonical_json) == p

@@ -30,6 +30,14 @@ def test_examples_print_what_they_say(page):
     assert outcome.failed == 0
 
 
+@pytest.mark.parametrize("name", disc_model.__all__)
+def test_examples_of_docstrings_print_what_they_say(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    tests = doctest.DocTestFinder().find(getattr(disc_model, name), name, globs={})
+    assert not sum(runner.run(test).failed for test in tests)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_every_example_is_in_a_block_that_is_run(page):
     text = page.read_text(encoding="utf-8")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, simulate
+from disc_model import Parameters, Window, simulate
 from disc_model.engine import sampling
 from disc_model.simulation.result import EVENT_KINDS, PHASES
 from tests.contact_laws import COMPILES, by_series
@@ -32,8 +32,8 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
             continue
         seen.add(kind)
         offsets = (-1e-10, *(ULP * t * np.array([-200, -1, 0, 1, 200])), 1e-10)
-        windows = tuple(_window(t + offset) for offset in offsets)
-        samples = simulate(P, t + 2e-3, initial_state=start, record=Record(windows=windows)).samples
+        windows = {f"w{offset:+}": _window(t + offset) for offset in offsets}
+        samples = simulate(P, t + 2e-3, windows, initial_state=start).samples.values()
         phases = [PHASES[int(sample["phase"][0])] for sample in samples]
         assert phases == [before[i]] * 6 + [after], kind
         # what is continuous on either side changes by its rate times 1e-10 s: P by less than 1e7 N/s
@@ -53,10 +53,10 @@ def test_both_ways_through_stick_agree_on_the_release(variant: dict[str, float],
     """From rest stick ends at mu_s N / (r_0 k_p Omega), 0.077 s at 1 rad/s, whatever the disc; both ways round it."""
     p = Parameters(N=385, Omega=Omega, **variant)
     release = p.mu_s * p.N / (p.r_0 * p.k_p * Omega)
-    record = Record(windows=(_window(release), _window(release * (1 + 1e-9))))
+    windows = {"on": _window(release), "behind": _window(release * (1 + 1e-9))}
     for ramps in ((), by_series(p)):
-        result = simulate(p, release + 2e-3, tol=tol, record=record, ramps=ramps)
+        result = simulate(p, release + 2e-3, windows, tol=tol, ramps=ramps)
         # or the samples would show nothing
         assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release
-        on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples)
+        on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples.values())
         assert (on, behind) == ("stick", "slip"), ramps

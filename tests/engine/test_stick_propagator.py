@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, simulate
+from disc_model import Execution, Parameters, Window, simulate
 from disc_model.engine import dense_output, exit_codes, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.api import _Run
@@ -145,17 +145,17 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
 def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -> None:
     """Slow drive: stick is nearly all of the motion, and what falls into a long advance is as good as of steps."""
     p = Parameters(N=385, Omega=1.0, **dampers)
-    record = Record(windows=(Window(start=0.0, stop=0.3, rate=2000.0),), audit_every_step=True)
-    closed = simulate(p, 0.6, tol=1e-14, record=record)
-    stepped = simulate(p, 0.6, tol=1e-14, record=record, ramps=by_series(p))
+    how = {"windows": {"all": Window(start=0.0, stop=0.3, rate=2000.0)}, "execution": Execution(audit_every_step=True)}
+    closed = simulate(p, 0.6, tol=1e-14, **how)
+    stepped = simulate(p, 0.6, tol=1e-14, **how, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     assert list(closed.events["kind"]) == list(stepped.events["kind"])
     # rounding of a clock that reads 0.6 s, and of the forces at a release that the slow spring reaches at a flat angle
     np.testing.assert_allclose(closed.events["time"], stepped.events["time"], atol=1e-12, rtol=0)
-    for name, values in stepped.samples[0].items():
+    for name, values in stepped.samples["all"].items():
         # the series leave 1e-14 of the static deflection at each step, which a small velocity feels
         size = max(np.abs(values).max(), 1e-3 * (name == "u_velocity"))
-        np.testing.assert_allclose(closed.samples[0][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
+        np.testing.assert_allclose(closed.samples["all"][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
     # the quadrature of a step is good to rounding, so is that of an advance in closed form
     assert closed.statistics["energy_residual_transverse"] < 1e-13
     assert closed.statistics["energy_residual_inplane"] < 1e-13
@@ -165,7 +165,7 @@ def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -
 def test_samples_of_an_advance_fit_their_buffer() -> None:
     """The engine writes a whole advance before it pauses; numba would not say if it wrote beyond the end."""
     window = Window(start=0.0, stop=0.5, rate=200_000.0)
-    run = _Run(Parameters(N=385, Omega=0.2), 0.5, record=Record(windows=(window,)))
+    run = _Run(Parameters(N=385, Omega=0.2), 0.5, windows={"all": window})
     room, width = run.collector.buffers.sample_rows.shape
     rows = np.full((4 * room, width), np.nan)
     run.collector.buffers = run.collector.buffers._replace(sample_rows=rows)

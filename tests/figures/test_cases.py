@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model import Parameters, Poincare, Record, Window, simulate
+from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.figures.drawing import save
 from disc_model.figures.kind import kind_of
 from tests.damages import damaged
@@ -29,8 +29,8 @@ RECORDED = {
 @functools.cache
 def simulated(separates: bool) -> xr.DataTree:
     """A minute with the windows that figures look for."""
-    record = Record(windows=tuple(RECORDED.values()), poincare=Poincare(theta=0.5))
-    return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, record=record).to_tree(list(RECORDED))
+    windows = RECORDED | {"poincare": Poincare(theta=0.5)}
+    return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, windows).to_tree()
 
 
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:

@@ -33,9 +33,9 @@ import disc_model as dm
 for name in dm.__all__:
     getattr(dm, name)
 p = dm.Parameters(N=200, Omega=20, n_diameters=1, normalization="orthonormal")
-result = dm.simulate(p, 0.02, record=dm.Record(windows=(dm.Window(last=0.01, rate=1000),)))
+result = dm.simulate(p, 0.02, {"late": dm.Window(last=0.01, rate=1000)})
 result.save(sys.argv[1])
-assert dm.load(sys.argv[1])["sample_0/P"].sizes["time"] == 11
+assert dm.load(sys.argv[1])["late/P"].sizes["time"] == 11
 assert len(result.events) == result.statistics["events"]
 dm.deflection(p, dm.snapshots(p, [0.0, 0.01]), p.r_0, 0.0)
 dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diameters=4), 0.1)

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model import Parameters, Record, Window, simulate
+from disc_model import Parameters, Window, simulate
 from disc_model.figures.drawing import COLUMN, PAGE
 from disc_model.figures.kind import CasePlot
 from disc_model.paper.figures.instants import motion_of
@@ -73,7 +73,7 @@ def case() -> xr.DataTree:
     windows = [Window(start=0.5, stop=0.52, rate=2e4, theta=1.2 * j) for j in range(5)]
     windows.append(Window(start=0.5, stop=0.52, rate=2e4, theta=2.1))
     names = [*(f"around{j}" for j in range(5)), "elsewhere"]
-    return simulate(p, 0.52, record=Record(windows=tuple(windows))).to_tree(names)
+    return simulate(p, 0.52, dict(zip(names, windows, strict=True))).to_tree()
 
 
 @pytest.mark.compiled

@@ -5,19 +5,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from disc_model import Execution, Parameters, Poincare, Record, Window, simulate
+from disc_model import Execution, Parameters, simulate
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import StepLimit
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
-RECORD = Record(windows=(Window(stop=0.01, rate=1000.0),), poincare=Poincare(), audit_every_step=True)
-
-
-def test_a_window_alone_is_a_record_of_it():
-    """It was refused, cut off in the middle of the window."""
-    window = RECORD.windows[0]
-    assert simulate(P, 0.01, record=window).record == Record(windows=(window,)) == Record(windows=window)
 
 
 def test_steps_run_out():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Record, Window, simulate
+from disc_model import ParameterError, Parameters, Poincare, Window, simulate
 from disc_model.simulation import recorder
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -13,9 +13,9 @@ P = Parameters(N=200, Omega=50, n_diameters=1)
 
 def test_envelopes_are_the_extremes_of_the_samples():
     plain = Window(start=0.01, stop=0.03, rate=5000)
-    record = Record(windows=(plain, plain.model_copy(update={"envelope": 10})), poincare=Poincare())
-    result = simulate(P, 0.031, tol=1e-9, record=record)
-    samples, envelope = result.samples
+    windows = {"all": plain, "bins": plain.replace(envelope=10), "turns": Poincare()}
+    result = simulate(P, 0.031, windows, tol=1e-9)
+    samples, envelope, turns = result.samples.values()
     assert len(samples["time"]) == 101
     assert len(envelope["time"]) == 10
     for name in ("P", "u", "psi"):
@@ -23,22 +23,22 @@ def test_envelopes_are_the_extremes_of_the_samples():
         np.testing.assert_array_equal(envelope[f"{name}_min"], cells.min(axis=1))
         np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
     np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
-    assert result.poincare["time"].tolist() == [0.0]
+    assert turns["time"].tolist() == [0.0]
 
 
 def test_nothing_is_kept_if_nothing_is_asked_for():
-    result = simulate(P, 0.03, tol=1e-9, record=Record(events=False))
+    result = simulate(P, 0.03, events=False, tol=1e-9)
     assert len(result.events) == 0
     assert result.statistics["events"] > 0
-    still = simulate(P.replace(Omega=0), 0.01, record=Record(poincare=Poincare()))
-    assert len(still.poincare["time"]) == 0
+    still = simulate(P.replace(Omega=0), 0.01, {"turns": Poincare()})
+    assert len(still.samples["turns"]["time"]) == 0
 
 
 @pytest.mark.parametrize(("t_end", "rate"), [(0.3, 10), (0.07, 300), (0.05, 700)])
 def test_the_sample_at_the_very_end_is_taken(t_end, rate):
     """3 * 0.1 > 0.3: its time is rounded to behind the end."""
     window = Window(start=0, stop=t_end, rate=rate)
-    time = simulate(P, t_end, tol=1e-9, record=Record(windows=(window,))).samples[0]["time"]
+    time = simulate(P, t_end, {"w": window}, tol=1e-9).samples["w"]["time"]
     assert len(time) == window.count
     assert time[-1] == pytest.approx(t_end, abs=1e-15)
     assert time[-1] <= t_end
@@ -47,31 +47,32 @@ def test_the_sample_at_the_very_end_is_taken(t_end, rate):
 def test_samples_by_the_drive_end_with_the_run():
     turn = 2 * math.pi / P.Omega
     for turns in range(1, 8):
-        taken = simulate(P, turns * turn, tol=1e-9, record=Record(poincare=Poincare())).poincare
+        taken = simulate(P, turns * turn, {"turns": Poincare()}, tol=1e-9).samples["turns"]
         assert len(taken["time"]) == turns + 1
 
 
 def test_windows_that_the_run_does_not_enter_are_warned_of():
-    windows = tuple(Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5))
+    windows = {f"from {start}": Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5)}
     with pytest.warns(
-        UserWarning, match=r"windows\[2\] = \[0.5, 0.51\] s: stays empty, the run is from 0 to 0.04 s"
+        UserWarning, match=r"windows.from 0.5 = \[0.5, 0.51\] s: stays empty, the run is from 0 to 0.04 s"
     ) as seen:
-        result = simulate(P, 0.04, tol=1e-9, record=Record(windows=windows))
+        result = simulate(P, 0.04, windows, tol=1e-9)
     assert len(seen) == 1
     assert seen[0].filename == __file__
-    assert [len(samples["time"]) for samples in result.samples] == [11, 11, 0]
-    with pytest.warns(UserWarning, match=r"windows\[0\] .* from 0.04 to 0.05 s"):
-        simulate(P, 0.05, tol=1e-9, initial_state=result.final_state, record=Record(windows=windows[:1]))
+    assert [len(samples["time"]) for samples in result.samples.values()] == [11, 11, 0]
+    first = {"from 0.0": windows["from 0.0"]}
+    with pytest.warns(UserWarning, match=r"windows.from 0.0 .* from 0.04 to 0.05 s"):
+        simulate(P, 0.05, first, tol=1e-9, initial_state=result.final_state)
 
 
 GREEDY = {
-    "samples": ({"windows": (Window(rate=1e4),)}, "windows.0"),
-    "bins": ({"windows": (Window(rate=1e5, envelope=10),)}, "windows.0"),
-    "a bin": ({"windows": (Window(rate=1e5, envelope=10**6),)}, "windows.0"),
-    "a step": ({"windows": (Window(rate=1e12, envelope=2**40),)}, "windows.0"),
-    "all together": ({"windows": (*(Window(rate=1e3),) * 9, Window(rate=2e3))}, "windows.9"),
-    "sections": ({"poincare": Poincare()}, "poincare"),
-    "beyond floats": ({"windows": (Window(rate=1e308, stop=1e300),)}, "windows.0"),
+    "samples": (Window(rate=1e4),),
+    "bins": (Window(rate=1e5, envelope=10),),
+    "a bin": (Window(rate=1e5, envelope=10**6),),
+    "a step": (Window(rate=1e12, envelope=2**40),),
+    "all together": (*(Window(rate=1e3),) * 9, Window(rate=2e3)),
+    "sections": (Poincare(),),
+    "beyond floats": (Window(rate=1e308, stop=1e300),),
 }
 
 
@@ -79,20 +80,20 @@ GREEDY = {
 def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch):
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
     monkeypatch.setattr(recorder, "_memory", lambda: 5e5)
-    kept_, place = GREEDY[what]
+    windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
     p = P.replace(Omega=1e300) if what == "sections" else P
-    with pytest.raises(ParameterError, match=rf"^record\.{place}: must fit into memory: .* GB of samples in all"):
-        simulate(p, 1.0, record=Record(**kept_))
+    with pytest.raises(ParameterError, match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples"):
+        simulate(p, 1.0, windows)
 
 
 def test_a_window_is_counted_from_the_end_of_the_run() -> None:
-    result = simulate(P, 0.05, record=Record(windows=(Window(last=0.02, rate=1000), Window(start=0.04, rate=1000))))
-    late, rest = (samples["time"] for samples in result.samples)
+    result = simulate(P, 0.05, {"late": Window(last=0.02, rate=1000), "rest": Window(start=0.04, rate=1000)})
+    late, rest = (samples["time"] for samples in result.samples.values())
     assert np.allclose(late, np.arange(0.03, 0.0505, 0.001))
     assert np.allclose(rest, np.arange(0.04, 0.0505, 0.001))
-    assert result.record.windows[0].stop == 0.05, "the record says what was kept"
-    with pytest.raises(ParameterError, match=r"record.windows.0.start=1: must be < t_end=0.05"):
-        simulate(P, 0.05, record=Record(windows=(Window(start=1, rate=10),)))
+    assert result.windows["late"].stop == 0.05, "the result says what was kept"
+    with pytest.raises(ParameterError, match=r"windows.late.start=1: must be < t_end=0.05"):
+        simulate(P, 0.05, {"late": Window(start=1, rate=10)})
 
 
 def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Record, Window, deflection, simulate, snapshots
+from disc_model import ParameterError, Parameters, Window, deflection, simulate, snapshots
 
 P = Parameters(N=200, Omega=20)
 
@@ -20,9 +20,9 @@ def test_it_is_what_the_engine_samples_at_a_point_fixed_to_the_disc(p: Parameter
     assert w.dims == ("time", "r", "theta")
     assert w.attrs["units"] == "m"
     assert np.array_equal(w["time"], times)
-    windows = [Window(start=0, stop=0.2, rate=1000, theta=theta) for theta in (0.0, 1.0)]
-    sampled = simulate(p, 0.2, record=Record(windows=tuple(windows))).samples
-    for i, samples in enumerate(sampled):
+    windows = {str(theta): Window(start=0, stop=0.2, rate=1000, theta=theta) for theta in (0.0, 1.0)}
+    sampled = simulate(p, 0.2, windows).samples
+    for i, samples in enumerate(sampled.values()):
         there = np.searchsorted(samples["time"], times - 1e-9)
         # pieces of a run and one whole run differ by their truncation error, 1e-10 of the motion a step
         assert np.allclose(w[:, 0, i], samples["w_point"][there], atol=1e-9 * np.abs(samples["w_point"]).max())

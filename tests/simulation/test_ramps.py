@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Ramp, Record, Window, simulate
+from disc_model import ParameterError, Parameters, Ramp, Window, simulate
 from disc_model.data.dataset import load
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.ramps import pieces, values_at
@@ -25,15 +25,15 @@ RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
 # ------------------------------------------------------------------------ what is requested
 @pytest.mark.parametrize("law", [{}, LAWS["compliant_normal"]])  # whose kernels others use as well
 def test_rate_zero_and_a_ramp_after_the_end_change_no_bit(law):
-    p, record = P.replace(**law), Record(windows=(Window(rate=5e3),))
-    constant = simulate(p, 0.05, record=record)
+    p, windows = P.replace(**law), {"all": Window(rate=5e3)}
+    constant = simulate(p, 0.05, windows)
     none = (
         Ramp(parameter="Omega", to=50.0, start=0.007, end=0.03),
         Ramp(parameter="N", to=200.0, start=0.0, end=0.02),
         Ramp(parameter="N", to=200.0, start=0.02, end=0.021),
         Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06),
     )
-    same(simulate(p, 0.05, record=record, ramps=none), constant)
+    same(simulate(p, 0.05, windows, ramps=none), constant)
 
 
 def test_until_a_ramp_begins_all_is_as_without():
@@ -82,11 +82,11 @@ def test_a_run_in_pieces_is_the_whole_run():
 
 
 def test_samples_events_and_statistics_know_no_pieces():
-    record = Record(windows=(Window(rate=1e4), Window(rate=2e3, start=0.015, stop=0.045, envelope=3)))
-    result = simulate(P, 0.05, ramps=(BRAKE, RELIEF), record=record)
-    sample, statistics = result.samples[0], result.statistics
+    windows = {"all": Window(rate=1e4), "bins": Window(rate=2e3, start=0.015, stop=0.045, envelope=3)}
+    result = simulate(P, 0.05, windows, ramps=(BRAKE, RELIEF))
+    sample, statistics = result.samples["all"], result.statistics
     np.testing.assert_allclose(sample["time"], np.arange(501) * 1e-4, rtol=0, atol=1e-15)
-    assert len(result.samples[1]["time"]) == 61 // 3
+    assert len(result.samples["bins"]["time"]) == 61 // 3
     spent = sum(statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
     assert spent == pytest.approx(0.05, rel=1e-12)
     assert statistics["events"] == len(result.events)

@@ -7,22 +7,22 @@ from typing import Any
 
 import pytest
 
-from disc_model import Execution, Parameters, Poincare, Ramp, Record, State, Window, simulate
+from disc_model import Execution, Parameters, Poincare, Ramp, State, Window, simulate
 from tests import processes
 from tests.simulation.equal import same
 
 P = Parameters(N=385, Omega=15.1)
-ALL = Record(
-    windows=(Window(start=54.5, stop=55.2, rate=3e3), Window(start=54.45, stop=55.5, rate=1e3, theta=2.0, envelope=7)),
-    poincare=Poincare(start=54.6),
-    audit_every_step=True,
-)
+WINDOWS = {
+    "fine": Window(start=54.5, stop=55.2, rate=3e3),
+    "bins": Window(start=54.45, stop=55.5, rate=1e3, theta=2.0, envelope=7),
+}
+ALL = {"windows": WINDOWS | {"turns": Poincare(start=54.6)}}
 RAMPS = (Ramp(parameter="Omega", to=14.0, start=54.5, end=55.5), Ramp(parameter="N", to=300.0, start=54.9, end=55.2))
 RUNS: dict[str, dict[str, Any]] = {
-    "everything": {"record": ALL},
-    "nothing recorded": {"record": Record(events=False)},
-    "out of steps": {"execution": Execution(max_steps=900), "record": ALL},
-    "on ramps": {"record": ALL.replace(poincare=None), "ramps": RAMPS},
+    "everything": ALL | {"execution": Execution(audit_every_step=True)},
+    "nothing recorded": {"events": False},
+    "out of steps": ALL | {"execution": Execution(max_steps=900, audit_every_step=True)},
+    "on ramps": {"windows": WINDOWS, "ramps": RAMPS},
 }
 
 
@@ -42,12 +42,12 @@ def test_pauses_change_nothing(separating: State, monkeypatch: pytest.MonkeyPatc
 
 TWO_HOURS = """
 import json, resource
-from disc_model import Execution, Parameters, Record, simulate
+from disc_model import Execution, Parameters, simulate
 seen = []
 def progress(time):
     seen.append((time, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss))
 execution = Execution(progress=progress)
-result = simulate(Parameters(N=385, Omega=15.1), 7200, record=Record(events=False), execution=execution)
+result = simulate(Parameters(N=385, Omega=15.1), 7200, events=False, execution=execution)
 print(json.dumps({"seen": seen, "status": result.status.value, **result.statistics}))
 """
 

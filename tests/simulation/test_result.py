@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import Execution, ParameterError, Parameters, Record, State, Window, load, simulate
+from disc_model import Execution, ParameterError, Parameters, Poincare, Ramp, Result, State, Window, load, simulate
+from disc_model.data.dataset import MissingFile, UnreadableFile
 from disc_model.simulation.states import engine_case
 from tests.simulation.equal import same
 
@@ -41,23 +42,68 @@ def test_a_result_stays_what_it_is_in_later_runs() -> None:
         first.final_state.a[0] = 1
 
 
-def test_a_result_is_saved_and_loaded_as_its_tree(tmp_path: Path) -> None:
-    windows = (Window(last=0.02, rate=1000), Window(rate=500, envelope=5))
-    result = simulate(P, 0.05, record=Record(windows=windows))
-    result.save(tmp_path / "r.nc", ["late", "whole"])
-    assert load(tmp_path / "r.nc").identical(result.to_tree(["late", "whole"]))
+WINDOWS = {"late": Window(last=0.02, rate=1000), "bins": Window(rate=500, envelope=5), "turns": Poincare()}
 
 
-NO_GROUP = (".", "..", "a\nb", "x" * 300, " a", "a ", "\x00", "\ud800", "a/b", "events", 3, ["a"])
+@pytest.mark.parametrize("suffix", [".nc", ".csv", ".mat"])
+@pytest.mark.parametrize("events", [True, False])
+def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str, events: bool) -> None:
+    ramps = (Ramp(parameter="N", to=190, start=0.01, end=0.02),)
+    result, path = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps), tmp_path / f"r{suffix}"
+    result.save(path)
+    again = Result.load(path)
+    same(again, result)
+    assert repr(again) == repr(result)
+    assert again.events.equals(result.events)
+    for name in ("parameters", "tol", "t_end", "status", "message", "windows", "ramps", "u_0"):
+        assert getattr(again, name) == getattr(result, name), name
+    for name in WINDOWS:
+        assert again[name].identical(result[name])
+    goes_on, went_on = (simulate(P, 0.06, initial_state=run.final_state, ramps=ramps) for run in (again, result))
+    assert np.array_equal(goes_on.final_state.a, went_on.final_state.a)
+    path.write_bytes(b"# 1")
+    with pytest.raises(UnreadableFile, match="cannot be read"):
+        Result.load(path)
+    path.unlink()
+    with pytest.raises(MissingFile):
+        Result.load(path)
 
 
-@pytest.mark.parametrize("names", [*([name] for name in NO_GROUP), 3, "a", []], ids=repr)
-def test_names_that_no_group_can_have_are_refused(tmp_path: Path, names: Any) -> None:
+def test_a_tree_is_what_netcdf_holds(tmp_path: Path) -> None:
+    result = simulate(P, 0.05, WINDOWS)
+    result.save(tmp_path / "r.nc")
+    tree = load(tmp_path / "r.nc")
+    for name, group in result.to_tree().children.items():
+        assert tree[name].to_dataset().drop_vars("direction", errors="ignore").identical(group.to_dataset()), name
+    assert result["late"]["P"].attrs["units"] == "N"
+    with pytest.raises(
+        ParameterError, match=r"name='lat': no such window, did you mean late\? \(known: late, bins, turns\)"
+    ):
+        result["lat"]
+
+
+NO_GROUP = (".", "..", "a\nb", "x" * 300, " a", "a ", "\x00", "\ud800", "a/b", "events", "N", 3)
+
+
+@pytest.mark.parametrize("name", NO_GROUP, ids=repr)
+def test_names_that_no_group_can_have_are_refused(name: Any) -> None:
     """They ended in errors of libraries, some of them when the file was half written."""
-    result = simulate(P, 0.01, record=Record(windows=(Window(rate=1000),)))
-    with pytest.raises(ParameterError, match=r"^names=.*: must be 1 different names, one a window"):
-        result.save(tmp_path / "r.nc", names)
-    assert not list(tmp_path.iterdir())
+    with pytest.raises(ParameterError, match=r"^windows\..*: the name of a window must be at most 60 printable"):
+        simulate(P, 0.01, {name: Window(rate=1000)})
+
+
+def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Path) -> None:
+    result = simulate(P, 0.01, {"1 of 2": Window(rate=1000)})
+    for name, rule in (
+        ("r", r"path=.* must end in \.nc, \.csv or \.mat"),
+        ("r.mat", "windows.1 of 2: must be a name that"),
+    ):
+        with pytest.raises(ParameterError, match=rule):
+            result.save(tmp_path / name)
+    result.final_state.save(tmp_path / "state.nc")
+    with pytest.raises(ParameterError, match=r"must be a file written by Result\.save"):
+        Result.load(tmp_path / "state.nc")
+    assert [path.name for path in tmp_path.iterdir()] == ["state.nc"]
 
 
 @pytest.mark.parametrize("name", ["x" * 240, "é" * 120, "a\0b", "\ud800", "", "..", 3, None, b"x"], ids=repr)

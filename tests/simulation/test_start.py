@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import Execution, Record, Window, deflection, floquet
+from disc_model import Execution, Window, deflection, floquet
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES, flag_names
@@ -125,8 +125,8 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
     )  # by formulas that share nothing with the engine
     assert abs(force) > 1e-3
     window = Window(start=0, stop=2e-3, rate=1e6)
-    run = simulate(p, 2e-3, initial_state=start, record=Record(windows=(window,)))
-    samples = run.samples[0]
+    run = simulate(p, 2e-3, windows={"w": window}, initial_state=start)
+    samples = run.samples["w"]
     assert PHASES[int(samples["phase"][0])] == ("slip" if force > 0 else "separation")
     assert samples["P"][0] == pytest.approx(max(force, 0.0), rel=1e-9)
     # as far as rounding goes: the disc's deflection is some millimetres
@@ -159,8 +159,8 @@ def test_a_release_continued_under_other_parameters_is_one_of_these() -> None:
 def test_a_switch_of_a_compliant_contact_keeps_its_distance(switch: Callable[..., State], change: dict) -> None:
     p = APART.replace(**(C | change))
     window = Window(start=0, stop=2e-3, rate=1e6)
-    run = simulate(p, 2e-3, initial_state=transfer_state(p, switch(**C)), record=Record(windows=(window,)))
-    samples = run.samples[0]
+    run = simulate(p, 2e-3, windows={"w": window}, initial_state=transfer_state(p, switch(**C)))
+    samples = run.samples["w"]
     assert PHASES[int(samples["phase"][0])] == "separation"
     apart = samples["phase"] == PHASES.index("separation")
     assert apart[:10].all()

@@ -14,7 +14,6 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor.basins import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
@@ -32,7 +31,7 @@ def paradox() -> tuple[Parameters, State]:
 
 def keeps_contact(p: Parameters, horizon: float) -> bool:
     """Whether a simulation of the motion to its horizon (s) never separates."""
-    whole = simulate(p, horizon, tol=1e-8, stop_at="first_separation", record=Record(events=False))
+    whole = simulate(p, horizon, tol=1e-8, stop_at="first_separation", events=False)
     return whole.status is Status.OK
 
 

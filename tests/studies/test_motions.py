@@ -6,7 +6,7 @@ import numpy as np
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.studies.motions import SAMPLES, run_motions
 from disc_model.studies.quantity import quantity_of
 from tests.studies.refused import parse_grid
@@ -39,7 +39,7 @@ def test_samples_are_those_of_the_motion():
     p = Parameters(N=385, Omega=15.1)
     length = float(found["length"])
     window = Window(start=2.0, stop=2.0 + length, rate=1e6)
-    (samples,) = simulate(p, 2.0 + length, record=Record(windows=(window,), events=False)).samples
+    samples = simulate(p, 2.0 + length, {"w": window}, events=False).samples["w"]
     times = 2.0 + np.linspace(0, length, SAMPLES)
     for name in ("P", "u", "psi"):
         expected = np.interp(times, samples["time"], samples[name])

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Record, Window, plate_modes, simulate
+from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
 from disc_model.simulation.states import engine_case, static_start, write_state
@@ -21,15 +21,15 @@ EVENT_TIMES = 1e-13
 EACH_LAW = [pytest.param(name, marks=() if name == "compliant_normal" else pytest.mark.slow, id=name) for name in LAWS]
 
 
-def _difference(name, runs, tol, record=None):
+def _difference(name, runs, tol, audited=False):
     """Largest difference of event times (s) and of contact forces (N), all switches being there, in order."""
     data, times, forces = stored.load(f"contact_{name}"), [0.0], [0.0]
     p = Parameters(**data["parameters"])
     for run in data["runs"][runs]:
         start = stored.engine_state(run["start"], p) if run["start"] else None
-        result = simulate(p, run["t_end"], tol=tol, initial_state=start, record=record)
+        result = simulate(p, run["t_end"], tol=tol, initial_state=start, execution=Execution(audit_every_step=audited))
         events = result.events
-        if record is not None:
+        if audited:
             assert result.statistics["energy_residual"] < 1e-13
         assert list(events["kind"]) == run["kinds"]
         if len(events):
@@ -41,7 +41,7 @@ def _difference(name, runs, tol, record=None):
 @pytest.mark.parametrize("name", EACH_LAW)
 def test_two_violent_pieces(name):
     """Short enough to run uncompiled: all phases and switches, each step's energy balance."""
-    times, forces = _difference(name, slice(1, 3), 1e-14, Record(audit_every_step=True))
+    times, forces = _difference(name, slice(1, 3), 1e-14, audited=True)
     assert times <= EVENT_TIMES
     assert forces <= 1e-6  # some kN pass; the rounding of u is felt as 1e-17/C = 4e-11 N
 
@@ -116,10 +116,10 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
     psi = plate_modes(p)["psi"].to_numpy()
     upward = np.array([0.0, 6.0]) * np.sign(psi)  # kg^1/2 m/s
     start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(alpha=upward, u_velocity=float(psi @ upward))
-    record = Record(windows=(Window(start=0.0, stop=2e-4, rate=1e6),), audit_every_step=True)
-    result = simulate(p, 2e-4, initial_state=start, record=record, tol=1e-14)
+    windows, execution = {"all": Window(start=0.0, stop=2e-4, rate=1e6)}, Execution(audit_every_step=True)
+    result = simulate(p, 2e-4, windows, initial_state=start, tol=1e-14, execution=execution)
     assert list(result.events["kind"]) == ["separation"]
-    sample = result.samples[0]
+    sample = result.samples["all"]
     held = sample["phase"] == layout.STICK
     assert (sample["w"] - sample["u"])[held].min() >= 0
     assert sample["P"][held].min() > 1.0  # normal to the disc it presses to the end
@@ -194,7 +194,8 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
 def test_energy_balances_over_ten_thousand_switches(name):
     p = Parameters(N=385.0, Omega=15.1, **LAWS.get(name, {}))
     start = stored.engine_state(taylor.violent_start(1.3), p)
-    result = simulate(p, 40.0, tol=1e-15, initial_state=start, record=Record(audit_every_step=True, events=False))
+    execution = Execution(audit_every_step=True)
+    result = simulate(p, 40.0, events=False, tol=1e-15, initial_state=start, execution=execution)
     statistics = result.statistics
     assert statistics["events"] > 10_000
     assert statistics["audited_steps"] == statistics["steps"]

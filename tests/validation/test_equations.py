@@ -6,7 +6,7 @@ tests/references/printed.py has Eqs. (18)-(37), and the states from which single
 import numpy as np
 import pytest
 
-from disc_model import Record, Window, simulate
+from disc_model import Execution, Window, simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import kernels, taylor_heyoka
 from disc_model.benchmarks.methods.kernels import Physics
@@ -41,13 +41,13 @@ def engine_state(p, state):
 def test_motion_of_each_phase(phase, direction, tol):
     """At a loose tolerance steps are long: a wrong coefficient of any order shows."""
     start = lively(phase, direction)
-    record = Record(windows=(Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA),), audit_every_step=True)
-    result = simulate(P, SPAN, tol=tol, initial_state=start, record=record)
+    window, execution = Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA), Execution(audit_every_step=True)
+    result = simulate(P, SPAN, {"w": window}, tol=tol, initial_state=start, execution=execution)
     assert len(result.events) == 0
     printed, accuracy = Printed(P, start), max(ACCURACY, 10 * tol)
     end = printed.at(SPAN)
     close({name: getattr(result.final_state, name) for name in vars(start)}, end, accuracy, vars(start).keys() & end)
-    samples = result.samples[0]
+    samples = result.samples["w"]
     wanted = [printed.at(t) if t else printed.described(0.0, printed.y) for t in samples["time"]]
     names = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi")
     assert len(wanted) == 4

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp, Record, Window, simulate
+from disc_model import Execution, Parameters, Ramp, Window, simulate
 from tests.contact_laws import COMPILES, LAWS, course_of, turned
 from tests.references import stored, taylor
 
@@ -16,12 +16,12 @@ def compared(p, ramps, t_end, start=None):
     """Switches of a run on ramps, its audit, and samples that also show where the drive has turned to."""
     q, course = taylor.problem_of(p), course_of(p, ramps)
     reference = taylor.Reference(q, start or q.equilibrium(), course=course)
-    record = Record(windows=(Window(rate=1e3, theta=THETA),), audit_every_step=True)
+    windows, execution = {"w": Window(rate=1e3, theta=THETA)}, Execution(audit_every_step=True)
     given = start and stored.engine_state(start, p)
-    found = simulate(p, t_end, tol=1e-15, initial_state=given, ramps=ramps, record=record)
+    found = simulate(p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution)
     assert found.statistics["audited_steps"] == found.statistics["steps"]
     assert found.statistics["energy_residual"] < 1e-13
-    sample = found.samples[0]
+    sample = found.samples["w"]
     wanted = np.array([reference.run(t).sample(turned(course, t), THETA) for t in sample["time"]])
     for name, values in zip(taylor.SAMPLED, wanted.T, strict=True):
         np.testing.assert_allclose(sample[name], values, rtol=0, atol=1e-9 * np.abs(values).max(), err_msg=name)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Ramp, Record, Window, plate_modes, simulate
+from disc_model import Execution, Parameters, Ramp, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.simulation.states import static_start
 from tests.contact_laws import course_of, turned
@@ -155,9 +155,10 @@ class Compared:
         self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
         self.start, self.theta, end = drawn_start(rng, p, self.begin), rng.uniform(0, 6), self.begin + self.span
         window = Window(start=self.begin, stop=end, rate=(SAMPLES - 0.5) / self.span, theta=self.theta)
-        record = Record(windows=(window, window.replace(envelope=BIN)), audit_every_step=True)
-        self.result = simulate(p, end, tol=1e-14, initial_state=self.start, ramps=self.ramps, record=record)
-        self.times = self.result.samples[0]["time"] - self.begin
+        windows = {"fine": window, "rough": window.replace(envelope=BIN)}
+        how = {"ramps": self.ramps, "execution": Execution(audit_every_step=True)}
+        self.result = simulate(p, end, windows, tol=1e-14, initial_state=self.start, **how)
+        self.times = self.result.samples["fine"]["time"] - self.begin
         self.runs = [reference(p, self.start, course=course, truncation=size) for size in (taylor.TRUNCATION, ROUGH)]
         drives = [p.Omega * self.begin + turned(course, t) for t in self.times]
         at = list(zip(self.times, drives, strict=True))
@@ -210,7 +211,7 @@ class Compared:
         give = contact_compliance(self.p)
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
-        sample, folded = self.result.samples
+        sample, folded = self.result.samples.values()
         for i, name in enumerate(taylor.SAMPLED):
             off = np.abs(sample[name] - fine[:, i])
             assert np.all(off[good] <= allowed[good, i]), (name, (off / scale[i])[good].max(), error[good, i].max())

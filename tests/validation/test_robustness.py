@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy import linalg
 
-from disc_model import Execution, Parameters, Record, Result, State, Status, Window, plate_modes, simulate
+from disc_model import Execution, Parameters, Result, State, Status, Window, plate_modes, simulate
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
 from disc_model.engine.stepping import LONGEST_STEP
@@ -60,8 +60,9 @@ def run(p: Parameters, radians: float, tol: float) -> Result:
     """A run of so many radians of the highest mode, a second at most, sampled throughout."""
     tried("hostile inputs", "simulations of anything in and beyond the parameter box")
     t_end = min(1.0, radians / float(plate_modes(p).omega.max()))
-    record = Record(windows=(Window(start=0, stop=t_end, rate=400 / t_end),), audit_every_step=True)
-    return simulate(p, t_end, tol=tol, record=record, execution=Execution(max_steps=20_000))
+    window = Window(start=0, stop=t_end, rate=400 / t_end)
+    execution = Execution(max_steps=20_000, audit_every_step=True)
+    return simulate(p, t_end, {"all": window}, tol=tol, execution=execution)
 
 
 def check_laws(result: Result, phase: str = "stick") -> None:
@@ -71,7 +72,7 @@ def check_laws(result: Result, phase: str = "stick") -> None:
     for kind, entered in zip(events.kind, events.phase, strict=True):
         assert (kind, entered) in LEGAL[phase], (phase, kind, entered)
         phase = entered
-    samples = result.samples[0]
+    samples = result.samples["all"]
     for name, values in samples.items():
         assert np.all(np.isfinite(values)), name
     in_contact = samples["phase"] < 2

@@ -28,7 +28,7 @@ def test_one_and_two_cores(project: Project, finished: Project) -> None:
 
 CASES = """
 import sys
-from disc_model import Parameters, Poincare, Record, Window, simulate
+from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.benchmarks.scenes import problem
 from disc_model.data.dataset import save
 from disc_model.simulation.api import run_case
@@ -39,8 +39,8 @@ p = Parameters(N=385, Omega=15.1)
 spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), audit_every_step=True)
 save(run_case(spec), sys.argv[1] + "/grows.nc")
 after = problem("separating")
-record = Record(windows=(Window(start=after.start.time, stop=after.t_end, rate=1000),))
-simulate(after.parameters, after.t_end, initial_state=after.start, record=record).save(sys.argv[1] + "/separates.nc")
+window = Window(start=after.start.time, stop=after.t_end, rate=1000)
+simulate(after.parameters, after.t_end, {"w": window}, initial_state=after.start).save(sys.argv[1] + "/separates.nc")
 """
 
 

@@ -30,7 +30,6 @@ from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.stability.continuation import continue_cycle
 from disc_model.stability.cycle import floquet
 
@@ -151,13 +150,12 @@ def _richest() -> Replies:
 
 def after_separation(p: Parameters) -> Replies:
     """Answers as of `questions.after_separation`, from the state that this model's motion reaches."""
-    quiet = Record(events=False)
-    first = simulate(p, SETTLES_WITHIN, tol=DEFAULT, record=quiet, stop_at="first_separation")
+    first = simulate(p, SETTLES_WITHIN, events=False, tol=DEFAULT, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         nothing = reply_of(math.nan, math.nan, f"no separation within {SETTLES_WITHIN:g} s")
         return dict.fromkeys(questions.AFTER_SEPARATION, nothing)
     state = first.final_state
-    late = simulate(p, state.time + SETTLES_FOR, tol=DEFAULT, record=quiet, initial_state=state)
+    late = simulate(p, state.time + SETTLES_FOR, events=False, tol=DEFAULT, initial_state=state)
     return questions.after_separation(solve, NEVER, p, late.final_state)
 
 

@@ -23,7 +23,7 @@ from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.mode_choice import BAND, RICH, frequency_error, real_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import floquet
 
@@ -118,10 +118,9 @@ def _of_the_modes(p: Parameters, growing: Parameters | None) -> dict[str, float]
 
 def _separating(p: Parameters, horizon: float, late: tuple[float, float]) -> dict[str, float]:
     """Cost of the motion up to the first separation, its time, and the motion after it, as of `_late`."""
-    quiet = Record(events=False)
-    simulate(p, 1e-3, record=quiet)  # compiles
+    simulate(p, 1e-3)  # compiles
     began = time.process_time()
-    first = simulate(p, horizon, stop_at="first_separation", record=quiet)
+    first = simulate(p, horizon, events=False, stop_at="first_separation")
     row = {"cost": (time.process_time() - began) / first.final_state.time}
     if not math.isfinite(first.first_separation):
         return row
@@ -134,16 +133,15 @@ def _late(p: Parameters, start: State, wait: float, length: float, tol: float) -
     row = {"tol_late": tol}
     if wait:
         began = time.process_time()
-        run = simulate(p, start.time + wait, tol=tol, initial_state=start, record=Record(events=False))
+        run = simulate(p, start.time + wait, tol=tol, initial_state=start, events=False)
         row["cost_separating"], start = (time.process_time() - began) / wait, run.final_state
         if not run.status.complete:
             return {}
     window = Window(start=start.time, stop=start.time + length, rate=20_000.0, envelope=100)
-    record = Record(events=False, windows=(window,))
-    run = simulate(p, window.stop, tol=tol, initial_state=start, record=record)
+    run = simulate(p, window.stop, {"late": window}, events=False, tol=tol, initial_state=start)
     if not run.status.complete:
         return {}
-    (seen,) = run.samples
+    seen = run.samples["late"]
     return row | {
         "separations": run.statistics["separations"] / length,
         "separated_share": run.statistics["time_separation"] / length,
@@ -154,7 +152,7 @@ def _late(p: Parameters, start: State, wait: float, length: float, tol: float) -
 
 def _contact_range(p: Parameters) -> dict[str, float]:
     """Range of the contact force in the window, and the cost of a simulated second."""
-    record = Record(windows=(Window(start=WINDOW[0], stop=WINDOW[1], rate=20_000.0, envelope=100),))
-    window = simulate(p, WINDOW[1], record=record).samples[0]
+    late = Window(start=WINDOW[0], stop=WINDOW[1], rate=20_000.0, envelope=100)
+    window = simulate(p, WINDOW[1], {"late": late}).samples["late"]
     cost = float(np.median([simulate(p, 1.0).statistics["wall_time"] for _ in range(11)]))
     return {"force_min": float(window["P_min"].min()), "force_max": float(window["P_max"].max()), "cost": cost}

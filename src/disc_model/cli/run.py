@@ -14,7 +14,7 @@ from disc_model.cli.case import case_lines, option, parameters_of, print_rows, w
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.mode_choice import ModeChoice
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.simulation.ramps import Ramp
 from disc_model.units import TOLERANCES, Count, Seconds, Tolerance
 
@@ -73,20 +73,18 @@ def run(
     raise_faults(faults)  # before kernels load; `simulate` checks ramps
     from disc_model.simulation.api import Execution, simulate
 
-    record = Record(windows=tuple(windows.values())) if windows else None
-    if plot is not None and record is None:
-        record = plot_record(end)
+    kept = windows if windows or plot is None else plot_windows(end)
     execution = Execution(max_steps=most)
-    result = simulate(p, end, tol=tolerance, record=record, stop_at=until, ramps=ramps, execution=execution)
+    result = simulate(p, end, kept, tol=tolerance, stop_at=until, ramps=ramps, execution=execution)
     _print_summary(result, choice)
     complete = result.status.complete
     if save is not None:
-        result.save(save, list(windows) or None)
+        result.save(save)
         print_rows([("saved", str(save))])
     if plot is not None:
         reached = float(result.final_state.time)
         if 0 < reached < end and not windows:  # the end to plot differs from the expected one
-            result = simulate(p, reached, tol=tolerance, record=plot_record(reached), ramps=ramps)
+            result = simulate(p, reached, plot_windows(reached), tol=tolerance, ramps=ramps)
         _save_plot(result, plot)
     if not complete:
         raise typer.Exit(1)
@@ -154,12 +152,12 @@ def _file_faults(plot: Path | None, save: Path | None) -> Iterator[str]:
             yield f"{name}={str(path)!r}: {NAME_RULE}"
 
 
-def plot_record(t_end: float) -> Record:
-    """Record of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
+def plot_windows(t_end: float) -> dict[str, Window]:
+    """Windows of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
     bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
     whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)
     end = Window(start=max(0.0, t_end - ZOOM), stop=t_end, rate=4 * PLOT_RATE)
-    return Record(windows=(whole, end) if t_end > ZOOM else (end,))
+    return {"whole": whole, "end": end} if t_end > ZOOM else {"end": end}
 
 
 def _save_plot(result: Result, path: Path) -> None:

@@ -14,6 +14,7 @@ import contextlib
 import json
 import math
 import os
+import re
 import secrets
 import shlex
 import shutil
@@ -121,7 +122,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     """
     if not isinstance(tree, xr.DataTree):
         raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
-    file = _file(path)
+    file = regular_file(path)
     write_atomically(file, lambda name: _write(tree, name), sum(node.nbytes for node in tree.subtree) + OVERHEAD)
 
 
@@ -155,7 +156,7 @@ def load(path: str | Path) -> xr.DataTree:
     disc_model.data.dataset.MissingFile
         If there is no such file.
     """
-    file = _file(path)
+    file = regular_file(path)
     try:
         with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
             return tree.load()
@@ -183,6 +184,91 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
     compression = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
     compressed = compression if variable.ndim and variable.size else {}
     return {"_FillValue": None} | compressed
+
+
+# ----------------------------------------------------------------------------------------------------
+# Tables of a result in files of several kinds
+
+Tables = dict[str, dict[str, Any]]
+"""Columns of numbers, shape (n,), by the names of tables and their own."""
+
+
+def save_tables(tables: Tables, described: str, path: str | Path) -> None:
+    """Write tables and a text that describes them, as ".csv" or ".mat", atomically; `Result.save` says in which form.
+
+    Raises `ParameterError` if the suffix is another one, or MATLAB does not allow a table's name, and `WriteError`.
+    """
+    file = regular_file(path)
+    if file.suffix == ".csv":
+        columns = json.dumps({name: [*table] for name, table in tables.items()})
+        frames = [pd.DataFrame({"table": name, **_in_words(table)}) for name, table in tables.items()]
+        text = f"# {columns}\n# {described}\n" + pd.concat([each for each in frames if len(each)]).to_csv(index=False)
+        write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"), len(text))
+    elif file.suffix == ".mat":
+        from scipy.io import savemat
+
+        for name in tables:
+            if not re.fullmatch(r"(?!(result|units)$)[A-Za-z]\w{0,62}", name, re.ASCII):
+                raise ParameterError(Fault(("windows", name), "", "must be a name that MATLAB allows, but not `units`"))
+        units = {name: SERIES[name].units for table in tables.values() for name in table if name in SERIES}
+        content, size = {"result": described, "units": units, **tables}, sum(map(_size, tables.values())) + OVERHEAD
+        options: dict[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "column"}
+        write_atomically(file, lambda name: savemat(name, content, **options), size)
+    else:
+        raise ParameterError(Fault.of(("path",), str(path), "must end in .nc, .csv or .mat"))
+
+
+def load_tables(path: str | Path) -> tuple[str, Tables]:
+    """The text and the tables that `save_tables` has written; of netCDF the attribute `result` and the groups.
+
+    The text is empty if the file holds none. Raises `UnreadableFile`, and `MissingFile`.
+    """
+    file = regular_file(path)
+    if not file.exists():
+        raise MissingFile(f"{path}: there is no such file")
+    if file.suffix not in (".csv", ".mat"):
+        tree = load(file)
+        groups = {name: node.to_dataset(inherit=False).variables for name, node in tree.children.items()}
+        return tree.attrs.get("result", ""), {
+            name: {str(column): np.asarray(group[column], float) for column in sorted(group, key="time".__ne__)}
+            for name, group in groups.items()
+        }
+    try:
+        if file.suffix == ".mat":
+            from scipy.io import loadmat
+
+            content = loadmat(file, appendmat=False, simplify_cells=True)
+            named = {name: table for name, table in content.items() if name != "units" and isinstance(table, dict)}
+            return content.get("result", ""), {
+                name: {column: np.atleast_1d(values).ravel() for column, values in table.items()}
+                for name, table in named.items()
+            }
+        with file.open(encoding="utf-8") as lines:
+            columns, described = json.loads(next(lines).removeprefix("# ")), next(lines).removeprefix("# ")
+            frame = pd.read_csv(lines, dtype=str)  # since numpy reads numbers to the last bit
+        parts = {name: frame[frame["table"] == name].reindex(columns=known) for name, known in columns.items()}
+        return described, {name: _in_numbers(part) for name, part in parts.items()}
+    except Exception as error:  # whatever a damaged file leads a library to
+        raise UnreadableFile(f"{path}: cannot be read: {error}") from error
+
+
+def _in_words(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns in which flags are words."""
+    flags = {name: SERIES[name].flags for name in table if name in SERIES}
+    return {name: np.array(flags[name])[x.astype(int)] if flags.get(name) else x for name, x in table.items()}
+
+
+def _in_numbers(frame: pd.DataFrame) -> dict[str, Any]:
+    """Columns in which flags are numbers again."""
+    flags = {str(name): SERIES[str(name)].flags for name in frame if name in SERIES}
+    return {
+        str(name): np.array(pd.Categorical(x, flags[str(name)]).codes if flags.get(str(name)) else x, dtype=float)
+        for name, x in frame.items()
+    }
+
+
+def _size(table: Mapping[str, Any]) -> int:
+    return sum(values.nbytes for values in table.values())
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -220,7 +306,7 @@ def may_be_file(path: object) -> bool:
         return False
 
 
-def _file(path: str | Path) -> Path:
+def regular_file(path: str | Path) -> Path:
     """A path that is allowed for a file; raises `ParameterError` otherwise."""
     if not may_be_file(path):
         raise ParameterError(Fault(("path",), as_text(str(path)), NAME_RULE))

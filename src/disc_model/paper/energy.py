@@ -74,16 +74,16 @@ def _waves(angle: Array, most: int) -> Array:
 def course(p: Parameters, until: float) -> tuple[Powers, ...]:
     """Powers at `STAGES` times of the motion from the static start, up to a time in s."""
     from disc_model.simulation.api import simulate
-    from disc_model.simulation.case import Record, Window
+    from disc_model.simulation.case import Window
 
     theta = 2 * np.pi * np.arange(2 * p.n_diameters + 1) / (2 * p.n_diameters + 1)
     state, found = None, []
     for begin, end in pairwise(np.linspace(0.0, until, STAGES + 1).tolist()):
         start = max(begin, end - LENGTH)
-        seen = Record(windows=tuple(Window(start=start, stop=end, rate=RATE, theta=at) for at in theta.tolist()))
-        run = simulate(p, end, initial_state=state, record=seen).raise_for_status()
+        windows = {f"at {at:g}": Window(start=start, stop=end, rate=RATE, theta=at) for at in theta.tolist()}
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
         state = run.final_state
-        found.append(powers(p, run.u_0, theta, run.samples))
+        found.append(powers(p, run.u_0, theta, [*run.samples.values()]))
     return tuple(found)
 
 

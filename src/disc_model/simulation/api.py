@@ -6,8 +6,9 @@ import logging
 import math
 import time as clock
 import warnings
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,7 @@ from disc_model.errors import DiscModelError, Status, as_text, raise_faults, vio
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import Progress, compiling, simulating
 from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import CaseSpec, Record, Start, Window
+from disc_model.simulation.case import CaseSpec, Poincare, Start, Windows, resolved_windows, windows_faults
 from disc_model.simulation.ramps import Ramp
 from disc_model.simulation.recorder import Collector
 from disc_model.simulation.result import Result
@@ -40,7 +41,7 @@ from disc_model.simulation.states import (
     write_state,
 )
 from disc_model.sources import source_hash
-from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults
+from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,7 +56,6 @@ MOST_STEPS = 2**62
 STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine where a step is cheapest: about 0.1 s of work."""
 
-_EVENTS_ALONE = Record()
 _STATUS = {
     exit_codes.TIME_OVER: Status.OK,
     exit_codes.STOPPED: Status.STOPPED,
@@ -68,15 +68,18 @@ _STATUS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Execution:
-    """How a run is carried out. Nothing of it changes results, except that a run ends early after `max_steps`.
+    """How a run is carried out. Nothing of it changes the motion, except that a run ends early after `max_steps`.
 
     Attributes
     ----------
+    audit_every_step : whether to audit both energy balances on every step instead of every 256th
+        (the run takes about ten times as long)
     progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
         compilation; False shows nothing
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
     """
 
+    audit_every_step: bool = False
     progress: Progress = None
     max_steps: int | None = None
 
@@ -84,13 +87,14 @@ class Execution:
 _PLAIN = Execution()
 
 
-def simulate(
+def simulate(  # noqa: PLR0913
     p: Parameters,
     t_end: float | str,
+    windows: Windows | None = None,
     *,
+    events: bool = True,
     tol: float = 1e-10,
     initial_state: State | None = None,
-    record: Record | Window | None = None,
     stop_at: str | None = None,
     ramps: Ramp | tuple[Ramp, ...] = (),
     execution: Execution = _PLAIN,
@@ -101,13 +105,14 @@ def simulate(
     ----------
     p : the case
     t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
+    windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
+    events : whether to keep the table of events (events are always counted)
     tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md). A value above
         1.25e-7 (2e-6 on a compliant contact) is computed as that, and recorded as that in the result
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
-    record : quantities to keep, or a single window; None keeps events and statistics
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
-    execution : progress and largest number of steps, see `Execution`
+    execution : progress, largest number of steps and audit of energies, see `Execution`
 
     Returns
     -------
@@ -118,17 +123,32 @@ def simulate(
     ------
     ParameterError
         If an argument breaks a rule; the message names the argument, its value and the rule.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> run = dm.simulate(case, 60, windows={"late": dm.Window(last=0.1, rate=2e4)})
+    >>> run
+    Result(N=385 N, Omega=15.1 rad/s: ok at 60 s, first separation at 54.418906 s, 9546 events, 1 window)
+    >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
+    (Frozen({'time': 2001}), 'N')
     """
-    record = _EVENTS_ALONE if record is None else Record(windows=(record,)) if isinstance(record, Window) else record
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    t_end = in_si(t_end, "s", [], ())
-    raise_faults(_faults(p, t_end, tol, initial_state, record, stop_at, ramps, execution))
+    if isinstance(t_end, str):
+        with suppress(ValueError):
+            t_end = number(in_si(t_end, "s", [], ()))
+    raise_faults(_faults(p, t_end, tol, initial_state, windows, events, stop_at, ramps, execution))
     # numbers of other types would make the engine compile again, and would round differently
     start, end = 0.0 if initial_state is None else float(initial_state.time), float(t_end)
-    record = record.resolved(start, end)
-    run = _Run(p, end, float(tol), initial_state, record, stop_at, ramps, execution)
-    for window in record.outside(start, end):
-        warnings.warn(f"{window}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
+    windows = {} if windows is None else windows
+    if windows:
+        windows = resolved_windows(windows, start, end)
+        for name, window in windows.items():
+            if window.start > end or window.stop < start:  # no error: the parts of a run may share windows
+                where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
+                warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
+    run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     if code == exit_codes.PAUSED or callable(execution.progress):  # a short run has no progress to show
         with simulating(execution.progress, end) as tell:
@@ -139,23 +159,32 @@ def simulate(
     return run.result(_STATUS[code])
 
 
-def _faults(
-    p: object, t_end: Any, tol: Any, state: Any, record: Any, stop_at: Any, ramps: object, execution: Any
+def _faults(  # noqa: PLR0913
+    p: object,
+    t_end: Any,
+    tol: Any,
+    state: Any,
+    windows: Any,
+    events: object,
+    stop_at: Any,
+    ramps: object,
+    execution: Any,
 ) -> list[str]:
-    """Every fault of the arguments of `simulate`, which has made a window a record, and a ramp a tuple."""
+    """Every fault of the arguments of `simulate`, which has made a ramp a tuple."""
     time = state.time if isinstance(state, State) else 0.0
     start = time if is_finite(time) else 0.0
     later, rule = is_number(t_end) and start < t_end < math.inf, ""
     if not later:
         rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of its kind" if isinstance(t_end, str) else rule
+        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(t_end, str) else rule
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     how = execution if isinstance(execution, Execution) else _PLAIN
     counts = how.max_steps is None or (is_whole(how.max_steps) and how.max_steps >= 1)
     shows = how.progress is None or isinstance(how.progress, bool) or callable(how.progress)
     faults = foreign_case(p) + limits_faults("tol", tol, TOLERANCES)
     faults += violations(
-        (isinstance(record, Record), "record", record, "must be a Record or a Window"),
+        (isinstance(events, bool), "events", events, "must be True or False"),
+        (isinstance(how.audit_every_step, bool), "audit_every_step", how.audit_every_step, "must be True or False"),
         (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
         (is_finite(time), "initial_state.time", time, "must be finite"),
         (later, "t_end", t_end, rule),
@@ -164,8 +193,11 @@ def _faults(
         (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
         (shows, "progress", how.progress, "must be a function of the time, or False"),
     )
+    if windows is not None:
+        faults += windows_faults(windows)
     if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
-        faults += courses.faults(p, ramps, poincare=getattr(record, "poincare", None) is not None)
+        turns = windows.values() if isinstance(windows, Mapping) else ()
+        faults += courses.faults(p, ramps, poincare=any(isinstance(window, Poincare) for window in turns))
     return faults
 
 
@@ -177,7 +209,8 @@ class _Run:
     t_end: float
     tol: float = 1e-10
     initial_state: State | None = None
-    record: Record = _EVENTS_ALONE
+    windows: Windows = field(default_factory=dict)
+    events: bool = True
     stop_at: str | None = None
     ramps: tuple[Ramp, ...] = ()
     execution: Execution = _PLAIN
@@ -188,8 +221,9 @@ class _Run:
         model, order, state = case.model, series_order(self.tol), self.initial_state
         self.state, self.probe, self.series = take_workspace(case, order)
         at_switch = state is not None and write_state(case, state, self.state, self.key)
-        start, every_step, most = self.time, self.record.audit_every_step, self.execution.max_steps
-        self.collector = Collector(self.p, self.record, start, self.t_end, event_loop.LONGEST_STICK * model.unit)
+        start, every_step, most = self.time, self.execution.audit_every_step, self.execution.max_steps
+        longest = event_loop.LONGEST_STICK * model.unit
+        self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
@@ -256,21 +290,19 @@ class _Run:
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its arrays."""
-        samples, poincare = self.collector.finish()
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
             tol=used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
-            record=self.record,
+            windows=self.windows,
             status=status,
             message=_message(status, self.state, self.model),
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.collector.buffers, self.record.audit_every_step, self.wall_time),
-            samples=samples,
-            poincare=poincare,
+            statistics=_statistics(self.collector.buffers, self.execution.audit_every_step, self.wall_time),
+            samples=self.collector.finish(),
             ramps=self.ramps,
         )
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
@@ -345,7 +377,7 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
     """The state of case `p` at a time (s) after its start; raises `SimulationError` if the motion ends earlier."""
-    run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), record=Record(events=False))
+    run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), events=False)
     return run.raise_for_status().final_state
 
 
@@ -379,8 +411,8 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
             log.info("modes chosen: %s", truncation)
         start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
-            p, spec.t_end, tol=spec.tol, initial_state=start, record=spec.record, stop_at=spec.stop_at,
-            ramps=spec.ramps,
+            p, spec.t_end, spec.sections, events=spec.events is not None, tol=spec.tol, initial_state=start,
+            stop_at=spec.stop_at, ramps=spec.ramps, execution=Execution(audit_every_step=spec.audit_every_step),
         )  # fmt: skip
     except DiscModelError as error:
         log.error("no result: %s", error)
@@ -388,7 +420,7 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
         tree = to_tree({"": scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}")})
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
-        tree = result.to_tree([name for name, _ in spec.windows])
+        tree = result.to_tree()
         tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())

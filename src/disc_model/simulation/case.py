@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
@@ -16,13 +17,14 @@ from pydantic import (
     model_validator,
 )
 
+from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.parameters import AUTO, Parameters
 from disc_model.simulation.ramps import Ramp
 from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
 # ----------------------------------------------------------------------------------------------------
-# Recorded quantities
+# Recorded samples
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -133,52 +135,40 @@ class Poincare(Checked):
         return self
 
 
-class Record(Checked):
-    """Quantities that a simulation keeps; by default the events and the statistics alone.
+Windows = Mapping[str, Window | Poincare]
+"""Samples to keep, by their names."""
+_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
+"""Names that netCDF accepts for a group, whatever their length in bytes, and that are readable."""
 
-    Parameters
-    ----------
-    windows : uniform samples; one `Window`, or several
-    poincare : samples at the drive's period
-    events : whether to keep the table of events (events are always counted)
-    audit_every_step : whether to audit both energy balances on every step instead of every 256th
-        (the run takes about ten times as long)
+
+def windows_faults(windows: object) -> Iterator[Fault]:
+    """Faults of the windows of a run: each becomes a group of a file, beside the groups of every file."""
+    if not isinstance(windows, Mapping):
+        yield Fault.of(("windows",), windows, "must be windows by name, such as {'late': Window(last=1, rate=1000)}")
+        return
+    for name, window in windows.items():
+        good = isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() and name not in BESIDE_WINDOWS
+        if not good:
+            rule = "the name of a window must be at most 60 printable characters, a letter, digit or _ first, no / and "
+            yield Fault(("windows", as_text(name)), "", f"{rule}no space last, and not that of a variable")
+        if not isinstance(window, Window | Poincare):
+            yield Fault.of(("windows", str(name)), window, "must be a Window, or Poincare")
+
+
+def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
+    """The windows with absolute times, for a run from ``start`` to ``t_end``.
+
+    Raises `ParameterError` if one begins at the end of the run or later.
     """
-
-    windows: tuple[Window, ...] = ()
-    poincare: Poincare | None = None
-    events: bool = True
-    audit_every_step: bool = False
-
-    @field_validator("windows", mode="before")
-    @classmethod
-    def _several(cls, windows: Any) -> Any:
-        return (windows,) if isinstance(windows, Window) else windows
-
-    def resolved(self, start: float, t_end: float) -> Record:
-        """The same record with absolute times in all windows, for a run from ``start`` to ``t_end``.
-
-        Raises `ParameterError` if a window begins at the end of the run or later.
-        """
-        if not self.windows:
-            return self
-        faults: list[str] = []
-        windows: list[Window] = []
-        for i, window in enumerate(self.windows):
-            try:
-                windows.append(window.resolved(start, t_end))
-            except ParameterError as error:
-                faults += [fault.inside(("record", "windows", str(i))) for fault in error.faults]
-        raise_faults(faults)
-        if all(new is old for new, old in zip(windows, self.windows, strict=True)):
-            return self
-        return self.replace(windows=tuple(windows))
-
-    def outside(self, start: float, t_end: float) -> Iterator[str]:
-        """Descriptions of windows outside a run; these are no error, since the parts of a run may share a record."""
-        for i, window in enumerate(self.windows):
-            if window.start > t_end or window.stop < start:
-                yield f"windows[{i}] = [{window.start:g}, {window.stop:g}] s"
+    faults: list[str] = []
+    resolved: dict[str, Window | Poincare] = {}
+    for name, window in windows.items():
+        try:
+            resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
+        except ParameterError as error:
+            faults += [fault.inside(("windows", name)) for fault in error.faults]
+    raise_faults(faults)
+    return resolved
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -251,19 +241,9 @@ class CaseSpec(Strict):
     ramps: tuple[Ramp, ...] = ()
 
     @property
-    def record(self) -> Record:
-        """The quantities that `disc_model.simulation.api` shall keep."""
-        return Record(
-            windows=tuple(window for _, window in self.windows),
-            poincare=self.poincare,
-            events=self.events is not None,
-            audit_every_step=self.audit_every_step,
-        )
-
-    @property
-    def sections(self) -> dict[str, Window | Poincare | None]:
-        """Windows by name, and the Poincare section as ``poincare``."""
-        return {**dict(self.windows), "poincare": self.poincare}
+    def sections(self) -> dict[str, Window | Poincare]:
+        """Windows by name, and the Poincare section as ``poincare``, if it is recorded."""
+        return {**dict(self.windows), **({} if self.poincare is None else {"poincare": self.poincare})}
 
     @property
     def canonical(self) -> str:

@@ -12,7 +12,6 @@ from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.simulation.states import Array, State, amplitude_faults, is_finite_array, static_start
 from disc_model.units import is_number
 
@@ -52,13 +51,13 @@ def snapshots(
     )
     raise_faults(foreign_case(p) + wrong)
     wanted: list[float] = [] if numbers is None else numbers.tolist()
-    state, nothing = static_start(p) if initial_state is None else initial_state, Record(events=False)
+    state = static_start(p) if initial_state is None else initial_state
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     raise_faults(violations(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
     states = []
     for time in wanted:
         if time > state.time:
-            state = simulate(p, time, tol=tol, initial_state=state, record=nothing).raise_for_status().final_state
+            state = simulate(p, time, tol=tol, events=False, initial_state=state).raise_for_status().final_state
         states.append(state)
     return tuple(states)
 

@@ -23,12 +23,12 @@ def quicklook(result: Any) -> Figure:
     Envelope windows are drawn as bands.  Raises `ParameterError` if the result holds no window.
     """
     if not result.samples:
-        example = "simulate(p, 20, record=Record(windows=(Window(rate=2000),)))"
-        raise ParameterError(Fault(("record", "windows"), "", f"must have one window or more to be drawn: {example}"))
+        example = "simulate(p, 20, windows={'all': Window(rate=2000)})"
+        raise ParameterError(Fault(("windows",), "", f"must have one window or more to be drawn: {example}"))
     columns = len(result.samples)
     how: dict[str, Any] = {"sharex": "col", "squeeze": False, "layout": "constrained"}
     figure, axes = plt.subplots(len(PANELS), columns, figsize=(4.5 + 3.5 * (columns - 1), 5.0), **how)
-    for column, window in enumerate(result.samples):
+    for column, window in enumerate(result.samples.values()):
         for row, name in enumerate(PANELS):
             label, scale = axis_of(name)
             _draw(axes[row, column], window, name, scale)

@@ -13,7 +13,7 @@ from disc_model.engine import event_loop, sampling
 from disc_model.engine.audit import N_SUMS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Poincare, Record, Window
+from disc_model.simulation.case import Poincare, Window, Windows
 
 Array = NDArray[Any]
 
@@ -27,13 +27,13 @@ _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", 
 class Collector:
     """Provides the engine's `buffers`, empties them at each pause, and assembles the recorded arrays."""
 
-    def __init__(self, p: Parameters, record: Record, start: float, t_end: float, longest_step: float) -> None:
+    def __init__(
+        self, p: Parameters, windows: Windows, events: bool, start: float, t_end: float, longest_step: float
+    ) -> None:
+        self._names, self._keeps_events = [*windows], events
         # samples in a bin of an envelope; None where single samples are kept
-        self._record, self._folds = record, [window.envelope for window in record.windows]
-        grids = [_uniform(window, start, t_end) for window in record.windows]
-        if record.poincare is not None:
-            grids.append(_stroboscopic(record.poincare, p.Omega, start, t_end))
-            self._folds.append(None)
+        self._folds = [getattr(window, "envelope", None) for window in windows.values()]
+        grids = [_grid(window, p, start, t_end) for window in windows.values()]
         capacity = BUFFER if grids else 0
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + sampling.SAME_INSTANT * t_end
@@ -60,10 +60,9 @@ class Collector:
         rows = [n if fold is None else n / fold + 2 * min(fold, n) for n, fold in zip(counts, self._folds, strict=True)]
         size, room = 8.0 * len(sampling.ROW) * (sum(rows) + per_step), _memory()
         if size > room:
-            most = rows.index(max(rows))
-            path = ("windows", str(most)) if most < len(self._record.windows) else ("poincare",)
+            path = ("windows", self._names[rows.index(max(rows))])
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
-            raise ParameterError(Fault(("record", *path), "", rule))
+            raise ParameterError(Fault(path, "", rule))
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
@@ -73,7 +72,7 @@ class Collector:
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
-        if self._record.events and len(events):
+        if self._keeps_events and len(events):
             self._events.append(events.copy())
         if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
             self.buffers = self.buffers._replace(event_rows=np.empty((BUFFER, len(event_loop.EVENT_ROW))))
@@ -96,14 +95,13 @@ class Collector:
             return self._events[0]
         return np.concatenate([np.zeros((0, len(event_loop.EVENT_ROW))), *self._events])
 
-    def finish(self) -> tuple[tuple[dict[str, Array], ...], dict[str, Array] | None]:
-        """Samples of each window, and the Poincare samples."""
-        names = [sampling.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
-        shaped = list(map(_columns, self._samples, names))
+    def finish(self) -> dict[str, dict[str, Array]]:
+        """Samples of each window."""
+        columns = [sampling.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
+        shaped = list(map(_columns, self._samples, columns))
         for samples in shaped:
             samples.pop("sampler", None)
-        poincare = shaped.pop() if self._record.poincare is not None else None
-        return tuple(shaped), poincare
+        return dict(zip(self._names, shaped, strict=True))
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
@@ -139,8 +137,14 @@ def _memory() -> float:
         return math.inf
 
 
+def _grid(window: Window | Poincare, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
+    """Sampling grid of a window in a run, as `sampling.sample_step` has it."""
+    if isinstance(window, Window):
+        return _uniform(window, start, t_end)
+    return _stroboscopic(window, p.Omega, start, t_end)
+
+
 def _uniform(window: Window, start: float, t_end: float) -> tuple[float, ...]:
-    """Sampling grid of a window, as `sampling.sample_step` has it."""
     interval = min(1 / window.rate, sys.float_info.max)
     skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
     reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)

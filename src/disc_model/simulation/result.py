@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -15,13 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model import errors
-from disc_model.data.variables import BESIDE_WINDOWS, COUNTS, EVENT_KINDS, PHASES, SCALARS
+from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS
 from disc_model.engine.event_loop import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Record
+from disc_model.simulation.case import Poincare, Window, Windows
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
-from disc_model.simulation.states import Array, State, is_finite_array
+from disc_model.simulation.states import MODAL, PLAIN, Array, State, is_finite_array
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,7 +43,8 @@ class Result:
 
     Attributes
     ----------
-    parameters, t_end (s), tol, record : as given to `simulate`
+    parameters, t_end (s), tol, ramps : as given to `simulate`
+    windows : as given to `simulate`, with absolute times
     status, message : how the simulation ended; the message gives the time, the phase and the reason
     event_rows : shape (n_events, len(EVENT_ROW)), the data of `events`: phase by its index in `PHASES`, kind by its
         index in `EVENT_KINDS`
@@ -53,9 +53,7 @@ class Result:
     first_separation : s, nan if contact was never lost
     final_state : `State` at the end
     u_0 : m, static height of the slider
-    samples : one dict of arrays per window
-    poincare : dict of arrays, None if not requested
-    ramps : as given to `simulate`
+    samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
         energy_residual_transverse, energy_residual_inplane, audited_steps, wall_time (s)
     """
@@ -63,7 +61,7 @@ class Result:
     parameters: Parameters
     t_end: float
     tol: float
-    record: Record
+    windows: Windows
     status: Status
     message: str
     event_rows: Array = field(repr=False)
@@ -71,8 +69,7 @@ class Result:
     final_state: State
     u_0: float
     statistics: Mapping[str, float]
-    samples: tuple[dict[str, Array], ...] = ()
-    poincare: dict[str, Array] | None = field(default=None)
+    samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
 
     @cached_property
@@ -101,33 +98,26 @@ class Result:
         raise_faults(violations((known, "name", name, rule), (finite, "times", times, "must be finite numbers")))
         return values_at(self.parameters, self.ramps, name, times)
 
-    def to_tree(self, names: Sequence[str] | None = None) -> xr.DataTree:
-        """The whole result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
+    def __getitem__(self, name: str) -> xr.Dataset:
+        """Samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
+        from disc_model.data.dataset import samples_dataset
 
-        Its root holds the scalars, and its groups are "events" (along `event`), one per window, and "poincare" (along
-        `time`).
+        if name not in self.samples:
+            raise ParameterError(Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}"))
+        return samples_dataset(self.samples[name], self.windows[name].theta)
 
-        Parameters
-        ----------
-        names : names of the windows, in their order; ``sample_0``, ``sample_1``, ... if not given
+    def to_tree(self) -> xr.DataTree:
+        """The result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
 
-        Raises
-        ------
-        ParameterError
-            If the names are not distinct, or not as many as windows.
+        Its root holds the scalars, and its groups are "events" (along `event`), and each window (along `time`).
         """
-        from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset, to_tree
+        from disc_model.data.dataset import events_dataset, scalars_dataset, to_tree
 
         scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
-        groups = {"": scalars, "events": events_dataset(self.events)}
-        names = [f"sample_{i}" for i in range(len(self.samples))] if names is None else _checked_names(names, self)
-        for name, window, data in zip(names, self.record.windows, self.samples, strict=True):
-            groups[name] = samples_dataset(data, window.theta)
-        if self.poincare is not None and self.record.poincare is not None:
-            groups["poincare"] = samples_dataset(self.poincare, self.record.poincare.theta)
-        return to_tree(groups)
+        windows = {name: self[name] for name in self.samples}
+        return to_tree({"": scalars, "events": events_dataset(self.events), **windows})
 
     def _scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
@@ -141,23 +131,89 @@ class Result:
             "u_0": self.u_0,
         }
 
-    def save(self, path: str | Path, names: Sequence[str] | None = None) -> None:
-        """Write `to_tree` as netCDF, in one piece; `disc_model.load` reads it.
+    def save(self, path: str | Path) -> None:
+        """Write the whole result, in one piece; `Result.load` reads it back.
 
         Parameters
         ----------
-        names : names of the windows, as for `to_tree`
+        path : its suffix says how. ".nc": netCDF, the tree of `to_tree`, which `disc_model.load` reads as well. ".mat":
+            a structure of MATLAB, with one of columns for each window, the events and the final state. ".csv": one
+            table of all of these one below the other, under two lines of JSON that begin with #
 
         Raises
         ------
         ParameterError
-            Under the conditions of `to_tree`.
+            If the file has another suffix, or a window a name that MATLAB does not allow.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
-        """
-        from disc_model.data.dataset import save
 
-        save(self.to_tree(names), path)
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, windows={"late": dm.Window(last=0.1, rate=2e4)})
+        >>> run.save("run.mat")
+        >>> dm.Result.load("run.mat")["late"].equals(run["late"])
+        True
+        """
+        import xarray as xr
+
+        from disc_model.data import dataset
+
+        state = self.final_state
+        described = {
+            "parameters": self.parameters.canonical,
+            "final_state": {name: getattr(state, name) for name in (*PLAIN, "direction", "known", "phase", "case_key")},
+            "windows": {name: [type(window).__name__, window.model_dump()] for name, window in self.windows.items()},
+            "ramps": [ramp.model_dump() for ramp in self.ramps],
+            "statistics": {name: value for name, value in self.statistics.items() if name != "wall_time"},
+            **{name: getattr(self, name) for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")},
+        }
+        arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
+        modal = {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}
+        events, text = dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), json.dumps(described)
+        if dataset.regular_file(path).suffix != ".nc":
+            dataset.save_tables({"events": events, "final_state": modal, **self.samples}, text, path)
+            return
+        tree = self.to_tree()
+        tree["events"] = tree["events"].to_dataset().assign(direction=("event", events["direction"]))
+        tree["final_state"] = xr.Dataset({name: ("mode", values) for name, values in modal.items()})
+        tree.attrs["result"] = text
+        dataset.save(tree, path)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Result:
+        """Read a file that `save` has written: the same result to the last bit, but for the `wall_time`, which is nan.
+
+        Raises
+        ------
+        ParameterError
+            If the file holds no result.
+        disc_model.data.dataset.UnreadableFile
+            If the file is damaged, or no such file.
+        """
+        from disc_model.data import dataset
+
+        text, tables = dataset.load_tables(path)
+        if not text or not {"events", "final_state"} <= tables.keys():
+            raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by Result.save"))
+        described = json.loads(text)
+        kinds = {"Window": Window, "Poincare": Poincare}
+        events, modal = (tables.pop(name) for name in ("events", "final_state"))
+        for values in modal.values():
+            values.setflags(write=False)
+        return cls(
+            **described
+            | {
+                "parameters": Parameters(**described["parameters"]),
+                "status": Status(described["status"]),
+                "final_state": State(**described["final_state"], **modal),
+                "windows": {name: kinds[kind](**values) for name, (kind, values) in described["windows"].items()},
+                "ramps": tuple(Ramp(**values) for values in described["ramps"]),
+                "statistics": described["statistics"] | {"wall_time": math.nan},
+                "event_rows": np.stack([events[name] for name in EVENT_ROW], axis=1),
+                "samples": tables,
+            }
+        )
 
     def plot(self) -> Figure:
         """Quick plot of contact force and disc displacement, one column a window, as a matplotlib figure.
@@ -190,18 +246,3 @@ class Result:
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
-
-
-_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
-"""Names that netCDF accepts for a group, whatever their length in bytes, and that are readable."""
-
-
-def _checked_names(names: Sequence[str], result: Result) -> Sequence[str]:
-    """Names of a result's windows, checked: each becomes a group of a file, beside the groups of every file."""
-    listed = list(names) if np.iterable(names) and not isinstance(names, str) else [names]
-    good = all(isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() for name in listed)
-    if not good or not len(listed) == len(result.samples) == len(set(listed) - set(BESIDE_WINDOWS)):
-        rule = f"must be {len(result.samples)} different names, one a window, of at most 60 printable characters, "
-        rule += "a letter, digit or _ first, no / and no space last, none of them that of a variable"
-        raise ParameterError(Fault(("names",), as_text(names), rule))
-    return listed

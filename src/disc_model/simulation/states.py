@@ -95,9 +95,9 @@ class State:
         from disc_model.data import dataset
 
         modal = {
-            name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in _MODAL.items()
+            name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in MODAL.items()
         }
-        plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in _PLAIN.items()}
+        plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in PLAIN.items()}
         if self.mode_amplitudes is not None:
             modal["mode_amplitudes"] = ("mode", np.asarray(self.mode_amplitudes, float), {"units": "kg-1/2"})
         whole = {name: ((), np.int64(getattr(self, name))) for name in ("direction", "known")}
@@ -118,18 +118,18 @@ class State:
         from disc_model.data import dataset
 
         data = dataset.load(path).to_dataset()
-        wanted = (*_MODAL, *_PLAIN, "direction", "known")
+        wanted = (*MODAL, *PLAIN, "direction", "known")
         if "phase" not in data.attrs or not {*wanted} <= data.data_vars.keys():
             raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
-        values: dict[str, Any] = {name: data[name].values for name in _MODAL}
-        values |= {name: float(data[name]) for name in _PLAIN}
+        values: dict[str, Any] = {name: data[name].values for name in MODAL}
+        values |= {name: float(data[name]) for name in PLAIN}
         values |= {name: int(data[name]) for name in ("direction", "known")}
         values |= {name: data[name].values for name in ("mode_amplitudes",) if name in data}
         return cls(phase=str(data.attrs["phase"]), case_key=str(data.attrs.get("case_key", "")), **values)
 
 
-_MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
-_PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
+MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
+PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
 """Units of the variables in a state's file: one value a mode, and scalars."""
 
 
@@ -362,16 +362,16 @@ def _faults(source: State, case: EngineCase) -> list[str]:
     # in compliant contact, contact and its force can begin at the same instant
     highest, known = (7, "a whole number from 0 to 7") if case.model.compliant else (3, "0, 1, 2 or 3")
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
-    wrong = [name for name in _MODAL if not is_finite_array(getattr(source, name), n_modes)]
+    wrong = [name for name in MODAL if not is_finite_array(getattr(source, name), n_modes)]
     faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
-    finite = {name: is_finite(getattr(source, name)) for name in _PLAIN}
+    finite = {name: is_finite(getattr(source, name)) for name in PLAIN}
     # the clock's compensation is at most a unit in the last place of the time
     small = finite["time_low"] and (not finite["time"] or abs(source.time_low) <= math.ulp(source.time))
     phase = source.phase if isinstance(source.phase, str) else ""
     f, directed = source.f if finite["f"] else 0.0, _is_among(source.direction, (-1, 1))
     against = phase == "slip" and directed and f * source.direction < 0
     rules = (
-        *((finite[name], name, "must be finite") for name in _PLAIN if name != "time_low"),
+        *((finite[name], name, "must be finite") for name in PLAIN if name != "time_low"),
         (small, "time_low", "must be less than the last digit of the time"),
         (_is_among(source.known, range(highest + 1)), "known", f"must be {known}"),
         (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),

@@ -14,7 +14,7 @@ import xarray as xr
 from disc_model.data.variables import PHASES, SERIES, Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
 from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity
 from disc_model.studies.run import run_batch
@@ -49,9 +49,9 @@ class Motions:
         start = self.quantity.state_at(point).replace(time=0.0, time_low=0.0)
         p = point.parameters
         length = CYCLES_SHOWN * cycle_length(p, start)
-        record = Record(windows=(Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length),), events=False)
-        result = simulate(p, length, initial_state=start, record=record).raise_for_status()
-        samples = result.samples[0]
+        window = Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length)
+        result = simulate(p, length, {"history": window}, events=False, initial_state=start).raise_for_status()
+        samples = result.samples["history"]
         values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
         return values | {name: samples[name] for name in SHOWN}, ""
 

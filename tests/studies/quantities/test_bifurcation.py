@@ -9,7 +9,7 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate
-from disc_model.simulation.case import Poincare, Record, Start
+from disc_model.simulation.case import Poincare, Start
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import SMALL
@@ -21,8 +21,8 @@ def test_samples_are_those_of_the_simulator() -> None:
     p = Parameters(N=200, Omega=50, n_diameters=1)
     values, _ = Bifurcation(transient=0.1, samples=2, tol=1e-9).compute_point(Point(p))
     turn = 2 * math.pi / p.Omega
-    run = simulate(p, 2.6 * turn, tol=1e-9, record=Record(poincare=Poincare(start=0.9 * turn)))
-    np.testing.assert_allclose(values["psi"], run.poincare["psi"], rtol=0, atol=1e-7)
+    run = simulate(p, 2.6 * turn, {"turns": Poincare(start=0.9 * turn)}, tol=1e-9)
+    np.testing.assert_allclose(values["psi"], run.samples["turns"]["psi"], rtol=0, atol=1e-7)
     assert values["status"] == "ok"
 
 

@@ -11,7 +11,6 @@ import xarray as xr
 from disc_model.data.variables import CycleStatus, Outcome, flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies import refinement
 from disc_model.studies.quantities.regions import Regions
@@ -111,7 +110,7 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
             p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])
-            whole = simulate(p, horizon, record=Record(events=False), stop_at="first_separation")
+            whole = simulate(p, horizon, events=False, stop_at="first_separation")
             drawn += 1
             if math.isfinite(whole.first_separation) != separates[i, j]:
                 wrong.append((p.N, p.Omega, origin[i, j], whole.first_separation))

@@ -32,14 +32,15 @@ MAX_EVENTS = 20_000
 def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResult:
     """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of polynomials."""
     steps = int(max(1, min(budget, 1e6) * SERIES_STEPS_PER_SECOND))
-    record = None
+    windows = {}
     if problem.watched:  # in one bin over the whole run
         samples = max(2, round(WATCH_RATE * problem.span))
-        record = Window(start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples)
+        window = Window(start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples)
+        windows = {"whole": window}
     began = clock.thread_time()
     result = simulate(
-        problem.parameters, problem.t_end, tol=value, initial_state=problem.start,
-        stop_at="first_separation" if problem.stop else None, record=record, execution=Execution(max_steps=steps),
+        problem.parameters, problem.t_end, windows, tol=value, initial_state=problem.start,
+        stop_at="first_separation" if problem.stop else None, execution=Execution(max_steps=steps),
     )  # fmt: skip
     outcome = {
         Status.OK: RunStatus.FINISHED,
@@ -48,7 +49,7 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         Status.STALLED: RunStatus.STALLED,
         Status.NON_FINITE: RunStatus.NON_FINITE,
     }.get(result.status, RunStatus.FAILED)
-    seen = result.samples[0] if result.samples else {}
+    seen = result.samples.get("whole", {})
     reached = len(seen.get("w_min", ()))  # of a bin that a run ends before, there is nothing
     return MethodResult(
         times=result.events["time"].to_numpy(),

@@ -96,7 +96,7 @@ class Basins:
     def _leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
         window = Window(start=max(end - 0.5, state.time), stop=end, rate=thresholds.SAMPLING_RATE)
-        return simulate(self.p, end, tol=self.tol, initial_state=state, record=window)
+        return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
 
     def _difference(self, first: Segment, second: Segment) -> float:
         """Largest relative difference of ranges, shares of the phases and separations per second.

@@ -18,7 +18,6 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record
 from disc_model.simulation.states import State, engine_case
 from disc_model.stability.attractor import thresholds
 from disc_model.stability.cycle import (
@@ -303,7 +302,7 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
     times = thresholds.TEST_TIMES[-1]
     for time in times:
-        result = simulate(p, state.time + time, tol=tol, initial_state=state, record=Record(events=False))
+        result = simulate(p, state.time + time, tol=tol, initial_state=state, events=False)
         if not result.status.complete or result.final_state.phase != "slip":
             return False
         apart = scale * _from_sliding(p, sliding, result.final_state)

@@ -16,7 +16,7 @@ from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Record, Window
+from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability.attractor import thresholds
@@ -300,14 +300,13 @@ class _OutcomeSearch:
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
         self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
-        record = Record(events=False)
+        windows = {}
         if self.late and stop == self.horizon:
-            window = Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)
-            record = Record(windows=(window,), events=False)
+            windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
         leg = simulate(
-            self.p, stop, tol=self.tol, initial_state=result.state, record=record, stop_at="first_separation"
+            self.p, stop, windows, events=False, tol=self.tol, initial_state=result.state, stop_at="first_separation"
         )
-        if record.windows and leg.status.complete:
+        if windows and leg.status.complete:
             result.segment = segment_of(leg)
         result.simulated += leg.final_state.time - result.time
         result.state, result.time = leg.final_state, leg.final_state.time
@@ -401,18 +400,18 @@ def final_segment(
     begin = 0.0 if state is None else state.time
     stop = begin + duration
     if stop - late > begin:
-        result = simulate(p, stop - late, tol=tol, initial_state=state, record=Record(events=False))
+        result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)
         if not result.status.complete:
             return result, None
         state = result.final_state
     window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
-    result = simulate(p, stop, tol=tol, initial_state=state, record=window)
+    result = simulate(p, stop, {"late": window}, tol=tol, initial_state=state)
     return result, segment_of(result) if result.status.complete else None
 
 
 def segment_of(result: Result) -> Segment:
-    """The segment of a result: ranges over its single window of samples, and shares of its whole time."""
-    P, u = result.samples[0]["P"], result.samples[0]["u"] - result.u_0
+    """The segment of a result: ranges over its window "late", and shares of its whole time."""
+    P, u = result.samples["late"]["P"], result.samples["late"]["u"] - result.u_0
     return Segment(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
 
 

@@ -11,7 +11,7 @@ from pydantic import Field
 from disc_model.analysis.settling import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import raise_faults, violations
-from disc_model.simulation.case import Poincare, Record, Start
+from disc_model.simulation.case import Poincare, Start
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity
 from disc_model.studies.ranges import MOST
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
@@ -92,11 +92,10 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     first = math.ceil(options.transient / turn)
     # both ends lie between samples, so that rounding neither adds one nor leaves one out
     end = (first + options.samples - 0.5) * turn
-    record = Record(poincare=Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta))
+    turns = Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta)
     start = make_initial_state(p, point.start, options.tol)
-    run = simulate(p, end, tol=options.tol, initial_state=start, record=record)
-    reached, taken = run.final_state.time, run.poincare
-    assert taken is not None
+    run = simulate(p, end, {"turns": turns}, tol=options.tol, initial_state=start)
+    reached, taken = run.final_state.time, run.samples["turns"]
     answer = settling(taken["time"], taken["psi"]) if run.status.complete else Settling()
     values = (
         _answer(answer)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Record
 from disc_model.simulation.ramps import Ramp
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed
 from disc_model.studies.ranges import Range
@@ -88,9 +87,8 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
 
     def on(state: State | None, until: float, stop_at: str | None = None, events: bool = False) -> Result:
         """Continue the motion to a later time."""
-        record = Record(events=events)
         return simulate(
-            p, until, tol=options.tol, initial_state=state, record=record, stop_at=stop_at, ramps=up_and_down
+            p, until, events=events, tol=options.tol, initial_state=state, stop_at=stop_at, ramps=up_and_down
         )
 
     run = on(None, top, stop_at="first_separation")
