@@ -168,6 +168,8 @@ def test_the_penalty_acts_on_disc_and_slider_alike(direction):
     y = law.start(start)
     force = law.force(y)
     assert force == pytest.approx(Printed(P, start).force(), rel=1e-9)
+    leaving = y + 0.1 * (np.arange(len(y)) == law.physics.v)  # the damper holds what moves away, at 0.1 m/s
+    assert law.force(leaving) == pytest.approx(force - 0.1 * law.constants[3], rel=1e-9)
     free, physics = np.empty_like(y), law.physics
     kernels.rate(law.modes, law.c, kernels.SEPARATION, 0, y, free)
     added = law.rate(y) - free

@@ -9,8 +9,8 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability.attractor.linear_motion import NearReturn, find_cycle_near
-from disc_model.stability.cycle import CycleError, find_cycle
-from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
+from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.tally import tried
 from tests.validation.test_random_cases import drawn_case
@@ -79,6 +79,30 @@ def test_the_cycle_is_found_again_from_a_simulation():
     twice = find_cycle(P, guess=later, releases=2)
     assert twice.period == pytest.approx(2 * result.period, rel=1e-9)
     assert twice.message.endswith("with 2 releases")
+
+
+class Logistic:
+    """The map x -> r x (1 - x): its fixed point 1 - 1 / r doubles its period at r = 3."""
+
+    size, deflection, tol = 1, 1.0, 1e-14
+
+    def __init__(self, r: float) -> None:
+        self.r = r
+
+    def evaluate(self, x, *, releases, **_):
+        start, slope = x, np.eye(1)
+        for _ in range(releases):
+            slope, x = self.r * (1 - 2 * x[0]) * slope, self.r * x * (1 - x)
+        counts = Counts(releases, 0, 0, 0, releases)
+        return Flight(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
+
+
+def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
+    """Which just beyond the doubling is 5e-4 of its size away from the simple one, to which Newton's method goes."""
+    r = 3 + 1e-6
+    simple, double = Logistic(r), (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
+    for x, releases in ((1 - 1 / r + 1e-12, 1), (double, 2)):
+        assert run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases == releases
 
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
