@@ -42,12 +42,12 @@ def test_help_shows_units_defaults_choices_and_the_version(command: Command, mon
     out = command.out("run", "--help")
     for part in ("(N m s)", "as_published|orthonormal", "separable|bonded", "first_separation"):
         assert part in out
-    assert "-1 for a rigid disc, auto for as many as" in out
+    assert "-1 for a rigid disc, auto: as many as" in out
     assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
     assert command.out("help", "run") == out
     out = command.out("help")
     assert out == command.out("--help") == command.out()
-    for name in ("run", "floquet", "modes", "study", "list", "init", "compile", "--install-completion"):
+    for name in ("run", "floquet", "modes", "study", "list", "status", "init", "compile", "--install-completion"):
         assert name in out
     assert re.search(r"--disc +FILE", command.out("modes", "--help"))
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
@@ -145,7 +145,7 @@ def test_what_a_study_has_is_listed(command: Command, monkeypatch, mine: Path, w
 def test_what_is_out_of_date_is_listed_as_snakemake_sees_it(command: Command, monkeypatch, mine: Path) -> None:
     summary = "output_file\tstatus\tplan\nresults/a.nc\tok\tno update\nresults/b.nc\tmissing\tupdate pending\n"
     monkeypatch.setattr(cli_studies.subprocess, "run", lambda *_, **__: subprocess.CompletedProcess([], 0, summary, ""))
-    out = command.out("list", "outdated", str(mine))
+    out = command.out("status", str(mine))
     assert out == "results/b.nc: missing\n1 of 2 files are missing or out of date\n"
 
 
@@ -180,12 +180,22 @@ def called(tmp_path: Path, stand_in: Callable[[str], object]) -> Callable[[], li
 def test_a_study_is_handed_to_snakemake(command: Command, called: Callable[[], list[str]], mine: Path) -> None:
     folder = str(mine.parent)
     options = ("--cores", "2", "--unlock", "--directory", folder, "--target", "bench", "--snakemake", "--quiet rules")
+    options += ("--figure", "growth")
     code, _, _ = command.run("study", str(mine), *options)
     assert code == 3
     told = called()
     assert Path(told[told.index("-s") + 1]).is_file()
     assert told[-2:] == ["--configfile", str(mine)]
-    assert {"-j2", "--unlock", "bench", "--quiet", "rules", "--directory", folder} <= {*told}
+    assert {
+        "-j2",
+        "--unlock",
+        "bench",
+        "results/mine/figures/growth.png",
+        "--quiet",
+        "rules",
+        "--directory",
+        folder,
+    } <= {*told}
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(
@@ -208,7 +218,7 @@ def test_a_dry_run_shows_the_jobs_or_why_there_is_no_plan(
     assert out == "job    count\n----------\nall    1\nnothing was run: --dry-run\n"
     stand_in("import sys; sys.exit('no plan')")
     assert command.run("study", str(mine), "--dry-run") == (1, "", "no plan\n")
-    assert command.run("list", "outdated", str(mine))[2] == "error: Snakemake failed: no plan\n"
+    assert command.run("status", str(mine))[2] == "error: Snakemake failed: no plan\n"
 
 
 def test_an_interrupted_study_waits_for_snakemake_and_says_how_to_go_on(

@@ -1,26 +1,28 @@
-"""Command line: ``disc-model run|floquet|modes|study|list|init|compile``.
+"""Command line: ``disc-model run|floquet|modes|study|list|status|init|compile``.
 
 Invalid input is reported on stderr with exit code 2: one line, or for a study file a list of its faults. A simulation
 that ends early is reported and gives exit code 1.
 """
 
+import re
 import sys
 from typing import Annotated, NoReturn
 
 import typer
 
 from disc_model import __version__
-from disc_model.cli import numbers, run, studies
+from disc_model.cli import case, studies
 from disc_model.errors import DiscModelError
 
 app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
-_FUNCTIONS = (run.run, numbers.floquet, numbers.modes, studies.study, studies.list_, studies.init, numbers.compile_)
-COMMANDS = {function.__name__.rstrip("_"): function for function in _FUNCTIONS}
-for name, function in COMMANDS.items():
-    app.command(name)(function)
+for function in (
+    *(case.run, case.floquet, case.modes),
+    *(studies.study, studies.list_, studies.status, studies.init, case.compile_),
+):
+    app.command(function.__name__.rstrip("_"))(function)
 
 
 def _show_version(wanted: bool) -> None:
@@ -46,6 +48,8 @@ def _fail(message: str) -> NoReturn:
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     arguments = sys.argv[1:] if arguments is None else arguments
+    # options may be spelt with underscores, as the parameters are
+    arguments = [re.sub("^--[^=]+", lambda option: option[0].replace("_", "-"), text) for text in arguments]
     if not arguments or arguments[0] == "help":
         arguments = [*arguments[1:], "--help"]
     try:

@@ -1,104 +1,122 @@
-"""Common options of commands on one case, made from the fields of `Parameters`.
+"""Commands on one case: `run`, `floquet`, `modes` and `compile`.
 
-Thus no parameter is forgotten. Values are passed on as text, so that the same rules and messages apply as everywhere
-else.
+Their options are made from the fields of pydantic models: `Parameters`, and those of the commands below. Values are
+passed on as text, so that the same rules and messages apply as everywhere else.
 """
 
 import functools
 import inspect
-from collections.abc import Callable, Iterable, Iterator
+import math
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 import typer
-from pydantic import create_model
+from pydantic import AfterValidator, BeforeValidator, Field
+from rich.console import Console
 from rich.table import Column, Table
 
+from disc_model.data.variables import BESIDE_WINDOWS
+from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.disc.tables import read_disc
-from disc_model.errors import Fault, ParameterError
-from disc_model.mode_choice import AUTO, CHOOSING, CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
-from disc_model.parameters import Parameters
-from disc_model.units import Strict
+from disc_model.disc.tables import damping_ratios, disc_table, read_disc
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
+from disc_model.parameters import AUTO, CHOOSING, Parameters
+from disc_model.simulation.case import Window
+from disc_model.simulation.ramps import Ramp
+from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
 
-ANY = "VALUE"
-"""Placeholder in help texts for an option whose values are not a list of words."""
+# ----------------------------------------------------------------------------------------------------
+# Options, one for each field of a model
+
+PANELS = {
+    "Slider": ("N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"),
+    "Friction and contact": ("mu_s", "mu_k", "contact", "contact_compliance", "contact_force"),
+    "Numerics": ("n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"),
+    "Run": ("t_end", "stop_at", "window", "ramp", "plot", "save", "csv"),
+}
+"""Headings of the help and the fields below them; all others are the disc's."""
+HELP = {
+    "n_diameters": f"highest number of nodal diameters, -1 for a rigid disc, {AUTO}: as many as a tolerance asks for",
+    CHOOSING[0]: f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given",
+    CHOOSING[1]: f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
+    + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
+}
+"""Help texts of fields of `Parameters` that take more on the command line, and of `CHOOSING`."""
+WORDS = {
+    "disc": ("FILE",), "n_diameters": ("VALUE", AUTO), CHOOSING[0]: tuple(CHOSEN_BY), "t_end": ("SECONDS",),
+    "plot": ("FILE",), "save": ("FILE",), "window": ("NAME:KEY=VALUE,...",), "ramp": ("PARAMETER:KEY=VALUE,...",),
+}  # fmt: skip
+"""Values, in capitals those that stand for others, of options whose types do not name them."""
+Given = dict[str, Any]
+"""Options that were given, as text, by the fields that they stand for."""
 
 
 def option_name(field: str) -> str:
-    """Command-line option of a field of `Parameters`: D_star -> --D-star."""
+    """Command-line option of a field: D_star -> --D-star."""
     return "--" + field.replace("_", "-")
 
 
-def _case_options(placeholders: dict[str, str]) -> Iterator[inspect.Parameter]:
-    """An option for each field of `Parameters`, and those for choosing modes with ``--n-diameters auto``.
-
-    `placeholders` are values for required fields.
-    """
-    for name, field in Parameters.model_fields.items():
-        placeholder, unit = placeholders.get(name), Parameters.unit(name)
-        default = placeholder or field.default
+def _option(name: str, field: Any = None, placeholder: str | None = None) -> inspect.Parameter:
+    """The keyword option of a field of a model, or of `CHOOSING`; a placeholder makes a required field optional."""
+    types = [str] if field is None else [field.annotation, *get_args(field.annotation)]
+    literals = tuple(word for kind in types if get_origin(kind) is Literal for word in get_args(kind))
+    words = WORDS.get(name) or (literals if literals and float not in types else ("VALUE", *literals))
+    told, unit = HELP.get(name) or field.description, Parameters.unit(name).removeprefix("1")
+    told += f" ({unit})" * bool(unit)
+    if field is not None:
+        default = field.default if placeholder is None else placeholder
         shown = f"{default:g}" if isinstance(default, float) else default
-        rule = "required" if field.is_required() and placeholder is None else f"default: {shown}"
-        words, more = _words(field.annotation), ""
-        if name == "disc":
-            words = ("FILE",)
-        if name == "n_diameters":
-            words, more = (*words, AUTO), f", {AUTO} for as many as the tolerance below asks for"
-        told = f"{field.description}{more}{f' ({unit})' if unit not in ('', '1') else ''} [{rule}]"
-        yield _case_option(name, placeholder, words, told)
-    quantity, tolerance = CHOOSING
-    yield _case_option(quantity, None, tuple(CHOSEN_BY), f"quantity by which {AUTO} chooses [default: {FREQUENCIES}]")
-    usual = ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items())
-    told = f"relative tolerance of this quantity, at least {TRUSTED:g} [default: {usual}]"
-    yield _case_option(tolerance, None, (ANY,), told)
-
-
-def _case_option(name: str, default: str | None, words: tuple[str, ...], told: str) -> inspect.Parameter:
-    """A keyword option of the case, spelt with and without underscores; `words` are its allowed values."""
+        required = field.is_required() and placeholder is None
+        told += r" \[required]" if required else rf" \[default: {shown}]" * isinstance(default, str | int | float)
+    flag, several = types[0] is bool, get_origin(types[0]) in (tuple, dict)
     option = typer.Option(
-        *dict.fromkeys([option_name(name), f"--{name}"]),
-        metavar="|".join(words),
-        autocompletion=lambda: [word for word in words if not word.isupper()],
-        help=told.replace("[", r"\["),
+        option_name(name),
+        metavar=None if flag else "|".join(words),
+        autocompletion=None if flag else lambda: [word for word in words if not word.isupper()],
+        help=told,
         show_default=False,
-        rich_help_panel="Parameters of the case",
+        rich_help_panel=next((panel for panel, names in PANELS.items() if name in names), "Disc"),
     )
-    return inspect.Parameter(
-        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[str | None, option]
-    )
+    kind: Any = bool if flag else list[str] | None if several else str | None
+    default = False if flag else placeholder
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option])
 
 
-def _words(annotation: Any) -> tuple[str, ...]:
-    """Allowed words of a parameter by its type, and a placeholder if other values are allowed."""
-    if get_origin(annotation) is Literal:
-        return get_args(annotation)
-    return (ANY, *(word for part in get_args(annotation) if get_origin(part) is Literal for word in get_args(part)))
+def command(options: type[Any], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options of a case and of a model: it receives the case, its choice of modes, and the model."""
+    case_options = [_option(name, field, placeholders.get(name)) for name, field in Parameters.model_fields.items()]
+    case_options += map(_option, CHOOSING)
+    own_options = [_option(name, field) for name, field in options.model_fields.items()]
 
-
-def with_case_options(**placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command one option for each parameter; it receives them together as the mapping `case`."""
-
-    def decorate(command: Callable[..., None]) -> Callable[..., None]:
-        options = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "case"]
-        case_options = list(_case_options(placeholders))
-
-        @functools.wraps(command)
+    def decorate(function: Callable[..., None]) -> Callable[..., None]:
+        @functools.wraps(function)
         def wrapped(**values: Any) -> None:
-            case = {option.name: values.pop(option.name) for option in case_options}
-            command(case={name: value for name, value in case.items() if value is not None}, **values)
+            given = {name: value for name, value in values.items() if value not in (None, [])}
+            case = {option.name: given.pop(option.name) for option in case_options if option.name in given}
+            faults: list[str] = []
+            p, choice = parameters_of(case, faults)
+            try:
+                model = options(**given)
+            except ParameterError as error:
+                faults += error.faults
+            raise_faults(faults)
+            function(p, choice, model)
 
-        wrapped.__signature__ = inspect.Signature(options + case_options)  # type: ignore[attr-defined]
+        wrapped.__signature__ = inspect.Signature(own_options + case_options)  # type: ignore[attr-defined]
         return wrapped
 
     return decorate
 
 
-def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
+def parameters_of(case: Given, faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
     """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
-    values: dict[str, Any] = dict(case)
+    values = dict(case)
     try:
-        if "disc" in case:
-            values["disc"] = read_disc(case["disc"])
+        values |= {"disc": read_disc(case["disc"])} if "disc" in case else {}
     except ParameterError as error:
         del values["disc"]
         inner = (Fault(fault.path[1:], fault.value, fault.rule) for fault in error.faults)  # without the file's name
@@ -106,24 +124,36 @@ def parameters_of(case: dict[str, str], faults: list[str]) -> tuple[Parameters, 
     try:
         p, request = read_asked(values)
         warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
-        if request is None:
-            return p, None
-        choice = chosen_modes(p, request)
-        return choice.parameters, choice
+        choice = None if request is None else chosen_modes(p, request)
     except ParameterError as error:
         faults += error.faults
         return Parameters(N=0.0, Omega=0.0), None
+    return (p, None) if choice is None else (choice.parameters, choice)
+
+
+def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> None:
+    """Print a table; ``column``: how rich shows each column."""
+    printed = Table(*(Column(head, **column) for head in heads), title=title)
+    for row in rows:
+        printed.add_row(*row)
+    Console().print(printed)
+
+
+def print_rows(lines: Iterable[tuple[str, str]]) -> None:
+    """Print lines that consist of a name and its text."""
+    for name, text in lines:
+        typer.echo(f"{name:<20}{text}")
+
+
+def disc_words(p: Parameters) -> str:
+    """Description of the disc."""
+    return p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
 
 
 def case_lines(p: Parameters, choice: ModeChoice | None) -> list[tuple[str, str]]:
     """The case, and its modes if they were chosen: the first lines of every command on one case."""
     case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {disc_words(p)}, {p.contact} (key {p.key})"
     return [("case", case), *choice_lines(choice)]
-
-
-def disc_words(p: Parameters) -> str:
-    """Description of the disc."""
-    return p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
 
 
 def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
@@ -136,26 +166,243 @@ def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
         yield "modes chosen", f"{size} ({right})"
 
 
-def table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], **column: Any) -> Table:
-    """A table for the terminal; ``column``: how rich shows each column."""
-    made = Table(*(Column(head, **column) for head in heads), title=title)
-    for row in rows:
-        made.add_row(*row)
-    return made
+# ----------------------------------------------------------------------------------------------------
+# Modes and cycles
 
 
-def print_rows(lines: Iterable[tuple[str, str]]) -> None:
-    """Print lines that consist of a name and its text."""
-    for name, text in lines:
-        typer.echo(f"{name:<20}{text}")
+class ModesOptions(Strict):
+    """Options of `modes`."""
+
+    csv: bool = Field(False, description="print the modes as a table that --disc reads, 17 digits")
 
 
-def option(name: str, text: str | None, kind: Any, faults: list[str], default: Any = ...) -> Any:
-    """The value of a type that `text` stands for, or None if it is faulty; faults are appended to `faults`."""
-    fields: dict[str, Any] = {name: (kind, default)}
-    values = {} if text is None else {name: text}
+@command(ModesOptions, N="0", Omega="0")
+def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> None:
+    """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
+    if options.csv:
+        typer.echo(disc_table(p), nl=False)
+        return
+    print_rows(choice_lines(choice))
+    arrays = mode_arrays(p)
+    rows = [
+        (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6f}", f"{ratio:.3g}")
+        for c, l, omega, psi, ratio in zip(
+            arrays.circles, arrays.diameters, arrays.omega, arrays.psi, damping_ratios(p), strict=True
+        )
+    ]
+    heads = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
+    table(f"Modes of the disc ({disc_words(p)})", heads, rows, justify="right")
+    if p.disc is None or p.disc.static_compliance is not None:
+        give = residual_flexibility(p)
+        numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
+        columns = ("all modes (m/N)", "remainder (m/N)", "modes above (m/N)", "residual (m/N)")
+        table("Static flexibility of the disc under the slider", columns, [numbers], justify="right")
+    at_rest = [(f"{value:.3f}", f"{value / math.tau:.3f}") for value in coupled_natural_frequencies(p)]
+    table("Disc and slider at rest", ("lambda (rad/s)", "f (Hz)"), at_rest, justify="right")
+
+
+class FloquetOptions(Strict):
+    """Options of `floquet`."""
+
+    tol: CycleTolerance = Field(
+        1e-12, description=f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
+    )
+
+
+@command(FloquetOptions)
+def floquet(p: Parameters, choice: ModeChoice | None, options: FloquetOptions) -> None:
+    """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
+    from disc_model.data.variables import CycleStatus
+    from disc_model.stability.cycle import floquet as cycle_of
+
+    cycle = cycle_of(p, tol=options.tol)
+    exists = cycle.status is CycleStatus.OK
+    lines = [*case_lines(p, choice), ("status", cycle.message or cycle.status.value)]
+    if exists:
+        verdict = "small disturbances die out" if cycle.stable else "small disturbances grow"
+        lines += [
+            ("growth rate", f"{cycle.growth_rate:.6g} 1/s ({verdict})"),
+            ("period", f"{cycle.period:.9g} s ({1 / cycle.period:.6g} Hz), {cycle.stick_fraction:.2%} of it sticking"),
+            ("a period has", f"{cycle.releases} releases, {cycle.separations} separations"),
+            ("leading multiplier", f"{cycle.multipliers[0]:.6g}, modulus {abs(cycle.multipliers[0]):.9g}"),
+        ]
+    else:
+        lines.append(("advice", cycle.status.advice))
+    rate = cycle.sliding.growth_rate
+    sliding = f"growth rate {rate:.6g} 1/s" if math.isfinite(rate) else cycle.sliding.message
+    print_rows([*lines, ("steady sliding", sliding)])
+    if not exists:
+        raise typer.Exit(1)
+
+
+def compile_() -> None:
+    """Compile the kernels of the default model into the cache, which a first use otherwise does."""
+    from disc_model.simulation.api import simulate
+    from disc_model.stability.cycle import floquet
+
+    began, p = time.perf_counter(), Parameters(N=385, Omega=15)
+    simulate(p, 0.1)
+    floquet(p)
+    typer.echo(f"kernels compiled and cached: {time.perf_counter() - began:.1f} s")
+
+
+# ----------------------------------------------------------------------------------------------------
+# A simulation
+
+PLOT_POINTS = 4000
+"""Points across a plot: more samples are reduced to the least and greatest of each bin."""
+PLOT_RATE = 2000.0
+"""Samples per second in a plot of the whole run, Hz."""
+ZOOM = 0.25
+"""Length of the second column of a plot, the end of the run, s."""
+
+
+def _values(text: str, form: str) -> tuple[str, dict[str, str]]:
+    """Name before the colon, and values by key, of a text such as ``late:last=3,rate=4000``."""
+    name, _, rest = text.rpartition(":")
+    pairs = [pair.partition("=") for pair in rest.split(",")]
+    if not all(sign for _, sign, _ in pairs):
+        raise ParameterError(Fault((), as_text(text), f"must be {form}"))
+    return name, {key.strip(): value for key, _, value in pairs}
+
+
+def _windows(texts: Sequence[str]) -> dict[str, Window]:
+    """Windows by name; those without one are sample_0 and so on."""
+    windows: dict[str, Window] = {}
+    for i, text in enumerate(texts):
+        name, values = _values(text, "NAME:KEY=VALUE,...")
+        name = name or f"sample_{i}"
+        if not name.isidentifier() or name in {*windows, *BESIDE_WINDOWS}:
+            rule = "must have a name of its own, not that of a variable or of events"
+            raise ParameterError(Fault((), as_text(text), rule))
+        windows[name] = _part(Window, name, values)
+    return windows
+
+
+def _ramps(texts: Sequence[str]) -> list[Ramp]:
+    ramps = [_values(text, "PARAMETER:KEY=VALUE,...") for text in texts]
+    return [_part(Ramp, name, {"parameter": name, **values}) for name, values in ramps]
+
+
+def _part(model: type[Any], name: str, values: dict[str, str]) -> Any:
     try:
-        return getattr(create_model("Option", __base__=Strict, **fields)(**values), name)
+        return model(**values)
     except ParameterError as error:
-        faults += error.faults
-        return None
+        raise ParameterError(*(fault.inside((name,)) for fault in error.faults)) from None
+
+
+def _writable(path: Path) -> Path:
+    """Refuse a file that cannot be written, before the simulation instead of after it."""
+    from disc_model.data.dataset import NAME_RULE, may_be_file
+
+    if not path.parent.is_dir():
+        raise ValueError("must be in a folder that exists")
+    if not may_be_file(path):
+        raise ValueError(NAME_RULE)
+    return path
+
+
+def _drawable(path: Path) -> Path:
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    kinds = FigureCanvasBase.get_supported_filetypes()
+    if path.suffix.lower().lstrip(".") not in kinds:
+        raise ValueError(f"must end in one of {', '.join(sorted(kinds))}")
+    return path
+
+
+class RunOptions(Strict):
+    """Options of `run`."""
+
+    t_end: Seconds = Field(description="time at which the run ends (s)")
+    tol: Tolerance = Field(
+        1e-10,
+        description=f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}; above "
+        "1.25e-7 it is computed and recorded as 1.25e-7 (2e-6 on a compliant contact)",
+    )
+    stop_at: Literal["first_separation"] | None = Field(None, description="end early")
+    plot: Annotated[Path, AfterValidator(_drawable), AfterValidator(_writable)] | None = Field(
+        None, description="draw contact force and disc displacement"
+    )
+    save: Annotated[Path, AfterValidator(_writable)] | None = Field(
+        None, description="write the result as netCDF, for disc_model.load"
+    )
+    window: Annotated[dict[str, Window], BeforeValidator(_windows)] = Field(
+        {},
+        description="samples to keep, such as late:last=3,rate=4000 or whole:rate=2000,envelope=1000; keys start, "
+        "stop, last (s), rate (Hz), theta (rad), envelope; may be repeated",
+    )
+    ramp: Annotated[tuple[Ramp, ...], BeforeValidator(_ramps)] = Field(
+        (),
+        description="a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, "
+        "end (s); may be repeated",
+    )
+    max_steps: Annotated[Count, Field(ge=1)] | None = Field(None, description="give up after so many steps")
+
+
+@command(RunOptions)
+def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
+    """Simulate one case from static equilibrium and print what happened."""
+    from disc_model.simulation.api import Execution, simulate
+
+    windows = options.window if options.window or options.plot is None else plot_windows(options.t_end)
+    limits = Execution(max_steps=options.max_steps)
+    settings: dict[str, Any] = {"tol": options.tol, "ramps": options.ramp}
+    result = simulate(p, options.t_end, windows, stop_at=options.stop_at, execution=limits, **settings)
+    print_rows(_summary(result, choice))
+    complete = result.status.complete
+    if options.save is not None:
+        result.save(options.save)
+        print_rows([("saved", str(options.save))])
+    if options.plot is not None:
+        reached = float(result.final_state.time)
+        if 0 < reached < options.t_end and not options.window:  # the end to plot differs from the expected one
+            result = simulate(p, reached, plot_windows(reached), **settings)
+        _save_plot(result, options.plot)
+    if not complete:
+        raise typer.Exit(1)
+
+
+def plot_windows(t_end: float) -> dict[str, Window]:
+    """Windows of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
+    bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
+    whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)
+    end = Window(start=max(0.0, t_end - ZOOM), stop=t_end, rate=4 * PLOT_RATE)
+    return {"whole": whole, "end": end} if t_end > ZOOM else {"end": end}
+
+
+def _save_plot(result: Any, path: Path) -> None:
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from disc_model.simulation.quicklook import quicklook
+
+    try:
+        quicklook(result).savefig(path, dpi=150)
+    except OSError as error:
+        raise ParameterError(f"plot={str(path)!r}: cannot be written ({error.strerror})") from None
+    print_rows([("figure", str(path))])
+
+
+def _summary(result: Any, choice: ModeChoice | None) -> list[tuple[str, str]]:
+    """Summary of one run: chosen modes, status, events, time in each phase and effort, a line each."""
+    s, reached, first = result.statistics, float(result.final_state.time), result.first_separation
+    lines = [
+        *case_lines(result.parameters, choice),
+        ("status", result.message or result.status.value),
+        ("time reached", f"{reached:.9g} s of {result.t_end:g} s"),
+        ("first separation", "none" if math.isnan(first) else f"{first:.9f} s"),
+        ("events", str(s["events"])),
+    ]
+    counts = result.events["kind"].value_counts()
+    lines += [(f"  {kind}", str(count)) for kind, count in counts.items() if count]
+    for phase in ("stick", "slip", "separation"):
+        share = s[f"time_{phase}"] / reached if reached else 0.0
+        lines.append((f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({share:.2%})"))
+    ratio = f"{reached / s['wall_time']:.0f}" if s["wall_time"] > 0 else "-"
+    lines += [
+        ("steps", str(s["steps"])),
+        ("wall time", f"{s['wall_time']:.3g} s ({ratio} simulated seconds a second)"),
+        ("energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"),
+    ]
+    return lines if result.status.complete else [*lines, ("advice", result.status.advice)]

@@ -1,4 +1,4 @@
-"""Commands on studies: `study` computes one, `list` lists its parts, `init` lays out a folder for one's own."""
+"""Commands on studies: `study` computes one, `list` and `status` say what it has, `init` lays out a folder for one."""
 
 from __future__ import annotations
 
@@ -8,17 +8,16 @@ import shlex
 import signal
 import subprocess
 import sys
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
 from disc_model.cli.case import table
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
 PACKAGE = Path(__file__).resolve().parents[1]
 INTERRUPTED = 130
 """Exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells."""
-KINDS = ("studies", "figures", "cases", "outdated")
+LISTED = ("studies", "figures", "cases")
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -38,36 +37,67 @@ def study(
     cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
     dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
+    figure: Annotated[
+        list[str] | None, typer.Option("--figure", metavar="NAME", help="a figure to draw instead of all; repeatable")
+    ] = None,
     target: Annotated[
-        list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; may be repeated")
+        list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; repeatable")
     ] = None,
     unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
     snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
-        _read(files)
-    options = [*(target or []), f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
+        chosen, grids, _ = _read(files)
+    targets = [*(target or []), *(_figure_file(name, chosen, grids) for name in figure or [])]
+    options = [*targets, f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
     command = _command(files, [*options, *shlex.split(snakemake)])
     raise typer.Exit(_plan(command) if dry_run else _run(command))
 
 
 def list_(
     what: Annotated[
-        str, typer.Argument(metavar="|".join(KINDS), help="what to list", autocompletion=lambda: list(KINDS))
+        str, typer.Argument(metavar="|".join(LISTED), help="what to list", autocompletion=lambda: list(LISTED))
     ],
+    files: Files,
+) -> None:
+    """List the grid studies, figures or cases of a study."""
+    if what not in LISTED:
+        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(LISTED)}"))
+    from disc_model.data.variables import values_text
+
+    chosen, grids, requested = _read(files)
+    heads: tuple[str, ...]
+    rows: list[tuple[str, ...]]
+    if what == "studies":
+        heads = ("study", "quantity", "dimensions", "points", "title")
+        listed = [grids[name] for name in requested]
+        rows = [(x.name, x.quantity, " x ".join(x.values), str(x.n_points), x.title) for x in listed]
+    elif what == "cases":
+        heads = ("case", "title", "parameters", "t_end (s)")
+        texts = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
+        rows = [(name, case.title, texts[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
+    else:
+        heads, entries = ("figure", "kind", "title"), chosen.entries(grids).items()
+        rows = [(name, x.plot.kind, x.title) for (study, name), x in entries if study in (chosen.name, *requested)]
+    table(f"{what} of {chosen.name}", heads, rows, overflow="fold")
+
+
+def status(
     files: Files,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path(),
 ) -> None:
-    """List the grid studies, figures or cases of a study, or what of its results is outdated."""
-    if what not in KINDS:
-        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(KINDS)}"))
-    chosen, grids, asked = _read(files)
-    if what == "outdated":
-        typer.echo(_outdated(files, directory))
-        return
-    heads, rows = _listed(what, chosen, grids, asked)
-    Console().print(table(f"{what} of {chosen.name}", heads, rows, overflow="fold"))
+    """List what of a study's results is missing or out of date, according to Snakemake."""
+    _read(files)
+    done = subprocess.run(
+        _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
+    head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
+    rows = [dict(zip(head, line, strict=False)) for line in lines]
+    outdated = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
+    typer.echo("\n".join([*outdated, f"{len(outdated)} of {len(rows)} files are missing or out of date"]))
 
 
 def init(
@@ -159,31 +189,11 @@ def _read(files: Sequence[Path]) -> tuple[Study, Grids, tuple[str, ...]]:
     return chosen, *chosen.grids(folders)
 
 
-def _listed(
-    what: str, chosen: Study, grids: Grids, asked: Collection[str]
-) -> tuple[tuple[str, ...], Sequence[tuple[str, ...]]]:
-    """Heads and rows of a table of the grid studies, figures or cases."""
-    from disc_model.data.variables import values_text
-
-    if what == "studies":
-        heads = ("study", "quantity", "dimensions", "points", "title")
-        each = [grids[name] for name in asked]
-        return heads, [(one.name, one.quantity, " x ".join(one.values), str(one.n_points), one.title) for one in each]
-    if what == "cases":
-        parameters = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
-        cases = [(name, case.title, parameters[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
-        return ("case", "title", "parameters", "t_end (s)"), cases
-    figures = {key: figure for key, figure in chosen.entries(grids).items() if key[0] in (chosen.name, *asked)}
-    return ("figure", "kind", "title"), [(name, one.plot.kind, one.title) for (_, name), one in figures.items()]
-
-
-def _outdated(files: Sequence[Path], directory: Path) -> str:
-    """The files of a study that a run would compute, a line each, and their number; according to Snakemake."""
-    command = _command(files, ["--summary", "--directory", str(directory)])
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
-    head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
-    rows = [dict(zip(head, line, strict=False)) for line in lines]
-    outdated = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
-    return "\n".join([*outdated, f"{len(outdated)} of {len(rows)} files are missing or out of date"])
+def _figure_file(name: str, chosen: Study, grids: Grids) -> str:
+    """The file of a figure of a study, or of a grid that it names."""
+    entries = chosen.entries(grids)
+    studies = [study for study, figure in entries if figure == name]
+    if not studies:
+        known = [figure for _, figure in entries]
+        raise ParameterError(Fault.of(("figure",), name, f"no such figure{suggestion(name, known)}"))
+    return f"results/{studies[0]}/figures/{name}.png"
