@@ -79,6 +79,12 @@ def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     assert centre[int(np.argmax(mesh.get_array().sum(axis=1)))] == pytest.approx(70, abs=2)
 
 
+def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
+    (line,) = asked("spectrum", window="spectrum_a", variable="psi", highest=400).axes[0].lines
+    # the rate of releases, within the width of the window's line
+    assert line.get_xdata()[int(np.argmax(line.get_ydata()))] == pytest.approx(67.7, abs=0.7)
+
+
 def test_portraits_and_sections_show_all_samples() -> None:
     (ax,) = asked("portrait", window="orbit").axes
     assert labels(ax) == ["stick", "slip", "separation"]
@@ -88,7 +94,7 @@ def test_portraits_and_sections_show_all_samples() -> None:
     assert disc.get_xlabel().startswith("Disc at")
 
 
-@pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram"])
+@pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])
 def test_what_a_case_lacks_is_said(kind: str) -> None:
     phrase = {} if kind == "poincare" else {"window": "orbit"}
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))

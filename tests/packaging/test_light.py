@@ -42,7 +42,7 @@ dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diame
 try:
     result.plot()
 except ImportError as error:
-    assert str(error) == "Result.plot needs matplotlib: pip install 'disc_model[workflow]' brings it"
+    assert str(error) == "pictures need matplotlib: pip install 'disc_model[plot]' brings it"
 else:
     raise AssertionError("it was drawn")
 import disc_model.benchmarks.answers, disc_model.benchmarks.maps
@@ -70,7 +70,7 @@ def names(lines: list[str]) -> set[str]:
 
 
 def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
-    missing = sorted(MODULES.get(name, name) for name in names(EXTRAS["workflow"]))
+    missing = sorted(MODULES.get(name, name) for name in names([*EXTRAS["workflow"], *EXTRAS["plot"]]))
     done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", tmp_path / "run.nc", fails=True)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "psi" in done.stdout

@@ -115,7 +115,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
         ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | TABLES),
         ("src/disc_model/studies/study.py", lambda _: set()),
-        ("src/disc_model/figures/history.py", lambda _: FIGURES),
+        ("src/disc_model/figures/motion.py", lambda _: FIGURES),
         ("src/disc_model/figures/stability_map.py", lambda _: PLOT),
         ("src/disc_model/paper/figures/spectra.py", lambda _: set()),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),

@@ -249,13 +249,6 @@ def compile_() -> None:
 # ----------------------------------------------------------------------------------------------------
 # A simulation
 
-PLOT_POINTS = 4000
-"""Points across a plot: more samples are reduced to the least and greatest of each bin."""
-PLOT_RATE = 2000.0
-"""Samples per second in a plot of the whole run, Hz."""
-ZOOM = 0.25
-"""Length of the second column of a plot, the end of the run, s."""
-
 
 def _values(text: str, form: str) -> tuple[str, dict[str, str]]:
     """Name before the colon, and values by key, of a text such as ``late:last=3,rate=4000``."""
@@ -345,40 +338,29 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
     """Simulate one case from static equilibrium and print what happened."""
     from disc_model.simulation.api import Execution, simulate
 
-    windows = options.window if options.window or options.plot is None else plot_windows(options.t_end)
     limits = Execution(max_steps=options.max_steps)
-    settings: dict[str, Any] = {"tol": options.tol, "ramps": options.ramp}
-    result = simulate(p, options.t_end, windows, stop_at=options.stop_at, execution=limits, **settings)
+    result = simulate(
+        p, options.t_end, options.window, tol=options.tol, stop_at=options.stop_at, ramps=options.ramp, execution=limits
+    )
     print_rows(_summary(result, choice))
     complete = result.status.complete
     if options.save is not None:
         result.save(options.save)
         print_rows([("saved", str(options.save))])
     if options.plot is not None:
-        reached = float(result.final_state.time)
-        if 0 < reached < options.t_end and not options.window:  # the end to plot differs from the expected one
-            result = simulate(p, reached, plot_windows(reached), **settings)
-        _save_plot(result, options.plot)
+        _save_plot(result, [*options.window] or None, options.plot)
     if not complete:
         raise typer.Exit(1)
 
 
-def plot_windows(t_end: float) -> dict[str, Window]:
-    """Windows of the whole run, as an envelope if long, and of its end in detail; of a size independent of `t_end`."""
-    bins = math.ceil(PLOT_RATE * t_end / PLOT_POINTS)
-    whole = Window(start=0.0, stop=t_end, rate=PLOT_RATE, envelope=bins if bins > 1 else None)
-    end = Window(start=max(0.0, t_end - ZOOM), stop=t_end, rate=4 * PLOT_RATE)
-    return {"whole": whole, "end": end} if t_end > ZOOM else {"end": end}
-
-
-def _save_plot(result: Any, path: Path) -> None:
+def _save_plot(result: Any, windows: list[str] | None, path: Path) -> None:
     import matplotlib as mpl
+    from matplotlib import pyplot
 
     mpl.use("Agg")
-    from disc_model.simulation.quicklook import quicklook
-
     try:
-        quicklook(result).savefig(path, dpi=150)
+        result.plot(windows)
+        pyplot.savefig(path, dpi=150)
     except OSError as error:
         raise ParameterError(f"plot={str(path)!r}: cannot be written ({error.strerror})") from None
     print_rows([("figure", str(path))])

@@ -144,7 +144,7 @@ SCALARS = {
 }
 COUNTS = {"steps": "steps", "n_events": "events", "n_separations": "separations", "audited_steps": "audited_steps"}
 """Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
-BESIDE_WINDOWS = frozenset({"events", "final_state", *SCALARS, *Parameters.model_fields})
+BESIDE_WINDOWS = frozenset({"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")

@@ -17,6 +17,8 @@ LOWEST = 1e-3
 """Least range that is distinguished from rest, mm."""
 THIN = 0.7
 """Width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line."""
+BENDS = 2.5
+"""Factor between the heights of neighbouring points beyond which a branch may bend between them."""
 MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
 """Look of the marks of a sweep."""
 UNSETTLED = "#aaaaaa"
@@ -45,8 +47,8 @@ class Branches(Plot):
         ax.set_yscale("log")
         for i in range(int(study["n_branches"])):
             one = study.isel(branch=i)
-            _branch(ax, one["value"].values * factor, 1e3 * one["range"].values, one["growth_rate"].values < 0,
-                    SEPARATED if one["separations"] > 0 else BLACK)  # fmt: skip
+            height, color = 1e3 * one["range"].values, SEPARATED if one["separations"] > 0 else BLACK
+            draw_branch(ax, one["value"].values * factor, height, one["growth_rate"].values < 0, color, BENDS)
         along = study["sweep_value"].values * factor
         for way, mark in enumerate("^v"):
             heights, separates = 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0
@@ -54,7 +56,7 @@ class Branches(Plot):
             _swept(ax, along, heights, separates, settled, mark)
         unstable = study["sliding_growth_rate"].values > 0
         phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
-        _branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
+        draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
         drawing.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
         drawing.mark_cases([ax], {case: value * factor for case, value in self.paper_cases.items()}, 0.05)
         ax.set(
@@ -80,12 +82,12 @@ class Branches(Plot):
         return figure
 
 
-def _branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str) -> None:
+def draw_branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str, factor: float = np.inf) -> None:
+    """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by more than a factor."""
     there = np.isfinite(x)
     x, y, stable = x[there], y[there], stable[there]
-    # over larger factors the branch may bend
-    along, height = drawing.broken(x, np.log(y), np.log(2.5))
-    ax.plot(along, np.exp(height), color=color, linewidth=THIN)
+    along, height = (x, y) if factor == np.inf else drawing.broken(x, np.log(y), np.log(factor))
+    ax.plot(along, height if factor == np.inf else np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in drawing.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")

@@ -6,8 +6,9 @@ matplotlib is imported where something is drawn, see `disc_model.figures.kind`.
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from functools import wraps
 from itertools import chain, repeat
 from pathlib import Path
 from textwrap import fill
@@ -26,8 +27,10 @@ from disc_model.data.variables import (
     axis_of,
     flag_names,
     stated_in,
+    typeset,
     values_text,
 )
+from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -254,8 +257,8 @@ def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: st
     ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
 
 
-def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str) -> None:
-    """Draw a variable against time, as a line or as ranges, and mark the first separation."""
+def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:
+    """Draw a variable against time, as a line or as ranges, and mark the first separation, with its time if `named`."""
     label, factor, colour = sampled(name, window)
     if f"{name}_min" in window:
         envelope(ax, window, name)
@@ -263,7 +266,7 @@ def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str) -> None:
         ax.plot(window["time"], window[name].values * factor, color=colour, linewidth=0.6)
         ax.set_xlim(*window["time"].values[[0, -1]])
     ax.set(xlabel="Time (s)", ylabel=label)
-    mark_first_separation(ax, case)
+    mark_first_separation(ax, case, named=named)
 
 
 def headroom(ax: Axes, share: float) -> None:
@@ -378,3 +381,37 @@ def mark_failed(
         ((values, low), ax.get_xaxis_transform()) if on == "x" else ((low, values), ax.get_yaxis_transform())
     )
     ax.plot(*place, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Pictures that a reader asks for, beside those of a study
+
+
+def by_itself(draw: Callable[..., Axes | np.ndarray]) -> Callable[..., Any]:
+    """Make a function draw in the common style, unless it is given axes, which keep the style of their figure."""
+
+    @wraps(draw)
+    def drawn(*inputs: Any, ax: Any = None, **options: Any) -> Any:
+        with styled() if ax is None else nullcontext():
+            return draw(*inputs, ax=ax, **options)
+
+    return drawn
+
+
+def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> list[Axes]:
+    """The axes that are given, as many as there are panels; or those of a new figure, which pyplot shows."""
+    if ax is not None:
+        given = list(np.ravel(ax))
+        if len(given) != rows * columns:
+            raise ParameterError(Fault(("ax",), f"{len(given)} axes", f"must be {rows * columns}, one for each panel"))
+        return given
+    from matplotlib import pyplot
+
+    figure = pyplot.figure(figsize=(width, height), layout="constrained")
+    return list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
+
+
+def head_text(width: float, title: str, values: str) -> str:
+    """A title and values of parameters, in lines that fit a width in inches; a value stays on the line of its name."""
+    joined = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
+    return "\n".join(fill(text, round(width / 0.06)) for text in (title, joined) if text).replace("\u00a0", " ")

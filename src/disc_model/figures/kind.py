@@ -13,14 +13,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
-from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import xarray as xr
 from pydantic import BeforeValidator, Field
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PERTURBATIONS, typeset
+from disc_model.data.variables import PERTURBATIONS
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import Figure
@@ -103,10 +102,7 @@ class Kind(Strict):
 
         A caption says both.
         """
-        width = round(figure.get_figwidth() / 0.06)
-        # keep a value on the line of its name
-        joined = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-        text = "\n".join(fill(text, width) for text in (self.title or title, joined) if text).replace("\u00a0", " ")
+        text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:
             self.place_title(figure, text)
 

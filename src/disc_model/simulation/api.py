@@ -304,6 +304,7 @@ class _Run:
             statistics=_statistics(self.collector.buffers, self.execution.audit_every_step, self.wall_time),
             samples=self.collector.finish(),
             ramps=self.ramps,
+            initial_state=self.initial_state,
         )
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
         return result

@@ -19,13 +19,13 @@ from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window, Windows
+from disc_model.simulation.pictures import Pictures
 from disc_model.simulation.ramps import RAMPED, Ramp, values_at
 from disc_model.simulation.states import MODAL, PLAIN, Array, State, is_finite_array
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.figure import Figure
 
 
 _ERRORS: dict[Status, type[errors.SimulationError]] = {
@@ -38,12 +38,12 @@ STATUS_OF = {error: status for status, error in _ERRORS.items()}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result:
+class Result(Pictures):
     """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes
     ----------
-    parameters, t_end (s), tol, ramps : as given to `simulate`
+    parameters, t_end (s), tol, ramps, initial_state : as given to `simulate`
     windows : as given to `simulate`, with absolute times
     status, message : how the simulation ended; the message gives the time, the phase and the reason
     event_rows : shape (n_events, len(EVENT_ROW)), the data of `events`: phase by its index in `PHASES`, kind by its
@@ -71,6 +71,7 @@ class Result:
     statistics: Mapping[str, float]
     samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
+    initial_state: State | None = field(default=None, repr=False)
 
     @cached_property
     def events(self) -> pd.DataFrame:
@@ -159,24 +160,27 @@ class Result:
 
         from disc_model.data import dataset
 
-        state = self.final_state
+        states = {"final_state": self.final_state}
+        if self.initial_state is not None:
+            states["initial_state"] = self.initial_state
+        plain = (*PLAIN, "direction", "known", "phase", "case_key")
         described = {
             "parameters": self.parameters.canonical,
-            "final_state": {name: getattr(state, name) for name in (*PLAIN, "direction", "known", "phase", "case_key")},
+            **{which: {name: getattr(state, name) for name in plain} for which, state in states.items()},
             "windows": {name: [type(window).__name__, window.model_dump()] for name, window in self.windows.items()},
             "ramps": [ramp.model_dump() for ramp in self.ramps],
             "statistics": {name: value for name, value in self.statistics.items() if name != "wall_time"},
             **{name: getattr(self, name) for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")},
         }
-        arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
-        modal = {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}
+        modal = {which: _modal(state) for which, state in states.items()}
         events, text = dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), json.dumps(described)
         if dataset.regular_file(path).suffix != ".nc":
-            dataset.save_tables({"events": events, "final_state": modal, **self.samples}, text, path)
+            dataset.save_tables({"events": events, **modal, **self.samples}, text, path)
             return
         tree = self.to_tree()
         tree["events"] = tree["events"].to_dataset().assign(direction=("event", events["direction"]))
-        tree["final_state"] = xr.Dataset({name: ("mode", values) for name, values in modal.items()})
+        for which, arrays in modal.items():
+            tree[which] = xr.Dataset({name: ("mode", values) for name, values in arrays.items()})
         tree.attrs["result"] = text
         dataset.save(tree, path)
 
@@ -198,15 +202,20 @@ class Result:
             raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by Result.save"))
         described = json.loads(text)
         kinds = {"Window": Window, "Poincare": Poincare}
-        events, modal = (tables.pop(name) for name in ("events", "final_state"))
-        for values in modal.values():
-            values.setflags(write=False)
+        events = tables.pop("events")
+        states = {}
+        for which in ("final_state", "initial_state"):
+            if which in described:
+                modal = tables.pop(which)
+                for values in modal.values():
+                    values.setflags(write=False)
+                states[which] = State(**described[which], **modal)
         return cls(
             **described
+            | states
             | {
                 "parameters": Parameters(**described["parameters"]),
                 "status": Status(described["status"]),
-                "final_state": State(**described["final_state"], **modal),
                 "windows": {name: kinds[kind](**values) for name, (kind, values) in described["windows"].items()},
                 "ramps": tuple(Ramp(**values) for values in described["ramps"]),
                 "statistics": described["statistics"] | {"wall_time": math.nan},
@@ -214,23 +223,6 @@ class Result:
                 "samples": tables,
             }
         )
-
-    def plot(self) -> Figure:
-        """Quick plot of contact force and disc displacement, one column a window, as a matplotlib figure.
-
-        Raises
-        ------
-        ParameterError
-            If no window was recorded.
-        ImportError
-            If matplotlib is not installed; the message names the extra that installs it.
-        """
-        try:
-            from disc_model.simulation.quicklook import quicklook
-        except ModuleNotFoundError as error:
-            reason = f"Result.plot needs {error.name}: pip install 'disc_model[workflow]' brings it"
-            raise ModuleNotFoundError(reason, name=error.name) from None
-        return quicklook(self)
 
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
@@ -246,3 +238,9 @@ class Result:
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
+
+
+def _modal(state: State) -> dict[str, Array]:
+    """Modal coordinates of a state, and the amplitudes of the modes as far as they are known."""
+    arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
+    return {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}

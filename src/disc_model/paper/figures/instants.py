@@ -6,36 +6,21 @@ shapes determine the rest.
 """
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import mode_arrays, mode_shapes
+from disc_model.disc.plate import mode_arrays
 from disc_model.figures import drawing
-from disc_model.figures.drawing import (
-    BLACK,
-    DISC,
-    GREY,
-    PAGE,
-    SEPARATED,
-    SLIDER,
-    Axes,
-    Figure,
-    Normalize,
-    new_figure,
-)
+from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
+from disc_model.figures.drawing import BLACK, PAGE, SEPARATED, SLIDER, Figure, new_figure
 from disc_model.figures.kind import CasePlot, Need, as_samples
 from disc_model.parameters import Parameters
-
-Array = NDArray[np.float64]
-RADII, ANGLES = 25, 181
-"""Points across and around the disc at which it is drawn."""
 
 
 class Instants(CasePlot):
@@ -78,33 +63,6 @@ class Instants(CasePlot):
         return figure
 
 
-class Motion(NamedTuple):
-    """Motion of the disc and the slider in a stretch of time.
-
-    Attributes
-    ----------
-    parameters : of the case
-    time : s, shape (n,)
-    amplitudes : m, at r_0, cosines + i sines of 0, 1, ... times the disc's angle, shape (harmonics, n)
-    slider : rad, shape (n,), its angle on the disc
-    u : m, shape (n,), its height
-    phase : shape (n,), words of `disc_model.data.variables.PHASES`
-    """
-
-    parameters: Parameters
-    time: Array
-    amplitudes: NDArray[np.complex128]
-    slider: Array
-    u: Array
-    phase: NDArray[np.str_]
-
-    def deflection(self, i: int, r: Array, theta: Array) -> Array:
-        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m)."""
-        shapes = mode_shapes(self.parameters, r) / mode_arrays(self.parameters).psi[:, None]
-        turns = np.arange(len(self.amplitudes))[:, None] * theta
-        return np.asarray(shapes.T @ (self.amplitudes[:, i, None].conj() * np.exp(1j * turns)).real)
-
-
 def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from the windows `around0`, ...; raises `Missing`."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
@@ -121,63 +79,8 @@ def motion_of(case: xr.DataTree) -> Motion:
     turns = harmonics * angles[:, None]
     values = np.array([window["w_point"].values for window in windows])
     found = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
-    amplitudes = found[: len(harmonics)].astype(complex)
-    amplitudes[1:] += 1j * found[len(harmonics) :]
+    at_slider = found[: len(harmonics)].astype(complex)
+    at_slider[1:] += 1j * found[len(harmonics) :]
+    amplitudes = at_slider / mode_arrays(p).psi[:, None]
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
-
-
-def scale_of(motion: Motion) -> Normalize:
-    """Colour scale of the deflection, mm, equal at all times and centred on 0."""
-    from matplotlib.colors import Normalize
-
-    edge, theta = np.array([motion.parameters.b]), np.linspace(0, 2 * np.pi, ANGLES)
-    step = max(1, motion.time.size // 50)
-    largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
-    if not largest > 0:
-        raise Missing("did not move in around0")
-    return Normalize(-1e3 * largest, 1e3 * largest)
-
-
-def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
-    """Colour of the slider, or of words on it."""
-    return SEPARATED if motion.phase[i] == "separation" else otherwise
-
-
-def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> Any:
-    """Draw the disc from above, in mm, with the slider on it."""
-    from cmcrameri.cm import vik
-    from matplotlib.patches import Circle
-
-    p = motion.parameters
-    r, theta = np.linspace(p.a, p.b, RADII), np.linspace(0, 2 * np.pi, ANGLES)
-    x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
-    values = 1e3 * motion.deflection(i, r, theta)
-    # blue below the plane of the disc at rest, red above it
-    mesh = ax.pcolormesh(x, y, values, cmap=vik, norm=scale, shading="gouraud", rasterized=True)
-    ax.add_patch(Circle((0, 0), 1e3 * p.a, fc="0.85", ec=GREY, lw=0.6))
-    ax.add_patch(Circle((0, 0), 1e3 * p.b, fc="none", ec=GREY, lw=0.6, clip_on=False))
-    angle = motion.slider[i]
-    place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
-    ax.plot(*place, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
-    # a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged
-    edge, middle = 1e3 * p.b, 0.6 * 1e3 * p.a
-    ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
-    arc = np.radians(np.linspace(-60, 60, 30))
-    ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
-    start, end = [(middle * np.cos(angle), middle * np.sin(angle)) for angle in np.radians([60, 75])]
-    look = {"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK}
-    ax.annotate("", end, start, arrowprops=look)
-    ax.set_aspect("equal")
-    ax.axis("off")
-    return mesh
-
-
-def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> None:
-    """Draw the disc along the circle of radius r_0 at an instant, with the slider as a mark of a size in points."""
-    theta = np.linspace(0, 2 * np.pi, ANGLES)
-    along = 1e3 * motion.deflection(i, np.array([motion.parameters.r_0]), theta)[0]
-    ax.plot(theta, along, color=DISC, **look)
-    angle, height = motion.slider[i] % (2 * np.pi), 1e3 * motion.u[i]
-    ax.plot(angle, height, "s", ms=size, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
-    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))

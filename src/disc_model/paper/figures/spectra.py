@@ -14,7 +14,7 @@ from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, PAGE, SKY, Axes, Figure, new_figure, panels
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
-from disc_model.figures.spectrogram import draw_power, draw_scale, draw_spectrum, span_of, spectrum_of
+from disc_model.figures.motion import draw_power, draw_scale, draw_spectrogram, span_of, spectrum_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.units import Finite, Positive, Unit
@@ -149,7 +149,7 @@ class Response(CasePlot):
         with drawing.blank_if_missing(shown):
             spectrum = spectrum_of(case, self.window, self.variable)
             marked = span_of(spectrum)
-            draw_spectrum(right, shown, case, spectrum, HIGHEST)
+            draw_spectrogram(right, shown, case, spectrum, HIGHEST)
             drawing.letter(shown, "b")
             if self.highest:
                 p = Parameters.model_validate_json(case.attrs["parameters"])

@@ -1,0 +1,366 @@
+"""Figures of one motion: histories, phase portraits, Poincaré sections, spectra and spectrograms.
+
+A study's figures and the methods of a `disc_model.Result` draw with the same functions.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from textwrap import fill
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import xarray as xr
+from pydantic import Field
+
+from disc_model.analysis.poincare import stages
+from disc_model.analysis.settling import settling
+from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import PHASES
+from disc_model.errors import Fault, ParameterError
+from disc_model.figures import drawing
+from disc_model.figures.drawing import (
+    AFTER,
+    BEFORE,
+    COLUMN,
+    GREY,
+    PAGE,
+    PHASE_COLOURS,
+    SEPARATED,
+    Artist,
+    Axes,
+    Figure,
+    FigureBase,
+    QuadMesh,
+    panels,
+)
+from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, as_samples, as_spectrum
+from disc_model.parameters import Parameters
+from disc_model.simulation.case import Window
+from disc_model.units import Positive, Unit
+
+# ----------------------------------------------------------------------------------------------------
+# Histories
+
+RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
+"""Variables that a window with an envelope stores."""
+MOST_SHADED = 60
+"""Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
+SHADES: dict[str, dict[str, Any]] = {
+    "stick": {"color": PHASE_COLOURS["stick"], "alpha": 0.22},
+    "separation": {"color": SEPARATED, "alpha": 0.5},
+}
+"""Looks of the phases behind a history, told apart by darkness in grey print; slip is left white."""
+
+
+def shade_phases(axes: Sequence[Axes], window: xr.Dataset) -> list[Artist]:
+    """Shade stick and separation behind samples; returns the entries of a legend, none where they are too dense."""
+    from matplotlib.patches import Patch
+
+    if "phase" not in window:
+        return []
+    time, phase = window["time"].values, window["phase"].values
+    borders = np.concatenate([time[:1], (time[1:] + time[:-1]) / 2, time[-1:]])
+    spans = {name: drawing.stretches(phase == PHASES.index(name)) for name in SHADES}
+    if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
+        return []
+    for name, found in spans.items():
+        bars = [(borders[first], borders[after] - borders[first]) for first, after in found]
+        for ax in axes:
+            ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
+    looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
+    there = {name for name in PHASES if (phase == PHASES.index(name)).any()}
+    return [Patch(label=name, **looks[name]) for name in PHASES if name in there]
+
+
+def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
+    """Draw variables against time, one above the other, over their shaded phases; an envelope as ranges.
+
+    Returns the entries of a legend of the phases; none where they are not shaded.
+    """
+    for ax, name in zip(axes, variables, strict=True):
+        drawing.show(ax, case, window, name, named=ax is axes[0])
+        ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 26))  # markup is not shown
+        ax.label_outer()
+    axes[-1].locator_params(axis="x", nbins=6)
+    return shade_phases(axes, window)
+
+
+def _as_either(window: Window) -> Iterator[str]:
+    if window.count < 2 * (window.envelope or 1):
+        yield "must be two samples, or two envelopes, long or more"
+
+
+class History(CasePlot):
+    """Variables against time, one above the other; a window with an envelope as ranges.
+
+    until : s, end of the part of the window that is shown
+    """
+
+    shows = (("window", _as_either),)
+
+    kind: Literal["history"] = "history"
+    window: str
+    variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
+    until: Annotated[Positive, Unit("s")] | None = None
+
+    def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
+        """Faults as of any figure of a case, and variables that the window does not keep."""
+        yield from super().faults(cases)
+        window = (cases.get(self.case) or {}).get(self.window)
+        if isinstance(window, Window) and window.envelope is not None:
+            for i, name in enumerate(self.variables):
+                if name not in RANGES:
+                    yield Fault.of(("variables", str(i)), name, f"is not kept as ranges (known: {', '.join(RANGES)})")
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        [case] = cases
+        figure, axes = panels(COLUMN, 0.8 + 1.3 * len(self.variables), len(self.variables), sharex=True)
+        shown = dataset.group(case, self.window).sel(time=slice(None, self.until or math.inf))
+        if shown.sizes["time"] < 2:  # the run ended before it
+            raise Missing(f"has {shown.sizes['time']} samples in {self.window}, at least 2 are needed")
+        drawing.letters(axes)
+        if handles := draw_history(axes, case, shown, self.variables):
+            figure.legend(handles=handles, loc="outside lower right", ncols=3)
+        figure.align_ylabels()
+        return figure
+
+
+# ----------------------------------------------------------------------------------------------------
+# Phase portraits
+
+
+def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
+    """Draw one variable over another, coloured by phase."""
+    (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
+    for i, name in enumerate(PHASES):
+        inside = samples["phase"].values == i
+        look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+        width = 1.5 if name == "separation" else 0.5  # distinct in grey print
+        if inside.any():
+            # broken where the phase changes, so that no chord is drawn across others
+            height = np.where(inside, samples[y].values * in_y, np.nan)
+            ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
+    ax.margins(0.04)
+    for line in drawing.legend_above(ax).get_lines():
+        line.set_linewidth(line.get_linewidth() + 0.5)
+    ax.set(xlabel=across, ylabel=up)
+
+
+class Portrait(CasePlot):
+    """One variable over another, coloured by phase."""
+
+    shows = (("window", as_samples),)
+
+    kind: Literal["portrait"] = "portrait"
+    window: str
+    x: Sampled = "psi"
+    y: Sampled = "psi_velocity"
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure, [ax] = panels(COLUMN, 2.7)
+        draw_portrait(ax, dataset.samples(cases[0], self.window), self.x, self.y)
+        return figure
+
+
+# ----------------------------------------------------------------------------------------------------
+# Poincaré sections
+
+MARKS: dict[str, dict[str, Any]] = {
+    "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
+    "later": {"marker": "o", "color": AFTER, "s": 3.5, "linewidths": 0},
+    "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
+}
+"""Symbol by stage: told apart by shape as well as by colour."""
+BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
+BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separated": "separated"}
+
+
+def draw_sections(
+    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Sequence[xr.Dataset] = ()
+) -> list[Artist]:
+    """Draw velocity over displacement of slider and disc, once a turn of the drive; returns the entries of a legend.
+
+    compared : sections that the axes of the slider's panel fit too
+    """
+    first, time = float(case["first_separation"]), samples["time"].values
+    since = np.max([settling(time, samples[name].values).since for name in ("psi", "w_point")])
+    found = stages(time, samples["phase"].values, first, float(since))
+    slider, disc = axes
+    for ax, name in ((slider, "psi"), (disc, "w_point")):
+        fitted = [samples, *compared] if ax is slider else [samples]
+        coordinates = []
+        for axis, variable in (("x", name), ("y", f"{name}_velocity")):
+            label, factor, _ = drawing.sampled(variable, samples)
+            coordinates.append(samples[variable].values * factor)
+            limits = _limits(np.concatenate([section[variable] for section in fitted]) * factor)
+            ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
+        for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
+            there = getattr(found, stage)
+            look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
+            ax.scatter(*(values[there] for values in coordinates), **look)
+    names = BY_SEPARATION if found.divided_by_separation else BY_SETTLING
+    names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
+    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
+    title = "Separation ignored:" if bonded else "No separation:"
+    if found.divided_by_separation:
+        title = f"First separation at {first:.2f} s:"
+    marks = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
+    return [disc.scatter([], [], s=0, label=title), *marks]
+
+
+class PoincareSections(CasePlot):
+    """The Poincaré sections of slider and disc: (a) psi' over psi, (b) velocity over displacement of the disc at r_0.
+
+    compared_with : cases that the axes of (a) fit too, so that figures of a pair can be compared
+    """
+
+    kind: Literal["poincare"] = "poincare"
+    compared_with: tuple[str, ...] = ()
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return self.compared_with
+
+    def needs(self) -> Iterator[Need]:
+        for case in self.cases:
+            yield Need("case", case, "poincare")
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure, axes = panels(PAGE, 2.75, 1, 2)
+        samples, *compared = (dataset.samples(one, "poincare", at_least=1) for one in cases)
+        drawing.letters(axes)
+        handles = draw_sections(axes, cases[0], samples, compared)
+        figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
+        return figure
+
+
+def _limits(values: np.ndarray) -> tuple[float, float]:
+    """Limits of an axis with room for the marks."""
+    low, high = float(values.min()), float(values.max())
+    margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
+    return low - margin, high + margin
+
+
+# ----------------------------------------------------------------------------------------------------
+# Spectra, and spectrograms
+
+FLOOR = -100.0
+"""Least power shown, dB below the reference."""
+
+
+def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) -> None:
+    """Draw the amplitude of a variable over the frequency, up to one in Hz; raises `Missing` if it does not vibrate."""
+    label, factor, colour = drawing.sampled(variable, samples)
+    try:
+        frequency, amplitude = amplitude_spectrum(samples["time"].values, samples[variable].values)
+    except ParameterError as error:
+        raise Missing(f"recorded too little: {error}") from None
+    shown = (frequency > 0) & (frequency <= highest)
+    if not amplitude[shown].any():
+        raise Missing("did not vibrate")
+    amplitude = factor * amplitude[shown]
+    ax.semilogy(frequency[shown], amplitude, color=colour, linewidth=0.7)
+    largest = amplitude.max()
+    name, _, unit = label.rpartition(" (")
+    ax.set(
+        xlabel="Frequency (Hz)", ylabel=f"Amplitude ({unit}" if name else "Amplitude",
+        xlim=(0, frequency[shown][-1]), ylim=(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, 3 * largest),
+    )  # fmt: skip
+    ax.set_title(name or label, loc="left")
+    strong = sorted(
+        lines(samples["time"].values, samples[variable].values, below=highest), key=lambda one: -one.amplitude
+    )
+    named: list[float] = []
+    for line in strong:  # the strongest, where there is room for their names
+        if len(named) < 5 and all(abs(line.frequency - other) > 0.09 * frequency[shown][-1] for other in named):
+            named.append(line.frequency)
+            drawing.say(ax, f"{line.frequency:.1f} Hz", (line.frequency, factor * line.amplitude), (3, 2), fontsize=7)
+
+
+class Spectrum(CasePlot):
+    """Amplitude of a variable over the frequency, in the whole of a window.
+
+    highest : Hz, frequency up to which it is shown; a window of a lower rate shows half of that
+    """
+
+    shows = (("window", as_samples),)
+
+    kind: Literal["spectrum"] = "spectrum"
+    window: str
+    variable: Sampled = "w_point"
+    highest: Annotated[Positive, Unit("Hz")] = HIGHEST
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure, [ax] = panels(COLUMN, 2.4)
+        draw_spectrum(ax, dataset.samples(cases[0], self.window), self.variable, self.highest)
+        return figure
+
+
+class Spectrogram(CasePlot):
+    """Power of a variable over time and frequency, in dB below its strongest line.
+
+    highest : Hz, frequency up to which it is shown
+    """
+
+    kind: Literal["spectrogram"] = "spectrogram"
+    window: str
+    variable: Sampled = "w_point"
+    highest: Annotated[Positive, Unit("Hz")] = HIGHEST
+
+    def needs(self) -> Iterator[Need]:
+        yield Need("window", self.case, self.window, [partial(as_spectrum, highest=self.highest)])
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure, [ax] = panels(PAGE / 2, 2.7)
+        draw_spectrogram(figure, ax, cases[0], spectrum_of(cases[0], self.window, self.variable), self.highest)
+        ax.set_title(drawing.sampled(self.variable, dataset.group(cases[0], self.window))[0].partition(" (")[0])
+        return figure
+
+
+def spectrum_of(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
+    """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`; raises `Missing`."""
+    samples = dataset.samples(case, window)
+    try:
+        spectrum = time_frequency(samples["time"].values, samples[variable].values, **options)
+    except ValueError as error:
+        raise Missing(f"recorded too little in {window}: {error}") from None
+    if not spectrum.power.any():
+        raise Missing(f"did not vibrate in {window}")
+    return spectrum
+
+
+def draw_power(ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, reference: float, highest: float) -> QuadMesh:
+    """Draw power in dB relative to a reference, up to a frequency in Hz; the first separation is marked."""
+    from cmcrameri.cm import lipari
+
+    shown = spectrum.frequency <= highest
+    power = 10 * np.log10(np.maximum(spectrum.power[shown] / reference, 10 ** (FLOOR / 10 - 2)))
+    look = {"cmap": lipari, "vmin": FLOOR, "vmax": 0, "shading": "nearest", "rasterized": True}
+    mesh = ax.pcolormesh(spectrum.time, spectrum.frequency[shown], power, **look)
+    ax.set_facecolor(lipari(0.0))
+    ax.set(xlim=span_of(spectrum), ylim=(0, highest))
+    drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
+    return mesh
+
+
+def span_of(spectrum: TimeFrequency) -> tuple[float, float]:
+    """The span of time that a panel represents, s; one at the start of a run begins at 0."""
+    start, stop = round(float(spectrum.time[0]), 1), round(float(spectrum.time[-1]), 1)
+    return (0.0 if start < 1 else start), stop
+
+
+def draw_scale(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
+    """Draw the colour scale of power beside the panels that share it."""
+    label = "Power (dB re strongest line)"
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06, label=label)
+    bar.outline.set_visible(False)
+
+
+def draw_spectrogram(figure: FigureBase, ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, highest: float) -> None:
+    """Draw power in dB below the strongest line, up to a frequency in Hz, with its scale."""
+    mesh = draw_power(ax, case, spectrum, float(spectrum.power.max()), highest)
+    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+    draw_scale(figure, mesh, ax)

@@ -1,0 +1,217 @@
+"""Pictures that results draw of themselves: the functions behind their methods `plot`, `plot_spectrum`, ...
+
+Each returns the axes on which it drew: those of a new figure in the common style, or those of its argument `ax`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.figures import disc, drawing, motion
+from disc_model.figures.branches import draw_branch
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
+from disc_model.parameters import Parameters
+
+if TYPE_CHECKING:
+    from disc_model.stability.branch import Branch
+    from disc_model.stability.cycle import FloquetResult
+    from disc_model.stability.sliding import SteadySliding
+
+
+def _title(ax: Axes, p: Parameters, text: str = "", ours: bool = True) -> None:
+    """Write values of parameters above a new figure, or nothing above that of a reader."""
+    if ours:
+        figure: Any = ax.figure
+        figure.suptitle(drawing.head_text(figure.get_figwidth(), text, drawing.what_case(dict(p))), fontsize=8)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Runs
+
+
+def window_of(case: xr.DataTree, name: str) -> xr.Dataset:
+    """A window of a run by its name; raises `ParameterError` if there is none."""
+    try:
+        return dataset.group(case, name)
+    except Missing:
+        known = [str(child) for child in case.children if child not in ("events", "poincare")]
+        raise ParameterError(Fault.of(("window",), name, f"was not recorded{suggestion(name, known)}")) from None
+
+
+@by_itself
+def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str], ax: Any = None) -> np.ndarray:
+    """Draw variables of a run, a row each, in windows, a column each."""
+    rows, columns = len(variables), len(windows)
+    width = PAGE if columns > 1 else 1.3 * COLUMN
+    axes = axes_for(ax, width, 0.7 + 1.25 * rows, rows, columns, sharex="col", sharey="row" if columns > 1 else False)
+    grid: Any = np.array(axes, dtype=object).reshape(rows, columns)
+    handles: list[Any] = []
+    for column, name in zip(grid.T, windows, strict=True):
+        handles = motion.draw_history(column, case, window_of(case, name), variables) or handles
+    if ax is None:
+        _title(axes[0], Parameters.model_validate_json(case.attrs["parameters"]))
+        axes[0].figure.align_ylabels()
+        if handles:
+            axes[0].figure.legend(handles=handles, loc="outside lower right", ncols=3)
+    elif handles:
+        drawing.legend_above(axes[0], handles=handles)
+    return grid if rows * columns > 1 else grid[0, 0]
+
+
+@by_itself
+def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any = None) -> Axes:
+    """Draw one variable over another, coloured by phase."""
+    [axes] = axes_for(ax, COLUMN, 2.9)
+    motion.draw_portrait(axes, window_of(case, window), x, y)
+    _title(axes, Parameters.model_validate_json(case.attrs["parameters"]), ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float, ax: Any = None) -> Axes:
+    """Draw the amplitude of a variable over the frequency."""
+    [axes] = axes_for(ax, 1.3 * COLUMN, 2.6)
+    try:
+        motion.draw_spectrum(axes, window_of(case, window), variable, highest)
+    except Missing as reason:
+        raise ParameterError(Fault.of(("window",), window, str(reason))) from None
+    _title(axes, Parameters.model_validate_json(case.attrs["parameters"]), ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
+    """Draw the sections of slider and disc, once a turn of the drive."""
+    axes = axes_for(ax, PAGE, 2.9, 1, 2)
+    samples = dataset.group(case, "poincare")
+    handles = motion.draw_sections(axes, case, samples)
+    _title(axes[0], Parameters.model_validate_json(case.attrs["parameters"]), ours=ax is None)
+    if ax is None:
+        axes[0].figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
+    else:
+        axes[1].legend(handles=handles, fontsize="small")
+    return np.array(axes)
+
+
+def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str | Path | None, fps: int) -> Any:
+    """Make a film of disc, slider and contact force through states; written to a path if there is one."""
+    from matplotlib.figure import Figure
+
+    with drawing.styled():
+        figure = Figure(figsize=(6.4, 2.7))
+        film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
+        if path is not None:
+            film.save(path, writer="ffmpeg" if Path(path).suffix == ".mp4" else "pillow", fps=fps, dpi=100)
+        return film
+
+
+# ----------------------------------------------------------------------------------------------------
+# Stability
+
+
+@by_itself
+def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
+    """Draw the multipliers of a cycle in the complex plane, and the unit circle."""
+    cycle.raise_for_status()
+    [axes] = axes_for(ax, COLUMN, 3.2)
+    angle = np.linspace(0, 2 * np.pi, 200)
+    axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=0.8)
+    axes.axhline(0, color=GREY, linewidth=0.4, zorder=0)
+    axes.axvline(0, color=GREY, linewidth=0.4, zorder=0)
+    values = cycle.multipliers
+    outside = np.abs(values) > 1
+    for there, mark, colour, name in ((~outside, "o", BLUE, "decays"), (outside, "D", SEPARATED, "grows")):
+        if there.any():
+            axes.plot(values[there].real, values[there].imag, mark, color=colour, markersize=4, label=name)
+    axes.text(0, 0.08, f"largest |λ| = {abs(values[0]):.5g}", ha="center", fontsize=7)
+    word = "stable" if cycle.stable else "unstable"
+    axes.set(xlabel="Re λ", ylabel="Im λ", aspect="equal")
+    axes.set_title(f"{word}, growth rate {cycle.growth_rate:.3g}/s, period {1e3 * cycle.period:.4g} ms", loc="left")
+    axes.margins(0.12)
+    axes.legend(loc="lower right")
+    _title(axes, cycle.parameters, ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_eigenvalues(sliding: SteadySliding, p: Parameters | None, ax: Any = None) -> Axes:
+    """Draw frequency over growth rate of the eigenvalues of steady sliding; unstable ones with their frequency."""
+    if not sliding.eigenvalues.size:
+        raise ParameterError(Fault(("status",), sliding.status.value, f"there are no eigenvalues: {sliding.message}"))
+    [axes] = axes_for(ax, COLUMN, 3.0)
+    values = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
+    rate, frequency = values.real, values.imag / (2 * np.pi)
+    axes.axvline(0, color=BLACK, linewidth=0.6)
+    grows = rate > 0
+    for there, mark, colour in ((~grows, "o", BLUE), (grows, "D", SEPARATED)):
+        axes.plot(rate[there], frequency[there], mark, color=colour, markersize=4)
+    for x, y in zip(rate[grows], frequency[grows], strict=True):
+        drawing.say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=7, color=SEPARATED)
+    low, high = axes.get_xlim()
+    span = max(abs(low), abs(high)) * 1.25
+    axes.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)", xlim=(-span, span), ylim=(0, None))
+    axes.margins(y=0.08)
+    for x, name in ((0.02, "decays"), (0.98, "grows")):
+        axes.text(x, 1.02, name, transform=axes.transAxes, ha="left" if x < 0.5 else "right", fontsize=7, color=GREY)
+    if p is not None:
+        _title(axes, p, "steady sliding", ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
+    """Draw a variable of the cycles along a branch over its parameter, or its second parameter over its first."""
+    [axes] = axes_for(ax, 1.3 * COLUMN, 2.8)
+    label, factor = drawing.axis_of(branch.parameters[0])
+    x, stable = branch.values[:, 0] * factor, branch.growth_rate < 0
+    if len(branch.parameters) > 1:
+        name, scale = drawing.axis_of(branch.parameters[1])
+        values = branch.values[:, 1] * scale
+    else:
+        labels = {"growth_rate": "Growth rate of the cycle (1/s)", "period": "Period (ms)", "stick_fraction": "Stick"}
+        if y not in labels:
+            raise ParameterError(Fault.of(("y",), y, f"must be one of {', '.join(labels)}"))
+        name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
+    draw_branch(axes, x, values, stable, BLACK, np.inf)
+    if y == "growth_rate":
+        axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+    for fold in np.reshape(branch.folds, (-1, len(branch.parameters))):
+        i = int(np.argmin(np.abs(branch.values - fold).sum(axis=1)))
+        axes.plot(fold[0] * factor, values[i], "s", color=SEPARATED, markersize=4)
+        drawing.say(
+            axes, f"fold {fold[0] * factor:.5g}", (fold[0] * factor, values[i]), (-5, 0), fontsize=7, color=SEPARATED
+        )
+    for width, text in ((2.0, "stable"), (0.7, "unstable")):
+        axes.plot([], [], color=BLACK, linewidth=width, label=text)
+    axes.margins(0.04)
+    axes.set(xlabel=label, ylabel=name)
+    drawing.legend_above(axes)
+    return axes
+
+
+# ----------------------------------------------------------------------------------------------------
+# Grids and discs
+
+
+@by_itself
+def plot_modes(p: Parameters, most: int, ax: Any = None) -> np.ndarray:
+    """Draw the shapes of the modes from above with their nodal lines."""
+    disc.needs_shapes(p)
+    count = min(most, len(disc.mode_arrays(p).omega))
+    columns = min(count, 5)
+    rows = -(-count // columns)
+    axes = axes_for(ax, 1.45 * columns + 0.1, 1.65 * rows + 0.3, rows, columns)
+    for spare in axes[count:]:
+        spare.set_axis_off()
+    disc.draw_modes(axes[:count], p)
+    if ax is None:
+        axes[0].figure.suptitle("Modes (nodal diameters, nodal circles), slider and nodal lines", fontsize=8)
+    return np.array(axes)

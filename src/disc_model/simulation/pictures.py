@@ -1,0 +1,150 @@
+"""Pictures of a run: the methods of a `disc_model.Result` that draw."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.errors import drawn
+from disc_model.simulation.case import Poincare, Window
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from disc_model.simulation.result import Result
+
+CYCLES = 4
+"""Number of cycles of stick and slip that are shown of the end of a run."""
+BINS, RATE = 600, 4000.0
+"""Bins of the envelope of a run, and its samples per second; of a short run there are more samples."""
+FINE = 4000
+"""Samples of the last cycles."""
+
+
+class Pictures:
+    """What a `disc_model.Result` can draw.
+
+    Where no window is named, the run is simulated once more, with the samples that the picture needs, which takes as
+    long as the run itself.  All return matplotlib axes, in a new figure or those given as `ax`.
+    """
+
+    def plot(
+        self,
+        windows: str | Sequence[str] | None = None,
+        *,
+        variables: Sequence[str] = ("P", "w", "psi_velocity"),
+        ax: Axes | Sequence[Axes] | None = None,
+    ) -> Axes | NDArray[Any]:
+        """Draw variables against time: the range in the whole run, and its last cycles over stick and separation.
+
+        Parameters
+        ----------
+        windows : names of recorded windows, to draw these instead, a column each
+        variables : of P, u, w, w_point, psi, psi_velocity; a window without an envelope has u_velocity and
+            w_point_velocity too
+        ax : axes to draw on, one for each variable and column
+
+        Returns
+        -------
+        Axes, or array of Axes
+            Of shape (variables, columns) if there are several.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot().shape
+        (3, 2)
+        """
+        if windows is not None:
+            names = [windows] if isinstance(windows, str) else list(windows)
+            return drawn("plot_run", self._case(), names, variables, ax=ax)
+        names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
+        return drawn("plot_run", self._case(*names), names, variables, ax=ax)
+
+    def plot_phase_portrait(
+        self, window: str | None = None, *, x: str = "psi", y: str = "psi_velocity", ax: Axes | None = None
+    ) -> Axes:
+        """Draw one variable over another, coloured by phase; of the last cycles if no window is named."""
+        return drawn("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
+
+    def plot_spectrum(
+        self, window: str | None = None, *, variable: str = "w_point", highest: float = 1000.0, ax: Axes | None = None
+    ) -> Axes:
+        """Draw the amplitude of a variable over the frequency, up to one in Hz.
+
+        Without a named window it is that of the last 8 s, or of the second half of a shorter run.
+        """
+        return drawn("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
+
+    def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
+        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes."""
+        return drawn("plot_poincare", self._case("poincare"), ax=ax)
+
+    def animate(
+        self, path: str | Path | None = None, *, window: str | None = None, frames: int = 60, fps: int = 12
+    ) -> FuncAnimation:
+        """Make a film of the disc from above, its deflection under the slider, and the contact force beside it.
+
+        Parameters
+        ----------
+        path : file to write, such as ``cycle.gif``, or ``cycle.mp4`` by ffmpeg; None writes nothing
+        window : name of a recorded window; otherwise the last cycles
+        frames, fps : number of pictures, and how many are shown in a second
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+        """
+        case, name = self._of(window, "end")
+        samples = drawn("window_of", case, name)
+        result: Any = self
+        times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
+        states = import_module("disc_model.simulation.deflection").snapshots(
+            result.parameters, times, tol=result.tol, initial_state=result.initial_state
+        )
+        return drawn("animate", result.parameters, states, samples, path, fps)
+
+    def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
+        return (self._case(otherwise), otherwise) if window is None else (self._case(), window)
+
+    @property
+    def _span(self) -> float:
+        result: Any = self
+        start = 0.0 if result.initial_state is None else float(result.initial_state.time)
+        return float(result.final_state.time) - start
+
+    @property
+    def _last_cycles(self) -> float:
+        """Length of the last cycles, s: from a release of stick on."""
+        result: Any = self
+        releases = result.events["time"][result.events["kind"] == "stick_to_slip"].to_numpy()
+        end = float(result.final_state.time)
+        length = end - float(releases[-1 - CYCLES]) if len(releases) > CYCLES else 0.1
+        return min(length if length < 1.0 else 0.1, self._span)
+
+    def _case(self, *names: str) -> xr.DataTree:
+        """The run as a tree of windows: those that were recorded, or others, for which it is simulated once more."""
+        result: Result = self  # type: ignore[assignment]
+        if not names:
+            return result.to_tree()
+        end, span = float(result.final_state.time), self._span
+        rate = max(RATE, BINS / span)
+        late = min(8.0, span / 2)
+        windows = {
+            "run": Window(start=end - span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))),
+            "end": Window(start=end - self._last_cycles, rate=FINE / self._last_cycles),
+            "late": Window(start=end - late, rate=RATE),
+            "poincare": Poincare(start=end - span),
+        }
+        how: dict[str, Any] = {"tol": result.tol, "ramps": result.ramps, "initial_state": result.initial_state}
+        simulate = import_module("disc_model.simulation.api").simulate
+        again: Result = simulate(result.parameters, end, {name: windows[name] for name in names}, **how)
+        return again.to_tree()

@@ -1,0 +1,101 @@
+"""What results draw of themselves."""
+
+import functools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.figure import Figure
+from PIL import Image
+
+import disc_model as dm
+from tests.figures.reading import labels
+
+P = dm.Parameters(N=385, Omega=15.1)
+
+
+@functools.cache
+def run() -> dm.Result:
+    """A minute at whose end contact is lost twice a cycle; without a window."""
+    return dm.simulate(P, 60)
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+def test_a_run_without_windows_shows_its_range_and_its_last_cycles_with_their_phases() -> None:
+    axes = run().plot()
+    assert axes.shape == (3, 2)
+    whole, close = axes[0]
+    (mark,) = (line for line in whole.lines if line.get_linestyle() == "--")
+    assert mark.get_xdata()[0] == run().first_separation
+    events = run().events
+    start, end = close.get_xlim()
+    assert np.isclose(start, events["time"][events["kind"] == "stick_to_slip"].iloc[-5], atol=1e-9), "four cycles"
+    assert end == 60
+    separations = events["time"][(events["kind"] == "separation") & (events["time"] > start)]
+    shades = {shade.get_label(): shade for shade in axes[0, 0].figure.legends[0].legend_handles}
+    assert [*shades] == ["stick", "slip", "separation"]
+    bars = close.collections[1].get_paths()
+    begins = np.array([bar.vertices[:, 0].min() for bar in bars])
+    step = (end - start) / 4000  # borders lie halfway between samples
+    assert all(np.abs(begins - time).min() < step for time in separations)
+    assert axes[0, 0].figure.get_suptitle() == "N = 385 N, Ω = 15.1 rad/s"
+
+
+def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
+    figure, axes = pyplot.subplots(2, 2)
+    assert run().plot_phase_portrait(ax=axes[0, 0]) is axes[0, 0]
+    assert labels(axes[0, 0]) == ["stick", "slip", "separation"]
+    run().plot_spectrum(ax=axes[0, 1], highest=300)
+    assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
+    run().plot_poincare(ax=axes[1])
+    assert figure.get_suptitle() == ""
+    with pytest.raises(dm.ParameterError, match=r"ax=2 axes: must be 6, one for each panel"):
+        run().plot(ax=axes[0])
+
+
+def test_a_spectrum_names_the_lines_that_are_there() -> None:
+    ax = run().plot_spectrum(variable="psi", highest=300)
+    events = run().events["time"][run().events["kind"] == "stick_to_slip"].to_numpy()
+    rate = 1 / np.diff(events[events > 56]).mean()
+    named = [float(text.get_text().removesuffix(" Hz")) for text in ax.texts]
+    assert np.abs(np.array(named) - rate).min() < 0.2, "the window begins before the rate has settled"
+
+
+def test_a_film_has_its_frames(tmp_path: Path) -> None:
+    run().animate(tmp_path / "film.gif", frames=3)
+    with Image.open(tmp_path / "film.gif") as film:
+        assert film.n_frames == 3
+
+
+def test_a_window_that_is_not_there_is_named() -> None:
+    with pytest.raises(dm.ParameterError, match=r"window='lat': was not recorded"):
+        run().plot_spectrum("lat")
+
+
+def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
+    from disc_model.figures.results import plot_branch, plot_eigenvalues, plot_multipliers
+    from disc_model.stability.continuation import continue_cycle
+
+    cycle = dm.floquet(P.replace(Omega=15))
+    ax = plot_multipliers(cycle)
+    assert "stable, growth rate -0.105/s" in ax.get_title(loc="left")
+    sliding = dm.steady_sliding(P)
+    ax = plot_eigenvalues(sliding, P)
+    unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
+    assert [text.get_text() for text in ax.texts[: len(unstable)]] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
+    ax = plot_branch(continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2)), "growth_rate")
+    assert "fold 15.095" in [text.get_text() for text in ax.texts]
+
+
+def test_modes_are_drawn_with_their_nodal_lines() -> None:
+    from disc_model.figures.results import plot_modes
+
+    axes = plot_modes(P, 12)
+    assert [ax.get_title() for ax in axes][1] == "(1, 0)  241 Hz"
+    assert isinstance(axes[0].figure, Figure)
