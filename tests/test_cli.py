@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import disc_model
-from disc_model import Parameters, mode_choice, simulate
+from disc_model import Parameters, simulate
 from disc_model.cli import studies as cli_studies
 from disc_model.cli.case import option_name
 from disc_model.simulation import api
@@ -84,15 +84,6 @@ def test_an_interrupt_is_one_line(command: Command, monkeypatch: pytest.MonkeyPa
 
     monkeypatch.setattr(api, "simulate", interrupted)
     assert command.run(*SHORT)[::2] == (130, "error: interrupted\n")
-
-
-def test_auto_is_told_by_what_to_choose(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: 1.0 + 0.1 / p.n_diameters)
-    asked = ("modes", *SMALL_BASE[:4], "--n-diameters", "auto", "--truncation-quantity", "growth")
-    out = command.out(*asked, "--truncation-tolerance", "0.05")
-    assert out.startswith("modes chosen        n_diameters = 1, n_circles = 0 (growth: error 0.04")
-    err = command.error(*asked, "--truncation-tolerance", "1e-4")
-    assert "n_diameters: undecided: growth still changes by" in err
 
 
 def test_windows_and_ramps_are_saved_as_they_were_asked_for(command: Command, tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Status, Window
+from disc_model import ParameterError, Status, Window
 from disc_model.data.variables import CycleStatus
 from disc_model.errors import DiscModelError, Fault, StatusBase, script
 from disc_model.stability.sliding import SlidingStatus
@@ -48,18 +48,6 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     for error in (ParameterError(fault, "k=nan: must be finite"), StudyError("a: b", "c: d", source="x.yaml")):
         again = pickle.loads(pickle.dumps(error))
         assert (str(again), again.faults) == (str(error), error.faults)
-
-
-@pytest.mark.parametrize("make", [Parameters, Window, Poincare])
-def test_what_is_no_json_or_no_mapping_is_said_to_be_none(make: Any) -> None:
-    for text in ("{", "", "nul", b"\xff", '{"N": 1,}', "[" * 10**5, None):
-        with pytest.raises(ParameterError, match=r"^json_data=.*: must be JSON"):
-            make.model_validate_json(text)
-    for value in (3, None, [], [1, 2], "text"):
-        with pytest.raises(ParameterError, match=f"^{make.__name__.lower()}=.*: must be a mapping"):
-            make.model_validate(value)
-    with pytest.raises(ParameterError, match="a name must be text"):
-        make.model_validate({1: 2})
 
 
 def test_a_changed_copy_is_checked() -> None:

@@ -7,7 +7,7 @@ import numba
 import pytest
 
 from disc_model import Execution, Parameters, progress, simulate
-from disc_model.progress import COMPILING, compiling, simulating
+from disc_model.progress import COMPILING, compiling
 from disc_model.simulation import api
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -33,13 +33,6 @@ def test_only_a_long_simulation_is_shown(
     simulate(P, 0.05, execution=Execution(progress=option))
     assert ("simulating 0.05 s" in stderr.getvalue()) == shown
     assert bool(stderr.getvalue()) == shown
-
-
-def test_a_callers_function_receives_the_times() -> None:
-    times: list[float] = []
-    with simulating(times.append, 4.0) as tell:
-        tell(1.0)
-    assert times == [1.0]
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")

@@ -1,7 +1,5 @@
 """How many modes a study needs."""
 
-import json
-
 import pytest
 
 from disc_model import Parameters, choose_modes
@@ -31,20 +29,6 @@ def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, toleran
     assert frequency_error(chosen, rich) == pytest.approx(choice.error, rel=1e-9)
     smaller = chosen.replace(n_diameters=chosen.n_diameters - 1)
     assert frequency_error(smaller, rich) > tolerance
-
-
-def test_the_choice_is_recorded_and_does_not_depend_on_the_given_size():
-    choice = choose_modes(P, 1e-3)
-    assert json.loads(choice.to_json()) == {
-        "band": 2.0,
-        "compared_with": list(RICH),
-        "error": choice.error,
-        "modes": 7,
-        "n_circles": 0,
-        "n_diameters": 3,
-        "tolerance": 1e-3,
-    }
-    assert choose_modes(P.replace(n_diameters=7, n_circles=1)) == choice
 
 
 def test_files_and_command_lines_may_leave_the_choice() -> None:

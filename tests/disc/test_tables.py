@@ -207,21 +207,6 @@ def test_discs_are_an_axis(tmp_path: Path) -> None:
     assert zipped["growth_rate"].values[0] == study["growth_rate"].sel(disc="b.csv")
 
 
-def test_numbers_of_single_modes_can_be_uncertain(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text(disc_table(P))
-    study = computed(tmp_path, Path(__file__).with_name("uncertain_disc.yaml").read_text())
-    own = dm.read_disc(tmp_path / "a.csv")
-    drawn = study["parameter_values"].isel(N=0, sample=0).sel(sample_matrix="A")
-    numbers = {str(name): float(drawn.sel(parameter=name)) for name in drawn["parameter"].values}
-    changed = dm.Parameters(N=385, Omega=15, disc=own).replace(**numbers)
-    expected = {"omega": {1: "omega_1_0"}, "amplitude": {2: "amplitude_2_0"}, "damping_ratio": {0: "damping_ratio_0_0"}}
-    for column, modes in expected.items():
-        for i, (before, after) in enumerate(zip(getattr(own, column), getattr(changed.disc, column), strict=True)):
-            assert after == (numbers[modes[i]] if i in modes else before) != (before if i in modes else None)
-    found = dm.floquet(changed)
-    assert float(study["growth_rate"].isel(N=0, sample=0).sel(variant="A")) == found.growth_rate
-
-
 STUDIES = yaml.safe_load(Path(__file__).with_name("disc_studies.yaml").read_text())
 
 

@@ -9,7 +9,6 @@ from matplotlib.collections import LineCollection
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.drawing import save
-from disc_model.figures.growth_map import Curve, parted
 from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 from tests.studies.conftest import growth_over
@@ -113,16 +112,3 @@ def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
     assert not draw("growth_map", growth.assign(growth_rate=xr.full_like(growth["growth_rate"], 0.1))).legends
     none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
     assert labels(draw("growth_map", none)) == ["no cycle found"]
-
-
-def test_a_curve_across_which_the_shown_cycle_does_not_change_is_of_another_cycle() -> None:
-    """Neutral curves of other cycles crossed areas in which the shown one is stable."""
-    speeds, loads = np.linspace(5, 50, 10), np.linspace(50, 500, 10)
-    rate = np.where(loads[:, None] > 280, 0.1, -0.1) * np.ones((1, 10))
-    cycle = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, {"N": loads, "Omega": speeds})
-    own = Curve(np.array([5.0, 20, np.nan, 40]), np.array([275.0, 275, np.nan, 275]), "neutral")
-    away = Curve(np.array([5.0, 10]), np.array([100.0, 100]), "fold", "2 f_s")
-    (shown,), (other,) = parted([own, away], cycle)
-    np.testing.assert_array_equal(shown.N, own.N)
-    np.testing.assert_array_equal(other.N, away.N)
-    assert other.label == "", "it is not numbered"

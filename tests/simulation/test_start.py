@@ -212,24 +212,6 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
         assert simulate(P, 0.01, initial_state=state).status.complete
 
 
-@pytest.mark.compiled
-def test_starts_are_an_axis() -> None:
-    """A motion that has separated continues at 15 rad/s, where the static start stays quiet."""
-    starts = {"apart": {"prerun": {"parameters": {"Omega": 15.1}, "time": 56}}, "kicked": {"perturbation": {"u": 3e-4}}}
-    options = {"horizon": 55, "evaluation_time": 0.1, "after_separation": 0.1}
-    found = computed(
-        study="s", quantity="outcome", options=options, base={"N": 385}, starts=starts,
-        axes={"Omega": [15], "start": ["static", "apart", "kicked"], "perturbation_u": [0, 1e-4]},
-    ).isel(Omega=0)  # fmt: skip
-    assert found["start"].values.tolist() == ["apart", "kicked", "static"]
-    outcome = flag_names(found["outcome"])
-    assert outcome.tolist() == [["separation"] * 2, ["separation"] * 2, ["quiet"] * 2]
-    first = found["first_separation"].values
-    assert (first[0] < 1).all()
-    assert first[1, 1] < first[1, 0] - 0.5  # its own kick and the axis' add up
-    assert sorted(json.loads(found.attrs["starts"])) == ["apart", "kicked", "static"]
-
-
 def test_a_case_of_a_study_may_start_elsewhere() -> None:
     case = {"title": "", "parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.02}
     start = {"perturbation": {"f": 2.0}}

@@ -1,17 +1,11 @@
 """Continuation on a map that is solved by hand: every point, every fold and every border is known."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from disc_model import ParameterError, Parameters
-from disc_model.simulation.states import State
-from disc_model.stability import branch as branch_module
-from disc_model.stability import continuation
-from disc_model.stability import cycle as cycle_module
 from disc_model.stability.branch import CorrectorFailed, CycleProblem
 from disc_model.stability.continuation import (
     BORDER,
@@ -19,7 +13,7 @@ from disc_model.stability.continuation import (
     continue_cycle,
 )
 from disc_model.stability.curves import stability_curves
-from tests.stability.toy_map import PERIOD, RETURNED, ToyMap, cycle_at, fold_at, growth_at, outside, toy
+from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
 
 __all__ = ["toy"]
 pytestmark = pytest.mark.usefixtures("toy")
@@ -99,38 +93,3 @@ def test_all_curves_of_a_plane_are_found_once():
             assert curve.adjoins_stable_cycle.all()
             assert curve.resonance.diameters == 1
         assert np.all(curve.period == PERIOD)
-
-
-def with_events(*events):
-    """What is read of a simulation of ten seconds: events, each a kind and a time."""
-    rows = [(kind, float(time)) for kind, time in map(str.split, events)]
-    return SimpleNamespace(t_end=10.0, events=pd.DataFrame(rows, columns=["kind", "time"]))
-
-
-def test_a_change_in_the_order_of_switches_ends_a_branch_from_a_state(monkeypatch):
-    """The toy's cycle separates once more beyond 15.5 rad/s; it continues smoothly, as no true one would."""
-
-    class Separating(ToyMap):
-        def evaluate(self, x, **how):
-            flight = super().evaluate(x, **how)
-            return replace(flight, counts=flight.counts._replace(separations=1 + (self.parameters.Omega > 15.5)))
-
-        def next_release(self, near):
-            return RETURNED, near.a
-
-    def simulated(p, duration, **_):
-        assert p.Omega == pytest.approx(15.5, abs=1e-4)
-        assert duration == 2 * PERIOD
-        return with_events("slip_to_stick 1", "separation 2" if p.Omega > 15.5 else "stick_to_slip 3")
-
-    for module in (branch_module, cycle_module):
-        monkeypatch.setattr(module, "ReturnMap", Separating)
-    monkeypatch.setattr(continuation, "simulate", simulated)
-    none = np.zeros(0)
-    near = State(0.0, "stick", 0, 0.0, 0.0, 0.0, 0.0, np.array([1.4, 0.0, 0.0]), none, none, none)
-    branch = continue_cycle(P, "Omega", (12.0, 17.0), guess=near)
-    assert branch.ended == ("the order of events changes: separations 1 to 2; a separation appears")
-    assert branch.values[-1, 0] == pytest.approx(15.5, abs=1e-4)
-    assert not branch.folds.size
-    with pytest.raises(ParameterError, match=r"guess: must lie near a cycle .*, but no cycle of 1 releases near"):
-        continue_cycle(P.replace(Omega=18), "Omega", (12.0, 19.0), guess=near)

@@ -68,16 +68,6 @@ def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str,
     assert project.planned() == jobs(project)
 
 
-def test_a_value_laid_over_runs_its_own_batch(project: Project) -> None:
-    """Batches of other values that are added: tests/studies/test_batches.py."""
-    before = batches(project, "small_map")
-    project.edit(SMALL, "studies:", "overrides: {small_map: {axes: {N: [100, 200, 300, 400]}}}\nstudies:")
-    jobs = project.planned()
-    assert jobs > MAP_TAIL
-    assert len(jobs - MAP_TAIL) == 1
-    assert not jobs & before
-
-
 def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
     project.edit(SMALL, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 300]")

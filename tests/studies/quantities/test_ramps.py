@@ -64,18 +64,6 @@ def test_onset_and_end_are_speeds_of_the_ramps(made_up: SimpleNamespace) -> None
     assert max(end - start for start, end in made_up.calls if start > 1000) <= 100
 
 
-def test_a_run_that_cannot_go_on_says_at_which_rate(made_up: SimpleNamespace) -> None:
-    made_up.breaks_at = 150.0  # on the way up at 0.01 rad/s per s, on the way down at 0.1
-    options = Ramps.model_validate({**SPAN, "rates": {"start": 0.01, "stop": 0.1, "count": 2}})
-    table = compute(options, [Point(Parameters(N=385, Omega=1))])
-    assert [STATUSES[i] for i in table.arrays["rate_status"][0]] == ["stalled", "stalled"]
-    assert STATUSES[table.arrays["status"][0]] == "stalled"
-    assert list(table.messages) == ["rate=0.1: why"]
-    assert np.isnan(table.arrays["onset_speed"][0, 0])
-    assert table.arrays["onset_speed"][0, 1] == pytest.approx(12.4)
-    assert np.isnan(table.arrays["offset_speed"]).all()
-
-
 @pytest.mark.compiled
 def test_onset_at_385_N_comes_late_and_the_end_is_far_below() -> None:
     """The cycle ends at 15.09 rad/s; separation takes some 50 s to grow, and persists to below 10."""
