@@ -27,18 +27,18 @@ def swept(rates: tuple[float, float], **more) -> dict[str, np.ndarray]:
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
     """Separation begins 4 s after 12 rad/s is passed, and ends 2 s after 11 rad/s is passed on the way down."""
-    world = SimpleNamespace(breaks_at=math.inf, calls=[], goes_on=False)
+    world = SimpleNamespace(calls=[])
 
-    def simulate(p, until, *, tol, initial_state, record, stop_at, ramps):
+    def simulate(p, until, *, tol, initial_state, events, stop_at, ramps):
         start = 0.0 if initial_state is None else initial_state.time
         world.calls.append((start, until))
         up, down = ramps
         rate = (up.to - p.Omega) / up.end
         begins, ends = (12 - p.Omega) / rate + 4, down.start + (up.to - 11) / rate + 2
-        times = np.arange(begins, down.end + SPAN["dwell"] + 1 if world.goes_on else ends, EVERY)
-        lost = times[(times > start) & (times <= min(until, world.breaks_at))]
+        times = np.arange(begins, ends, EVERY)
+        lost = times[(times > start) & (times <= until)]
         first = float(lost[0]) if lost.size else math.nan
-        end, status = min(until, world.breaks_at), Status.STALLED if until > world.breaks_at else Status.OK
+        end, status = until, Status.OK
         if stop_at and lost.size:
             end, status = first, Status.STOPPED
         rows = np.zeros((len(lost), len(EVENT_ROW)))
@@ -46,7 +46,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
         assert values_at(p, ramps, "Omega", down.start - 1e-9) == pytest.approx(20)
         return SimpleNamespace(
             status=status, message="why", final_state=SimpleNamespace(time=end), first_separation=first,
-            event_rows=rows if record.events else rows[:0], statistics={"separations": len(lost)},
+            event_rows=rows if events else rows[:0], statistics={"separations": len(lost)},
         )  # fmt: skip
 
     monkeypatch.setattr("disc_model.simulation.api.simulate", simulate)
