@@ -1,6 +1,7 @@
 """The command line: options, summary, plot."""
 
 import json
+import math
 import re
 import signal
 import subprocess
@@ -47,7 +48,18 @@ def test_help_shows_units_defaults_choices_and_the_version(command: Command, mon
     assert command.out("help", "run") == out
     out = command.out("help")
     assert out == command.out("--help") == command.out()
-    for name in ("run", "floquet", "modes", "study", "list", "status", "init", "compile", "--install-completion"):
+    for name in (
+        "run",
+        "floquet",
+        "sliding",
+        "modes",
+        "study",
+        "list",
+        "status",
+        "init",
+        "compile",
+        "--install-completion",
+    ):
         assert name in out
     assert re.search(r"--disc +FILE", command.out("modes", "--help"))
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
@@ -95,6 +107,16 @@ def test_windows_and_ramps_are_saved_as_they_were_asked_for(command: Command, tm
     assert np.allclose(found["late/time"], np.arange(0.03, 0.0505, 0.001))
     assert [(ramp["parameter"], ramp["to"]) for ramp in json.loads(found.attrs["ramps"])] == [("Omega", 20), ("N", 150)]
     assert found["sample_1/P_min"].sizes["time"] == 5
+
+
+def test_sliding_prints_the_modes_of_steady_sliding(command: Command) -> None:
+    sliding = disc_model.steady_sliding(Parameters(N=385, Omega=20, n_diameters=1))
+    out = command.out("sliding", "--N", "385", "--Omega", "20", "--n-diameters", "1")
+    fastest = sliding.eigenvalues[np.argmax(sliding.eigenvalues.imag)]
+    for number in (f"{sliding.growth_rate:.6g} 1/s", f"{fastest.imag / math.tau:.4f}", f"{fastest.real:.6g}"):
+        assert number in out
+    code, out, _ = command.run("sliding", "--N", "385", "--Omega", "0")
+    assert (code, "not driven" in out) == (1, True)
 
 
 @pytest.mark.compiled

@@ -105,7 +105,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         ]
         assert "studies/study.py" not in batch
         assert ("stability/attractor/outcome.py" in batch) == (
-            name not in ("campbell", "floquet", "lyapunov", "ramps", "stability_curves")
+            name not in ("campbell", "floquet", "lyapunov", "ramps", "sliding", "stability_curves")
         )
         # one quantity's code is not another's
         others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import Parameters, plate_modes, steady_sliding
+from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.engine import exit_codes
 from disc_model.simulation.states import State
-from disc_model.stability.sliding import SlidingStatus, SteadySliding
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.full_system import Full
 
@@ -103,3 +103,54 @@ def test_steady_sliding_says_why_there_is_none(changes, status):
     if status is not SlidingStatus.OK:
         assert found.message == status.advice
         assert math.isnan(found.contact_force)
+
+
+# ------------------------------------------------------------------------ modes
+def test_modes_are_the_eigenvalues_of_steady_sliding():
+    """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable modes."""
+    p = Parameters(N=385, Omega=20, normalization="orthonormal")
+    sliding, modes = steady_sliding(p), sliding_modes(p)
+    values = modes.growth_rate + 2j * math.pi * modes.frequency
+    oscillating = sliding.eigenvalues[sliding.eigenvalues.imag > 0]
+    np.testing.assert_allclose(values, oscillating[np.argsort(oscillating.imag)], rtol=1e-10)
+    np.testing.assert_allclose(modes.damping_ratio, -modes.growth_rate / np.abs(values), rtol=1e-12)
+    # a two-diameter mode of a disc in the space of nine has another one beside it
+    assert sorted(modes.diameters) == [-1, 0, 1, 1, 2, 2, 3, 3, 4, 4]
+    assert sliding.unstable_modes == np.sum(modes.growth_rate > 0) == 3
+
+
+def test_a_real_eigenvalue_counts_as_an_unstable_mode():
+    """Divergence under a moving spring: between omega / l and sqrt(omega^2 + k psi^2) / l, docs/verification.md."""
+    disc = Disc(diameters=[2], omega=[1823.881], amplitude=[2.1491])
+    p = Parameters(N=1, Omega=900, mu_s=0, mu_k=0, contact="bonded", disc=disc)
+    counts = [steady_sliding(p.replace(Omega=Omega)).unstable_modes for Omega in (900, 930, 950)]
+    assert counts == [0, 1, 0]
+    # the two modes of the pair meet at the frequency 0, and part again
+    found = follow_modes([p.replace(Omega=Omega) for Omega in (900, 930, 950)])
+    assert [len(one.numbers) for one in found] == [3, 2, 3]
+    assert [sorted(one.numbers) for one in found] == [[0, 1, 2], [1, 2], [0, 1, 2]]
+
+
+def test_modes_keep_their_numbers_where_frequencies_cross():
+    """In the slider's frame waves of two diameters against it fall by 2 Omega, and cross those of one, which rise."""
+    disc = Disc(diameters=[1, 2], omega=[1000, 1100], amplitude=[1e-3, 1e-3])
+    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bonded", disc=disc)
+    speeds = [1.0, 60.0]
+    first, last = follow_modes([p.replace(Omega=Omega) for Omega in speeds])
+    lines = []
+    for one in (first, last):
+        rows = zip(one.numbers, one.modes.diameters, np.round(one.modes.forward), one.modes.frequency, strict=True)
+        lines.append({number: (l, wave if l > 0 else 0, frequency) for number, l, wave, frequency in rows})
+    assert [*lines[0]] == [0, 1, 2, 3, 4]
+    assert [*lines[1]] != [*lines[0]]
+    assert {number: line[:2] for number, line in lines[0].items()} == {n: line[:2] for n, line in lines[1].items()}
+    for l, wave, frequency in lines[1].values():
+        shift = -l * 60.0 * (2 * wave - 1)  # with the slider the wave seems slower
+        expected = {-1: math.sqrt(p.k_p / p.m), 1: 1000 + shift, 2: 1100 + shift}[l] / (2 * math.pi)
+        assert frequency == pytest.approx(expected, abs=1e-3)
+
+
+def test_no_modes_without_steady_sliding():
+    found = follow_modes([P.replace(Omega=Omega) for Omega in (0, 20, 1520, 20)])
+    assert [len(one.numbers) for one in found] == [0, 4, 0, 4]
+    np.testing.assert_allclose(found[3].mac, 1, atol=1e-9)

@@ -34,6 +34,7 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "simulated_samples": 1,
         "horizon": 1,
     },
+    "sliding": {"scan": SCAN},
     "stability_curves": {
         "x_range": [10, 20],
         "y_lines": {"start": 200, "stop": 210, "count": 2},

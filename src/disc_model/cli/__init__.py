@@ -1,4 +1,4 @@
-"""Command line: ``disc-model run|floquet|modes|study|list|status|init|compile``.
+"""Command line: ``disc-model run|floquet|sliding|modes|study|list|status|init|compile``.
 
 Invalid input is reported on stderr with exit code 2: one line, or for a study file a list of its faults. A simulation
 that ends early is reported and gives exit code 1.
@@ -19,7 +19,7 @@ app = typer.Typer(
     help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
 for function in (
-    *(case.run, case.floquet, case.modes),
+    *(case.run, case.floquet, case.sliding, case.modes),
     *(studies.study, studies.list_, studies.status, studies.init, case.compile_),
 ):
     app.command(function.__name__.rstrip("_"))(function)

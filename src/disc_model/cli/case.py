@@ -1,4 +1,4 @@
-"""Commands on one case: `run`, `floquet`, `modes` and `compile`.
+"""Commands on one case: `run`, `floquet`, `sliding`, `modes` and `compile`.
 
 Their options are made from the fields of pydantic models: `Parameters`, and those of the commands below. Values are
 passed on as text, so that the same rules and messages apply as everywhere else.
@@ -233,6 +233,27 @@ def floquet(p: Parameters, choice: ModeChoice | None, options: FloquetOptions) -
     print_rows([*lines, ("steady sliding", sliding)])
     if not exists:
         raise typer.Exit(1)
+
+
+@command(Strict)
+def sliding(p: Parameters, choice: ModeChoice | None, _: Strict) -> None:
+    """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates, damping."""
+    from disc_model.stability.sliding import SlidingStatus, sliding_modes, steady_sliding
+
+    state = steady_sliding(p)
+    print_rows([*case_lines(p, choice), ("status", state.message)])
+    if state.status is not SlidingStatus.OK:
+        raise typer.Exit(1)
+    print_rows([("growth rate", f"{state.growth_rate:.6g} 1/s"), ("unstable modes", f"{state.unstable_modes}")])
+    modes = sliding_modes(p, state)
+    rows = [
+        (f"{f:.4f}", f"{rate:.6g}", f"{xi:.3g}", "in the plane" if l < 0 else f"{l}", f"{wave:.2f}" if l > 0 else "")
+        for f, rate, xi, l, wave in zip(
+            modes.frequency, modes.growth_rate, modes.damping_ratio, modes.diameters, modes.forward, strict=True
+        )
+    ]
+    heads = ("f (Hz)", "growth (1/s)", "xi", "nodal diameters", "forward wave")
+    table("Modes in the slider's frame", heads, rows, justify="right")
 
 
 def compile_() -> None:

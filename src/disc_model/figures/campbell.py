@@ -130,7 +130,8 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
 _TURN = r"$f_\Omega$"
 
 
-def _colour(l: int) -> str:
+def colour_of(l: int) -> str:
+    """Colour of modes with so many nodal diameters; -1: in the plane."""
     return SLIDER if l < 0 else COLOURS[l % len(COLOURS)]
 
 
@@ -149,10 +150,10 @@ def _parts(study: xr.Dataset, name: str) -> list[tuple[int, np.ndarray]]:
 def _frequencies(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "sliding_frequency"):
-        ax.plot(speeds, values, color=_colour(l), linewidth=0.9)
+        ax.plot(speeds, values, color=colour_of(l), linewidth=0.9)
     thin = slice(None, None, max(1, len(speeds) // 40))
     for l, values in _parts(study, "cycle_frequency"):
-        ax.plot(speeds[thin], values[thin], ".", color=_colour(l), markersize=2.5)
+        ax.plot(speeds[thin], values[thin], ".", color=colour_of(l), markersize=2.5)
     highest = 1.06 * float(study["sliding_frequency"].max())
     ax.set_ylim(0, highest)
     _multiples(ax, speeds, study["stick_slip_frequency"].values, highest)
@@ -194,7 +195,7 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
     speeds = study["Omega"].values
     for l, values in _parts(study, "cycle_growth_rate"):
         # so large a step leads to another cycle
-        ax.plot(*drawing.broken(speeds, values, LINEAR), ".-", color=_colour(l), linewidth=0.8, markersize=1.6)
+        ax.plot(*drawing.broken(speeds, values, LINEAR), ".-", color=colour_of(l), linewidth=0.8, markersize=1.6)
     ax.axhline(0, color=BLACK, linewidth=0.5)
     ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
     low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
@@ -236,7 +237,7 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
 def _handles(study: xr.Dataset) -> list[Line2D]:
     shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
     return [
-        *(drawing.sample(color=_colour(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
+        *(drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
         drawing.sample(marker=".", label="stick-slip cycle, in (a)", **DOT),
         drawing.sample(color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
         drawing.sample(marker="o", label="crossing", **RING),

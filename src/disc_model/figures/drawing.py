@@ -174,9 +174,10 @@ def outline(width: float, colour: str) -> list[AbstractPathEffect]:
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
-    if variable.name in SHOWN:
-        return axis_of(str(variable.name))
     words = str(variable.attrs.get("long_name", variable.name))
+    for name in (str(variable.name), words):  # a scanned parameter is the long name of its dimension
+        if name in SHOWN:
+            return axis_of(name)
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
     phrase = fill(words[0].upper() + words[1:], 48)
     return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0

@@ -25,6 +25,8 @@ HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": G
 """Look of missing values."""
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
+FEW = 12
+"""Counts below which each has a colour of its own."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 
@@ -153,6 +155,7 @@ class HeatMap(General):
 
         Growth rates have the colours of all growth maps; variables of both signs are centred on 0.
         """
+        from cmcrameri import cm
         from matplotlib.colors import ListedColormap
         from matplotlib.patches import Patch
 
@@ -168,6 +171,9 @@ class HeatMap(General):
             handles = _growth(figure, axes, study, self, by)
         else:
             words, colours = drawing.flags_of(found), _colours(found, self)
+            if found.dtype.kind == "i" and not words and found.max() < FEW:  # a count
+                words = [str(count) for count in range(int(found.max()) + 1)]
+                colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
             for ax, (_, panel) in zip(axes, shown, strict=True):
                 ax.patch.set(linewidth=0, **HATCH)
                 mesh = _cells(ax, panel, self, **colours)

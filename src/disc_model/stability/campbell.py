@@ -10,7 +10,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from disc_model.data.variables import CycleStatus
@@ -20,7 +19,7 @@ from disc_model.progress import compiling
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import FloquetResult, floquet
 from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
-from disc_model.stability.sliding import SteadySliding, split_rows
+from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,19 +29,14 @@ class Frequencies:
     Attributes
     ----------
     cycle : the stick-slip cycle of the case
-    frequency, growth_rate : Hz, 1/s, shape (n,), of steady sliding; eigenvalues without oscillation are left out
-    diameters : nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
-    forward : share of these modes' energy in waves that travel with the slider, which it sees at f - l Omega / 2 pi
+    modes : of steady sliding, by ascending frequency
     cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers matched to each mode, the larger growth rate
         of two; nan without a cycle, and for the slider's in-plane motion, which stick resets
     mac : (n,), modal assurance criterion between the shapes of the mode and of its multiplier
     """
 
     cycle: FloquetResult
-    frequency: Array
-    growth_rate: Array
-    diameters: NDArray[np.int64]
-    forward: Array
+    modes: SlidingModes
     cycle_frequency: Array
     cycle_growth_rate: Array
     mac: Array
@@ -52,43 +46,14 @@ class Frequencies:
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     """Frequencies of steady sliding and of the stick-slip cycle near the static start; empty without steady sliding."""
     cycle = floquet(p, tol=tol)
-    frequency, growth_rate, diameters, forward, shapes = _sliding_modes(p, cycle.sliding)
-    found = np.full((3, len(frequency)), math.nan)
-    if cycle.status is CycleStatus.OK and len(frequency):
-        disc = diameters >= 0
-        found[:, disc] = _of_cycle(p, cycle, frequency[disc], shapes[:, disc], tol)
-    return Frequencies(cycle, frequency, growth_rate, diameters, forward, *found)
-
-
-def _sliding_modes(
-    p: Parameters, sliding: SteadySliding
-) -> tuple[Array, Array, NDArray[np.int64], Array, ComplexArray]:
-    """First fields of `Frequencies`, and shapes: rows of a, alpha, b, beta of all modes, u, u', shape (m, n)."""
-    if not len(sliding.eigenvalues):
-        nothing = np.zeros(0)
-        return nothing, nothing, np.zeros(0, np.int64), nothing, np.zeros((0, 0), complex)
-    values, vectors = np.linalg.eig(sliding.jacobian)
-    order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
-    values, vectors = values[order], vectors[:, order]
-    modes = mode_arrays(p)
-    l, omega = modes.diameters, modes.omega[:, None]
-    (a, alpha, b, beta), (psi, f), height = split_rows(modes, vectors)
-    u = height if len(height) else np.zeros((2, len(order)))
-    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
-    by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
-    diameters = by_l.argmax(axis=0)
-    of_l = l[:, None] == diameters
-    # a + i b and a - i b are the waves that travel in opposite directions
-    waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
-    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
-    diameters = np.where(in_plane > energy.sum(axis=0), -1, diameters)
-    return (
-        values.imag / (2 * math.pi),
-        np.asarray(values.real, dtype=float),
-        diameters.astype(np.int64),
-        np.asarray(waves[0] / (waves[0] + waves[1]), dtype=float),
-        np.vstack([a, alpha, b, beta, u]),
-    )
+    modes = sliding_modes(p, cycle.sliding)
+    found = np.full((3, len(modes.frequency)), math.nan)
+    if cycle.status is CycleStatus.OK and len(modes.frequency):
+        disc = modes.diameters >= 0
+        disc_rows, _, height = split_rows(mode_arrays(p), modes.shapes[:, disc])
+        shapes = np.vstack([*disc_rows, height if len(height) else np.zeros((2, disc.sum()))])
+        found[:, disc] = _of_cycle(p, cycle, modes.frequency[disc], shapes, tol)
+    return Frequencies(cycle, modes, *found)
 
 
 def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:

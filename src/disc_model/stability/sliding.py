@@ -1,6 +1,7 @@
 """Steady sliding: the slider rests in space, f = Omega, and the disc stands still in the slider's frame.
 
-The module computes the equilibrium of the equations of slip (docs/model.md, Slip) and its stability.  With
+The module computes the equilibrium of the equations of slip (docs/model.md, Slip), its stability, and its modes, which
+brake engineers call complex eigenvalues.  With
 d = 2 xi omega the disc's response to the force P that rotates over it is
 
     b_l = d l Omega a_l / (l^2 Omega^2 - omega^2),
@@ -9,13 +10,15 @@ d = 2 xi omega the disc's response to the force P that rotates over it is
 so that w = chi P.  With V for the vertical force, C for the contact's compliance and u = w - C V,
 V = (N - k u_0) / (1 - k chi + k C); under the normal force, with beta = B / r_0, R = V / (1 - mu_k beta) and
 r_0 F = (mu_k + beta) R.
+
+Modes are followed over a parameter by the modal assurance criterion (MAC), the squared cosine of their shapes.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +29,7 @@ from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import engine_case
-from disc_model.stability.return_map import Array, case_faults
+from disc_model.stability.return_map import Array, ComplexArray, case_faults
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -83,6 +86,16 @@ class SteadySliding:
     def stable(self) -> bool:
         """Whether small disturbances decay: the growth rate is negative."""
         return self.growth_rate < 0
+
+    @property
+    def unstable_modes(self) -> int:
+        """Number of modes that grow: eigenvalues of positive real part, a conjugate pair counting once."""
+        growing = self.eigenvalues[self.eigenvalues.real > ROUNDING]
+        return int(np.sum(growing.imag >= 0))
+
+
+ROUNDING = 1e-9
+"""1/s; real parts of undamped modes are below 1e-11 by rounding."""
 
 
 def steady_sliding(p: Parameters) -> SteadySliding:
@@ -176,3 +189,126 @@ def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: 
     a, alpha, b, beta = disc
     pairs = modes.diameters > 0
     return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])
+
+
+# ----------------------------------------------------------------------------------------------------
+# Modes
+
+
+@dataclass(frozen=True, eq=False)
+class SlidingModes:
+    """Oscillating modes of steady sliding; eigenvalues without oscillation are left out.
+
+    Attributes
+    ----------
+    frequency, growth_rate : Hz, 1/s, shape (n,), in the slider's frame
+    damping_ratio : (n,), negative for a mode that grows
+    diameters : (n,), nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
+    forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
+    shapes : (rows of `SteadySliding.jacobian`, n)
+    """
+
+    frequency: Array
+    growth_rate: Array
+    damping_ratio: Array
+    diameters: NDArray[np.int64]
+    forward: Array
+    shapes: ComplexArray = field(repr=False)
+
+
+def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
+    """Modes of steady sliding by ascending frequency; none without steady sliding, which is computed if not given."""
+    sliding = steady_sliding(p) if sliding is None else sliding
+    values, vectors = np.linalg.eig(sliding.jacobian)
+    order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
+    values, vectors = values[order], np.asarray(vectors[:, order], dtype=complex)
+    if not order:
+        nothing = np.zeros(0)
+        return SlidingModes(nothing, nothing, nothing, np.zeros(0, np.int64), nothing, vectors)
+    modes = mode_arrays(p)
+    l, omega = modes.diameters, modes.omega[:, None]
+    (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
+    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
+    by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
+    diameters = by_l.argmax(axis=0)
+    of_l = l[:, None] == diameters
+    # a + i b and a - i b are the waves that travel in opposite directions
+    waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
+    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    with np.errstate(invalid="ignore"):  # a mode without the disc has no waves
+        forward = np.asarray(waves[0] / (waves[0] + waves[1]), dtype=float)
+    return SlidingModes(
+        values.imag / (2 * math.pi),
+        np.asarray(values.real, dtype=float),
+        np.asarray(-values.real / np.abs(values), dtype=float),
+        np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
+        forward,
+        vectors,
+    )
+
+
+ALIKE = 0.9
+"""Least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times."""
+HALVINGS = 6
+
+
+class FollowedModes(NamedTuple):
+    """Steady sliding of a case and its modes by frequency; their numbers, and their likeness (MAC) to the modes of the
+    case before that have them, nan for new ones, both (n,).
+    """
+
+    sliding: SteadySliding
+    modes: SlidingModes
+    numbers: NDArray[np.int64]
+    mac: Array
+
+
+def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
+    """Steady sliding and its modes along cases that differ in numbers.
+
+    Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that appear later have the
+    next ones. Between two cases as many are computed as it takes to tell which mode is which.
+    """
+    followed: list[FollowedModes] = []
+    shapes: list[ComplexArray] = []  # the last one of each number
+    for before, p in zip([None, *cases], cases, strict=False):
+        sliding = steady_sliding(p)
+        modes = sliding_modes(p, sliding)
+        followed.append(FollowedModes(sliding, modes, *_numbered(shapes, before, p, modes, HALVINGS)))
+    return followed
+
+
+def _numbered(
+    shapes: list[ComplexArray], before: Parameters | None, p: Parameters, modes: SlidingModes, halvings: int
+) -> tuple[NDArray[np.int64], Array]:
+    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this case."""
+    from scipy.optimize import linear_sum_assignment  # steady sliding alone does without
+
+    if not len(modes.frequency):
+        return np.zeros(0, np.int64), np.zeros(0)
+    scaled = np.sqrt(_energy_weights(p))[:, None] * modes.shapes
+    scaled = scaled / np.linalg.norm(scaled, axis=0)
+    mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
+    numbers, places = linear_sum_assignment(-mac)
+    if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
+        values, ends = dict(before), dict(p)
+        changed = [name for name, value in values.items() if isinstance(value, float) and value != ends[name]]
+        between = p.replace(**{name: (values[name] + ends[name]) / 2 for name in changed})
+        if changed and len((half := sliding_modes(between)).frequency):
+            _numbered(shapes, before, between, half, halvings - 1)
+            return _numbered(shapes, between, p, modes, halvings - 1)
+    own, likeness = np.full(len(modes.frequency), -1), np.full(len(modes.frequency), math.nan)
+    own[places], likeness[places] = numbers, mac[numbers, places]
+    own[own < 0] = len(shapes) + np.arange(np.sum(own < 0))
+    for number, shape in sorted(zip(own, scaled.T, strict=True), key=lambda one: one[0]):
+        shapes[number : number + 1] = [shape]
+    return own, likeness
+
+
+def _energy_weights(p: Parameters) -> Array:
+    """Weights of squared rows of the Jacobian in the energy of a motion."""
+    modes, compliance = mode_arrays(p), contact_compliance(p)
+    stiffness, one = modes.omega**2, np.ones(len(modes.omega))
+    slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
+    height = [p.k + 1 / compliance, p.m] if compliance else []
+    return np.asarray(join_rows(modes, (stiffness, one, stiffness, one), slider, height), np.float64)

@@ -32,7 +32,7 @@ def test_a_crossing_is_where_root_finding_says() -> None:
 
         def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
             there = frequencies(Parameters(Omega=speed, **base))
-            own = there.cycle_frequency if np.isfinite(there.cycle_frequency[mode]) else there.frequency
+            own = there.cycle_frequency if np.isfinite(there.cycle_frequency[mode]) else there.modes.frequency
             return multiple / there.cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])

@@ -1,0 +1,82 @@
+"""Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along one parameter."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.data.variables import Variable
+from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity
+from disc_model.studies.ranges import Range
+from disc_model.units import Count, Unit
+
+_ONE, _EACH = ("value",), ("value", "mode")
+
+
+class Sliding(Quantity):
+    """Modes of steady sliding along one parameter, each keeping its number.
+
+    parameter : the one that varies; mu_s rises with mu_k where that is larger
+    scan : its values
+    modes : room for that many, numbered by frequency at the first value
+    """
+
+    parameter: Free | Literal["mu_k"] = "Omega"
+    scan: Annotated[Range, Unit(of="parameter")]
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
+
+    scans: ClassVar = ("parameter",)
+    COLUMNS: ClassVar = {
+        "status": STATUS,
+        "unstable_modes": Variable("1", "number of unstable modes", dims=_ONE, whole=True),
+        "largest_growth_rate": Variable("s-1", "largest growth rate of steady sliding", dims=_ONE),
+        "contact_force": Variable("N", "contact force of steady sliding", dims=_ONE),
+        "frequency": Variable("Hz", "frequency of the mode in the slider's frame", dims=_EACH),
+        "mode_growth_rate": Variable("s-1", "growth rate of the mode", dims=_EACH),
+        "damping_ratio": Variable("1", "damping ratio of the mode", dims=_EACH),
+        "diameters": Variable("1", "nodal diameters of most energy, -1 in the plane", dims=_EACH, whole=True),
+        "forward_wave_fraction": Variable("1", "share of energy in waves that travel with the slider", dims=_EACH),
+        "mac": Variable("1", "likeness to the mode at the value before: squared cosine of the shapes", dims=_EACH),
+    }
+    COORDINATES: ClassVar = {
+        "value": Coordinate("", "{0.parameter}", lambda o: o.scan.values),
+        "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)),
+    }
+
+    @property
+    def seconds(self) -> float:
+        return 3e-3 * (self.scan.intervals + 1)
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        """Follow the modes along the scan; the point's own value of the parameter is not used."""
+        from disc_model.stability.sliding import SlidingStatus, follow_modes
+
+        p, values = point.parameters, self.scan.values
+        least = {"mu_s": max(p.mu_s, values[-1])} if self.parameter == "mu_k" else {}
+        followed = follow_modes([p.replace(**{self.parameter: value}, **least) for value in values])
+        shape = len(values), self.modes
+        columns = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims == _EACH}
+        for i, (_, modes, numbers, mac) in enumerate(followed):
+            room = numbers < self.modes
+            found = {
+                "frequency": modes.frequency, "mode_growth_rate": modes.growth_rate, "mac": mac,
+                "damping_ratio": modes.damping_ratio, "diameters": modes.diameters,
+                "forward_wave_fraction": modes.forward,
+            }  # fmt: skip
+            for name, column in found.items():
+                columns[name][i, numbers[room]] = column[room]
+        states = [sliding for sliding, *_ in followed]
+        absent = [
+            f"{self.parameter}={value:g}: {sliding.message}"
+            for value, sliding in zip(values, states, strict=True)
+            if sliding.status is not SlidingStatus.OK
+        ]
+        more = {
+            "status": "ok",
+            "unstable_modes": np.array([sliding.unstable_modes for sliding in states]),
+            "largest_growth_rate": np.array([sliding.growth_rate for sliding in states]),
+            "contact_force": np.array([sliding.contact_force for sliding in states]),
+        }
+        return columns | more, absent[0] if absent else ""

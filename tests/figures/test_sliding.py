@@ -1,0 +1,66 @@
+"""Complex eigenvalues: lines of modes, root loci, and linear analysis beside the motion."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.data.variables import OUTCOMES_TO_HORIZON
+from disc_model.figures.kind import kind_of
+from disc_model.figures.sliding import AGREEMENTS, agreement, common_points
+from disc_model.studies.study import StudyError, parse_study
+from tests.studies.conftest import SMALL, computed
+
+SCAN = {"start": 0, "stop": 0.4, "count": 5}
+
+
+@pytest.fixture(scope="module")
+def over_mu() -> xr.Dataset:
+    options = {"parameter": "mu_k", "scan": SCAN}
+    return computed(quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200]})
+
+
+@pytest.mark.parametrize("kind", ["sliding_modes", "root_locus"])
+def test_modes_are_drawn_along_the_parameter(kind: str, over_mu: xr.Dataset) -> None:
+    figure = kind_of(kind)(kind=kind).render({"study": xr.DataTree(over_mu)})
+    axes = figure.axes[0] if kind == "root_locus" else figure.axes[1]
+    shown = axes.collections if kind == "root_locus" else axes.lines
+    assert len(shown) >= 4
+    assert "Kinetic friction $μ_k$" in [label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())]
+
+
+def test_linear_analysis_beside_the_motion() -> None:
+    """Each word of the figure, and what no word describes."""
+    rate = np.array([-1.0, -1, -1, 1, 1, 1, 1, np.nan])
+    outcome = np.array(["quiet", "other_cycle", "separation", "at_rest", "growing", "separation", "undecided", "quiet"])
+    words = agreement(rate, outcome)
+    assert [*words[:6]] == [*AGREEMENTS][:6]
+    assert [*words[6:]] == ["unknown"] * 2
+
+
+def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
+    sliding = computed(
+        quantity="sliding",
+        options={"parameter": "c_p", "scan": SCAN},
+        base={"Omega": 20, **SMALL},
+        axes={"N": [200, 400]},
+    )
+    flags = {"flag_meanings": " ".join(OUTCOMES_TO_HORIZON)}
+    values = {"N": [200.0, 300, 400], "c_p": np.linspace(0, 0.4, 9)}
+    outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))
+    plane = xr.Dataset({"outcome": (("N", "c_p"), outcome, flags)}, values, sliding.attrs)
+    shared, other = common_points(plane, sliding.rename(value="c_p"), ("N", "c_p"))
+    assert dict(shared.sizes) == {"N": 2, "c_p": 5}
+    assert other.sizes["c_p"] == 5
+    plot = kind_of("sliding_outcome")(x="c_p", y="N", overlays={"sliding": "s"})
+    figure = plot.render({"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
+    growing = float((sliding["largest_growth_rate"] > 0).mean())
+    texts = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert f"{AGREEMENTS['unstable_separates'].label} ({growing:.0%})" in texts
+
+
+def test_the_comparison_needs_steady_sliding() -> None:
+    axes = {"N": [1, 2], "Omega": [1, 2]}
+    figure = {"kind": "sliding_outcome", "x": "Omega", "y": "N"}
+    raw = {"study": "plane", "quantity": "outcome", "options": {"horizon": 10}, "axes": axes, "figures": {"f": figure}}
+    with pytest.raises(StudyError, match=r"overlays\.sliding: is required"):
+        parse_study(raw)
