@@ -1,5 +1,7 @@
 """Short problems for rival methods, from states in which every term of the equations counts."""
 
+import math
+
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels
 from disc_model.benchmarks.methods.base import Problem
@@ -15,7 +17,7 @@ def task(phase="slip", direction=1, span=1e-4, p=P):
     return Problem(p, lively(phase, direction, p), span)
 
 
-def judge(name, scene, value, budget=30.0):
+def judge(name, scene, value, budget=math.inf):
     """What a method finds of a scene, and how far off it is."""
     result = METHODS[name].solve(scenes.problem(scene), value, budget)
     return result, scenes.errors(scenes.problem(scene), scenes.answer(scene), result)
