@@ -7,7 +7,6 @@ import enum
 import logging
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
-from importlib import import_module
 from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
@@ -34,21 +33,6 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
         except KeyboardInterrupt:
             raise SystemExit("interrupted") from None
     return main
-
-
-def drawn(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, which is above all that it draws.
-
-    It is imported by its name, so that no result depends on how it is drawn.  Raises ModuleNotFoundError without
-    matplotlib; the message names the extra that brings it.
-    """
-    try:
-        return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
-    except ModuleNotFoundError as error:
-        if str(error.name).startswith("disc_model"):
-            raise
-        text = f"pictures need {error.name}: pip install 'disc_model[plot]' brings it"
-        raise ModuleNotFoundError(text, name=error.name) from None
 
 
 class Fault(str):

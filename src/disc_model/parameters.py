@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_a
 
 from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, field_validator, model_validator
 
+from disc_model.display import html_table
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.units import (
     UNITS,
@@ -306,7 +307,7 @@ class Parameters(Checked):
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
-        rows = [("symbol", "value", "unit", "meaning")]
+        rows = []
         for name, field in type(self).model_fields.items():
             if (value := getattr(self, name)) is not None:
                 text = (
@@ -317,7 +318,7 @@ class Parameters(Checked):
                     else value
                 )
                 rows.append((name, text, self.unit(name).removeprefix("1"), str(field.description)))
-        return f"<table>{''.join('<tr><td>' + '</td><td>'.join(row) + '</td></tr>' for row in rows)}</table>"
+        return html_table(("symbol", "value", "unit", "meaning"), rows)
 
     @property
     def D(self) -> float:

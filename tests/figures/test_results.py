@@ -79,18 +79,18 @@ def test_a_window_that_is_not_there_is_named() -> None:
 
 
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
-    from disc_model.figures.results import plot_branch, plot_eigenvalues, plot_multipliers
     from disc_model.stability.continuation import continue_cycle
 
     cycle = dm.floquet(P.replace(Omega=15))
-    ax = plot_multipliers(cycle)
-    assert "stable, growth rate -0.105/s" in ax.get_title(loc="left")
+    assert "stable, growth rate -0.105/s" in cycle.plot().get_title(loc="left")
     sliding = dm.steady_sliding(P)
-    ax = plot_eigenvalues(sliding, P)
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
-    assert [text.get_text() for text in ax.texts[: len(unstable)]] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
-    ax = plot_branch(continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2)), "growth_rate")
-    assert "fold 15.095" in [text.get_text() for text in ax.texts]
+    named = [text.get_text() for text in sliding.plot().texts]
+    assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
+    branch = continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    assert "fold 15.095" in [text.get_text() for text in branch.plot().texts]
+    for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (branch, "15.0949"), (P, "15.1")):
+        assert text in shown._repr_html_()
 
 
 def test_modes_are_drawn_with_their_nodal_lines() -> None:

@@ -120,7 +120,6 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
 @by_itself
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
     """Draw the multipliers of a cycle in the complex plane, and the unit circle."""
-    cycle.raise_for_status()
     [axes] = axes_for(ax, COLUMN, 3.2)
     angle = np.linspace(0, 2 * np.pi, 200)
     axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=0.8)
@@ -142,7 +141,7 @@ def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
 
 
 @by_itself
-def plot_eigenvalues(sliding: SteadySliding, p: Parameters | None, ax: Any = None) -> Axes:
+def plot_eigenvalues(sliding: SteadySliding, ax: Any = None) -> Axes:
     """Draw frequency over growth rate of the eigenvalues of steady sliding; unstable ones with their frequency."""
     if not sliding.eigenvalues.size:
         raise ParameterError(Fault(("status",), sliding.status.value, f"there are no eigenvalues: {sliding.message}"))
@@ -161,8 +160,7 @@ def plot_eigenvalues(sliding: SteadySliding, p: Parameters | None, ax: Any = Non
     axes.margins(y=0.08)
     for x, name in ((0.02, "decays"), (0.98, "grows")):
         axes.text(x, 1.02, name, transform=axes.transAxes, ha="left" if x < 0.5 else "right", fontsize=7, color=GREY)
-    if p is not None:
-        _title(axes, p, "steady sliding", ours=ax is None)
+    axes.set_title("Steady sliding", loc="center")
     return axes
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.errors import drawn
+from disc_model.display import draw
 from disc_model.simulation.case import Poincare, Window
 
 if TYPE_CHECKING:
@@ -65,15 +65,15 @@ class Pictures:
         """
         if windows is not None:
             names = [windows] if isinstance(windows, str) else list(windows)
-            return drawn("plot_run", self._case(), names, variables, ax=ax)
+            return draw("plot_run", self._case(), names, variables, ax=ax)
         names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
-        return drawn("plot_run", self._case(*names), names, variables, ax=ax)
+        return draw("plot_run", self._case(*names), names, variables, ax=ax)
 
     def plot_phase_portrait(
         self, window: str | None = None, *, x: str = "psi", y: str = "psi_velocity", ax: Axes | None = None
     ) -> Axes:
         """Draw one variable over another, coloured by phase; of the last cycles if no window is named."""
-        return drawn("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
+        return draw("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
 
     def plot_spectrum(
         self, window: str | None = None, *, variable: str = "w_point", highest: float = 1000.0, ax: Axes | None = None
@@ -82,11 +82,11 @@ class Pictures:
 
         Without a named window it is that of the last 8 s, or of the second half of a shorter run.
         """
-        return drawn("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
+        return draw("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
 
     def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
         """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes."""
-        return drawn("plot_poincare", self._case("poincare"), ax=ax)
+        return draw("plot_poincare", self._case("poincare"), ax=ax)
 
     def animate(
         self, path: str | Path | None = None, *, window: str | None = None, frames: int = 60, fps: int = 12
@@ -104,13 +104,13 @@ class Pictures:
         matplotlib.animation.FuncAnimation
         """
         case, name = self._of(window, "end")
-        samples = drawn("window_of", case, name)
+        samples = draw("window_of", case, name)
         result: Any = self
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
         states = import_module("disc_model.simulation.deflection").snapshots(
             result.parameters, times, tol=result.tol, initial_state=result.initial_state
         )
-        return drawn("animate", result.parameters, states, samples, path, fps)
+        return draw("animate", result.parameters, states, samples, path, fps)
 
     def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
         return (self._case(otherwise), otherwise) if window is None else (self._case(), window)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model import errors
-from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS
+from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
+from disc_model.display import Summarised, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Parameters
@@ -38,7 +39,7 @@ STATUS_OF = {error: status for status, error in _ERRORS.items()}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Pictures):
+class Result(Summarised, Pictures):
     """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes
@@ -232,6 +233,17 @@ class Result(Pictures):
         events = self.statistics["events"]
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        s, reached = self.statistics, float(self.final_state.time)
+        yield "case", values_text(dict(self.parameters))
+        yield "status", self.status.value
+        yield "time reached", number_text(reached, "s", 9)
+        yield "first separation", number_text(self.first_separation, "s", 9) or "none"
+        yield "separations", f"{s['separations']} of {s['events']} events"
+        for phase in PHASES:
+            yield f"time in {phase}", number_text(s[f"time_{phase}"], "s")
+        yield "windows", ", ".join(self.samples)
 
     def raise_for_status(self) -> Result:
         """Return self if the run is complete; otherwise raise its `SimulationError`."""

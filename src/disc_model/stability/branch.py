@@ -5,14 +5,17 @@ the free parameters; the Jacobian of F by both comes from the variational equati
 norm of the static deflection, with the parameters, over their scales.
 """
 
+from __future__ import annotations
+
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.display import Summarised, draw
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State, is_finite_array
@@ -29,6 +32,9 @@ from disc_model.stability.return_map import (
     rounding,
 )
 from disc_model.units import is_number, is_whole
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # ----------------------------------------------------------------------------------------------------
 # The equation
@@ -170,7 +176,7 @@ def default_scale(p: Parameters, name: str) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Branch:
+class Branch(Summarised):
     """Cycles along a curve.
 
     Attributes
@@ -199,6 +205,28 @@ class Branch:
 
     def __len__(self) -> int:
         return len(self.period)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        for name, values in zip(self.parameters, self.values.T, strict=True):
+            yield name, f"{values.min():.6g} to {values.max():.6g}"
+        yield "cycles", f"{len(self)}, {int((self.growth_rate < 0).sum())} of them stable"
+        yield "folds", ", ".join(f"{fold:.6g}" for fold in np.ravel(self.folds))
+        yield "ended", self.ended
+
+    def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
+        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is stable.
+
+        A branch in two parameters is drawn as the second over the first.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> from disc_model.stability.continuation import continue_cycle
+        >>> continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
+        'Period (ms)'
+        """
+        axes: Axes = draw("plot_branch", self, y, ax=ax)
+        return axes
 
     def bifurcation_types(self) -> list[str]:
         """Bifurcation that the leading multiplier of each point indicates."""

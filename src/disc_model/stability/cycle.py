@@ -6,12 +6,15 @@ Two multipliers of the full system are left out: 1, along the orbit, and 0, of f
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from disc_model.data.variables import CycleStatus
+from disc_model.data.variables import CycleStatus, values_text
+from disc_model.display import Summarised, draw, number_text
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.progress import compiling
@@ -33,6 +36,9 @@ from disc_model.stability.return_map import (
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 RETURNS_TRIED = (1, 2, 3)
 """Numbers of releases in a period of the cycles that are sought."""
 TRANSIENT = 60
@@ -44,7 +50,7 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult:
+class FloquetResult(Summarised):
     """The stick-slip cycle of a case.
 
     Attributes
@@ -87,6 +93,28 @@ class FloquetResult:
         p, found = self.parameters, self.status is CycleStatus.OK
         summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if found else self.status.value
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "case", values_text(dict(self.parameters))
+        yield "status", self.status.advice
+        yield "growth rate", number_text(self.growth_rate, "1/s")
+        yield "period", number_text(self.period, "s", 9)
+        yield "share of stick", number_text(self.stick_fraction, "", 3)
+        yield "releases, separations", f"{self.releases}, {self.separations}" if self.releases else ""
+        yield "leading multiplier", f"{self.multipliers[0]:.6g}" if self.multipliers.size else ""
+        yield "steady sliding", self.sliding.status.advice
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the multipliers in the complex plane, and the unit circle; raises `CycleError` without a cycle.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
+        'Re λ'
+        """
+        axes: Axes = draw("plot_multipliers", self.raise_for_status(), ax=ax)
+        return axes
 
     @cached_property
     def sliding(self) -> SteadySliding:

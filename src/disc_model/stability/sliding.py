@@ -14,22 +14,28 @@ r_0 F = (mu_k + beta) R.
 Modes are followed over a parameter by the modal assurance criterion (MAC), the squared cosine of their shapes.
 """
 
+from __future__ import annotations
+
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays
+from disc_model.display import Summarised, draw, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import Array, ComplexArray, case_faults
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -54,7 +60,7 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False)
-class SteadySliding:
+class SteadySliding(Summarised):
     """The sliding equilibrium.
 
     Attributes
@@ -81,6 +87,26 @@ class SteadySliding:
     eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "status", self.status.advice
+        yield "contact force", number_text(self.contact_force, "N")
+        yield "angle psi", number_text(self.psi, "rad")
+        yield "growth rate", number_text(self.growth_rate, "1/s")
+        grows = self.eigenvalues[(self.eigenvalues.real > 0) & (self.eigenvalues.imag >= 0)]
+        yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in grows)
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the eigenvalues, frequency over growth rate; raises `ParameterError` if there are none.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.steady_sliding(dm.Parameters(N=385, Omega=15.1)).plot().get_ylabel()
+        'Frequency (Hz)'
+        """
+        axes: Axes = draw("plot_eigenvalues", self, ax=ax)
+        return axes
 
     @property
     def stable(self) -> bool:
