@@ -82,7 +82,7 @@ drawings: env
 
 # What editors check study files by, from the models that check them.
 schema: env
-	$(BIN)/python -m disc_model.studies.document > workflow/schemas/study.schema.json
+	$(BIN)/python workflow/schemas/write_schema.py > workflow/schemas/study.schema.json
 
 # All quick tests; each part says what it found when it is done.
 test: env

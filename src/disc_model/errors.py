@@ -198,11 +198,11 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
     """Path of a fault in the input: the steps of pydantic's path that the input has, so not a union's branches."""
-    path, here = list[str](), raw
+    path, part = list[str](), raw
     for step in item["loc"]:
-        if step in (here if isinstance(here, Mapping) else range(len(here)) if isinstance(here, list | tuple) else ()):
+        if step in (part if isinstance(part, Mapping) else range(len(part)) if isinstance(part, list | tuple) else ()):
             path.append(str(step))
-            here = here[step]
+            part = part[step]
     return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
 
 

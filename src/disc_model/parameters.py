@@ -42,8 +42,8 @@ RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
 """Parameters of the plate, which have no meaning for a disc that is given by its modes."""
 RATIOS = {
-    f"{one}_over_{other}": (one, other)
-    for one, other in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
+    f"{upper}_over_{lower}": (upper, lower)
+    for upper, lower in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
 }
 """Ratios of two parameters, which a grid may vary instead of the first one."""
 MOST_MODES = 1000

@@ -8,8 +8,8 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
+from workflow.schemas.write_schema import schema_text
 
-from disc_model.studies.document import schema_text
 from disc_model.studies.study import load_study, parse_study
 from tests.studies.test_faults import STUDIES
 

@@ -137,8 +137,8 @@ def zero_one(values: Array) -> float:
     n, n_cut = signal.size, max(2, signal.size // 10)
     steps = np.arange(1, n_cut + 1)
     drawn = np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101)
-    found = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
-    return float(np.median(found))
+    growths = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
+    return float(np.median(growths))
 
 
 def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
@@ -200,12 +200,12 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
     if not len(starts):
         raise ValueError("no separation")
-    found = []
+    measured = []
     for i in starts:
         cycle, ahead = height[max(0, i - half) : i + half + 1], height[i : i + half + 1]
         swing = float(np.ptp(cycle)) or 1.0
-        found.append(((height[i] - cycle.min()) / swing, (height[i] - ahead.min()) / swing, velocity[i]))
-    where, drop, moving = np.median(found, axis=0).tolist()
+        measured.append(((height[i] - cycle.min()) / swing, (height[i] - ahead.min()) / swing, velocity[i]))
+    where, drop, moving = np.median(measured, axis=0).tolist()
     if where <= bound:
         kind = "at the lowest position"
     elif where >= 1 - bound:

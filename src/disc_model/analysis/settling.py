@@ -77,8 +77,8 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
         return Settling()
 
     starts = np.searchsorted(t, np.linspace(t[0], t[-1], PARTS, endpoint=False))
-    found = [_drift(t[i:], x[i:], slowest, still) for i in starts]
-    return next((one for one in found if one.answer is Settled.SETTLED), found[0])
+    drifts = [_drift(t[i:], x[i:], slowest, still) for i in starts]
+    return next((drift for drift in drifts if drift.answer is Settled.SETTLED), drifts[0])
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:

@@ -66,10 +66,10 @@ def sobol_intervals(outputs: Array, seed: int = 0) -> Indices:
     chosen = rng.integers(n, size=(RESAMPLES, n))
     parts = [sobol_indices(outputs[chosen[i : i + AT_ONCE]]) for i in range(0, RESAMPLES, AT_ONCE)]
     tail, ends = (1 - CONFIDENCE) / 2, []
-    for found, own in zip(map(np.concatenate, zip(*parts, strict=True)), sobol_indices(outputs), strict=True):
-        varies = np.isfinite(found).any()  # resamples in which the outputs do not vary are left out
-        interval = np.nanquantile(found, (tail, 1 - tail), axis=0) if varies else np.full((2, d), np.nan)
-        ends += [own, *interval]
+    for index, point_value in zip(map(np.concatenate, zip(*parts, strict=True)), sobol_indices(outputs), strict=True):
+        varies = np.isfinite(index).any()  # resamples in which the outputs do not vary are left out
+        interval = np.nanquantile(index, (tail, 1 - tail), axis=0) if varies else np.full((2, d), np.nan)
+        ends += [point_value, *interval]
     return Indices(*ends)
 
 

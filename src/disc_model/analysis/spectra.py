@@ -114,10 +114,10 @@ def lines(
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if there is none."""
-    found = lines(time, values, above=near - within, below=near + within, floor=0.0)
-    if not found:
+    peaks = lines(time, values, above=near - within, below=near + within, floor=0.0)
+    if not peaks:
         raise ValueError(f"no line within {within:g} Hz of {near:g} Hz")
-    return max(found, key=lambda line: line.amplitude)
+    return max(peaks, key=lambda line: line.amplitude)
 
 
 def chance(time: Array, values: Array, line: Line, searched: float) -> float:

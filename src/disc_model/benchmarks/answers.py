@@ -118,9 +118,9 @@ def in_words(dataset: xr.Dataset) -> pd.DataFrame:
     """All rows, in the order in which they were measured; status, verdict and setting (``at``) in words."""
     frame = dataset.to_dataframe()
     counted = frame["varies"] == "diameters"
-    at = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
+    settings = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
           for count, kind, x in zip(counted, frame["varies"], frame["setting"], strict=True)]  # fmt: skip
-    return frame.assign(at=at, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
+    return frame.assign(at=settings, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
 
 
 def _row(answer: str, line: str, right: float, reply: Reply) -> Row:

@@ -46,13 +46,13 @@ def overview(dataset: xr.Dataset) -> Figure:
     """Cost against event-time error, a panel for each scene; the legend names the methods with a point in any."""
     scenes = dataset["scene"].values.tolist()
     figure, axes = _panels(len(scenes), "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
-    found: dict[str, list[Line2D]] = {}
+    handles_of: dict[str, list[Line2D]] = {}
     for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
-        found |= _cost_panel(ax, dataset.sel(scene=scene))
+        handles_of |= _cost_panel(ax, dataset.sel(scene=scene))
         drawing.letter(ax, letter, TITLES[scene])
     for ax in figure.axes[-2:]:  # the lower row
         ax.set_xlabel("Event-time error (s)")
-    handles = [handle for method in LINES for handle in found.get(method, ())]
+    handles = [handle for method in LINES for handle in handles_of.get(method, ())]
     figure.legend(handles=handles, loc="outside right center")
     return figure
 
@@ -119,7 +119,7 @@ def answers(dataset: xr.Dataset) -> Figure:
     Shaded: correct.  A method that wrongly reports no result has a hollow mark at the right edge. Errors below all
     others, exact zeros among them, stand at the left edge.
     """
-    enough = {name: own["enough"] for name, own in json.loads(dataset.attrs["questions"]).items()}
+    enough = {name: question["enough"] for name, question in json.loads(dataset.attrs["questions"]).items()}
     answers = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
     names = [name for name in ANSWERS if name in answers]
     figure, axes = _panels(len(names), "Time on one core (s)", columns=min(3, len(names)), row=2.1, more=0.7)
@@ -133,13 +133,13 @@ def answers(dataset: xr.Dataset) -> Figure:
         part = part.assign(error=part["error"].clip(lower=least))
         for line, points in part.groupby("line", sort=False):
             look = LINES[str(line)] | {"markersize": 4.0} | ({"marker": ""} if line in MODELS else {})
-            found = points[points["error"].notna()]
+            answered = points[points["error"].notna()]
             denied = points["seconds"][points["error"].isna() & (points["verdict"] == WRONG)].dropna()
-            ax.plot(found["error"], found["seconds"], linewidth=0.9, **look)
+            ax.plot(answered["error"], answered["seconds"], linewidth=0.9, **look)
             if len(denied) and line not in MODELS:
                 edge = {"transform": ax.get_yaxis_transform(), "linestyle": "", "markerfacecolor": "white"}
                 ax.plot(np.full(len(denied), 0.97), denied, **look | edge)
-            if len(found) or len(denied):
+            if len(answered) or len(denied):
                 handles[str(line)] = Line2D([], [], label=points["label"].iloc[0], **look)
         low, _ = ax.get_xlim()
         ax.axvspan(low, enough[name], color="#E4F1E4", zorder=0)
@@ -154,15 +154,15 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
     """Label models with their numbers of nodal diameters, the largest first; a dot where there is no room."""
     to_panel = ax.transScale + ax.transLimits
     numbered: list[np.ndarray] = []
-    for count, *at in points.sort_values("setting", ascending=False, kind="stable")[
+    for count, *point in points.sort_values("setting", ascending=False, kind="stable")[
         ["setting", "error", "seconds"]
     ].values:
-        place = np.asarray(to_panel.transform(at))
-        if any(np.abs(place - other).max() < 0.045 for other in numbered):  # of a panel's side
-            ax.plot(*at, ".", color=BLACK, markersize=2)
+        panel_point = np.asarray(to_panel.transform(point))
+        if any(np.abs(panel_point - other).max() < 0.045 for other in numbered):  # of a panel's side
+            ax.plot(*point, ".", color=BLACK, markersize=2)
         else:
-            numbered.append(place)
-            ax.annotate(f"{count:.0f}", (at[0], at[1]), ha="center", va="center", fontsize=6, path_effects=_HALO)
+            numbered.append(panel_point)
+            ax.annotate(f"{count:.0f}", (point[0], point[1]), ha="center", va="center", fontsize=6, path_effects=_HALO)
 
 
 def prices(dataset: xr.Dataset) -> Figure:
@@ -170,13 +170,13 @@ def prices(dataset: xr.Dataset) -> Figure:
 
     The setting stands below the time. The number in red counts settings that give a wrong answer without a warning.
     """
-    found = dataset.to_dataframe().query("line not in @MODELS")
+    answered = dataset.to_dataframe().query("line not in @MODELS")
     names = [name for name in HEADS if name in dataset["answer"].values]
-    labels = found.drop_duplicates("line")["label"]
-    lines = [*found["line"].unique()]
+    labels = answered.drop_duplicates("line")["label"]
+    lines = [*answered["line"].unique()]
     figure, [ax] = panels(PAGE, 0.9 + 0.4 * len(lines))
     colors = ScalarMappable(LogNorm(1e-3, 1e3), colormaps["YlGnBu"])
-    for (line, name), part in found.groupby(["line", "answer"], sort=False):
+    for (line, name), part in answered.groupby(["line", "answer"], sort=False):
         _price(ax, part, names.index(str(name)), lines.index(line), colors)
     ax.set_xticks(range(len(names)), [HEADS[name] for name in names], fontsize=7)
     ax.set_yticks(range(len(lines)), labels, fontsize=7)
@@ -199,10 +199,10 @@ def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMa
         texts = [(_seconds(best["seconds"]), 6.5, ink), (phrase, 6.0, ink)]
         texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
-    for place, (text, size, ink) in enumerate(texts):
-        at = row + 0.3 * (place - 0.5 * (len(texts) - 1))
+    for line, (text, size, ink) in enumerate(texts):
+        height = row + 0.3 * (line - 0.5 * (len(texts) - 1))
         halo = _HALO if ink == _RED else None
-        ax.text(column, at, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
+        ax.text(column, height, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
 
 
 def _seconds(value: float) -> str:
@@ -239,8 +239,8 @@ def _map_panels(
     """
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
     shades = np.array([to_rgb(shade) for _, shade in verdicts.values()])
-    for ax, one, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
-        dataset = one.sortby("value")
+    for ax, dataset_of_map, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
+        dataset = dataset_of_map.sortby("value")
         edges, rows = _log_edges(dataset["value"].values), np.arange(dataset.sizes["diameters"] + 1) - 0.5
         ax.pcolormesh(edges, rows, shades[dataset["verdict"].values])
         ax.set(xscale="log", xlim=(edges[-1], edges[0]))
@@ -275,11 +275,11 @@ def _borders(dataset: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
 
 def _crossing(dataset: xr.Dataset) -> np.ndarray:
     """Coarsest setting per row whose steps are no longer than the shortest phase; beyond the axis without one."""
-    value, found = dataset["value"].values, []
+    value, crossings = dataset["value"].values, []
     for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
         fine = np.flatnonzero(row <= shortest)
-        found.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
-    return np.array(found)
+        crossings.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
+    return np.array(crossings)
 
 
 def _log_edges(values: np.ndarray) -> np.ndarray:
@@ -321,13 +321,13 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     for line, (color, _), _ in lines:
         behind = line["late"].values
         arrow: dict[str, Any] = {"markersize": 3, "alpha": 0.7}
-        for name, there, height, mark, look in (
+        for name, extreme, height, mark, look in (
             ("late", behind > FAR, 0.98, "^", arrow),
             ("late", behind < -FAR, 0.02, "v", arrow),
             ("growth_rate", ~np.isfinite(line["growth_rate"].values), 0, "x", {"markersize": 3.5, "zorder": 4}),
         ):
-            if there.any():
-                x, edge = line["modes"].values[there], axes[name].get_xaxis_transform()
+            if extreme.any():
+                x, edge = line["modes"].values[extreme], axes[name].get_xaxis_transform()
                 axes[name].plot(x, np.full(x.size, height), mark, color=color, transform=edge, clip_on=False, **look)
     axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
     return figure

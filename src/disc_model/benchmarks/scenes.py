@@ -73,8 +73,8 @@ class Errors:
 @lru_cache
 def stored(name: str) -> dict[str, Any]:
     """The content of a file of ``data``: answers by other methods, and what belongs to them."""
-    found: dict[str, Any] = json.loads((Path(__file__).parent / "data" / f"{name}.json").read_text(encoding="utf-8"))
-    return found
+    content: dict[str, Any] = json.loads((Path(__file__).parent / "data" / f"{name}.json").read_text(encoding="utf-8"))
+    return content
 
 
 def static_start(p: Parameters) -> State:
@@ -87,18 +87,18 @@ def static_start(p: Parameters) -> State:
 
 def separating_start(p: Parameters) -> State:
     """The state at 54.4 s of N = 385 N, Omega = 15.1 rad/s; further modes of ``p`` are at static deflection."""
-    kept, physics = stored("separating_start"), Physics(p)
+    start, physics = stored("separating_start"), Physics(p)
     y = physics.pack(static_start(p))
-    known = slice(min(p.n_diameters + 1, len(kept["diameters"])))  # modes without nodal circles come first
+    known = slice(min(p.n_diameters + 1, len(start["diameters"])))  # modes without nodal circles come first
     for name in ("a", "b", "alpha", "beta"):
-        y[getattr(physics, name)][known] = np.array(kept[name])[known] * np.sign(physics.shape[known])
-    y[physics.psi], y[physics.f] = kept["psi"], kept["f"]
-    return physics.unpack(kept["time"], kept["phase"], kept["direction"], y)
+        y[getattr(physics, name)][known] = np.array(start[name])[known] * np.sign(physics.shape[known])
+    y[physics.psi], y[physics.f] = start["psi"], start["f"]
+    return physics.unpack(start["time"], start["phase"], start["direction"], y)
 
 
-def read_state(given: Mapping[str, Any]) -> State:
+def read_state(stored_state: Mapping[str, Any]) -> State:
     """Convert a state from its form in JSON."""
-    values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in given.items()}
+    values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in stored_state.items()}
     return State(**values)
 
 
@@ -186,11 +186,11 @@ def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> floa
     common = min(len(answer.kinds), len(result.kinds))
     if common == 0 or answer.kinds[:common] != result.kinds[:common]:
         return math.nan
-    found = np.max(np.abs(result.times[:common].astype(np.longdouble) - answer.times[:common]))
+    largest = np.max(np.abs(result.times[:common].astype(np.longdouble) - answer.times[:common]))
     late = [t_end - float(t) for t in (*answer.times[common:], *result.times[common:])]
-    if late and max(late) > 2.0 * float(found):
+    if late and max(late) > 2.0 * float(largest):
         return math.nan
-    return float(max([found, *late]))
+    return float(max([largest, *late]))
 
 
 def shortest_phase(answer: Answer) -> float:

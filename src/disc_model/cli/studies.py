@@ -110,8 +110,8 @@ def init(
     sources = ("template/my_study.yaml", "template/Snakefile", "profiles/default/config.yaml")
     texts = {name.removeprefix("template/"): (workflow / name).read_text() for name in sources}
     texts["my_study.yaml"] = texts["my_study.yaml"].replace("SCHEMA", schema)
-    if there := [name for name in texts if (directory / name).exists()]:
-        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(there)} yet"))
+    if existing := [name for name in texts if (directory / name).exists()]:
+        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(existing)} yet"))
     try:
         for name, text in texts.items():
             (directory / name).parent.mkdir(parents=True, exist_ok=True)

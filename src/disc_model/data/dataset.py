@@ -174,8 +174,8 @@ def json_attribute(value: Any) -> str:
 def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes that say what made datasets; a value that differs between them becomes the list of all, as text."""
     names = ("source_hash", "git_commit", "versions")
-    found = {name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names}
-    return {name: min(text) if len(text) == 1 else json_attribute(sorted(text)) for name, text in found.items() if text}
+    texts = {name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names}
+    return {name: min(text) if len(text) == 1 else json_attribute(sorted(text)) for name, text in texts.items() if text}
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
@@ -381,21 +381,21 @@ def group(case: xr.DataTree, name: str) -> xr.Dataset:
 
 def events(case: xr.DataTree) -> xr.Dataset:
     """Events within the span ``kept_from`` to ``kept_until``."""
-    found = group(case, "events")
-    if "kept_from" not in found.attrs:
+    table = group(case, "events")
+    if "kept_from" not in table.attrs:
         raise Missing("keeps no events")
-    return found
+    return table
 
 
 def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False) -> xr.Dataset:
     """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min`` and ``_max``."""
-    found = group(case, name)
-    if any(str(key).endswith("_min") for key in found) != envelope:
+    window = group(case, name)
+    if any(str(key).endswith("_min") for key in window) != envelope:
         instead = "samples, not as ranges: its window needs" if envelope else "ranges, not as samples: its window has"
         raise Missing(f"recorded {name} as {instead} an envelope")
-    if (length := found.sizes["time"]) < at_least:
+    if (length := window.sizes["time"]) < at_least:
         raise Missing(f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed")
-    return found
+    return window
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -13,13 +13,13 @@ VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "net
 
 def versions(*further: str) -> dict[str, str]:
     """Versions of Python and of the packages on which results depend, and of further packages."""
-    found = {"python": platform.python_version()}
+    known = {"python": platform.python_version()}
     for name in (*VERSIONS_OF, *further):
         try:
-            found[name] = importlib.metadata.version(name)
+            known[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:
-            found[name] = "not installed" if name in further else "unknown"
-    return found
+            known[name] = "not installed" if name in further else "unknown"
+    return known
 
 
 @functools.lru_cache(maxsize=1)

@@ -83,12 +83,12 @@ class Variable(NamedTuple):
     @property
     def attributes(self) -> dict[str, Any]:
         """The variable's CF attributes; without ``units`` if they are "", as for words."""
-        found: dict[str, Any] = {"units": self.units} if self.units else {}
-        found["long_name"] = self.long_name
+        attrs: dict[str, Any] = {"units": self.units} if self.units else {}
+        attrs["long_name"] = self.long_name
         if self.flags:
-            found["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
-            found["flag_meanings"] = " ".join(self.flags)
-        return found
+            attrs["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
+            attrs["flag_meanings"] = " ".join(self.flags)
+        return attrs
 
     @property
     def dtype(self) -> type[np.generic]:
@@ -155,7 +155,7 @@ PERTURBATIONS = {
     "perturbation_f": Variable("rad s-1", "perturbation of the slider's angular velocity"),
 }
 """Perturbations that grids may add to an initial state; they are coordinates of the grids' datasets."""
-_OF_RATIOS = {name: Variable("1", f"{one} relative to {other}") for name, (one, other) in RATIOS.items()}
+_OF_RATIOS = {name: Variable("1", f"{name_above} relative to {other}") for name, (name_above, other) in RATIOS.items()}
 WITHOUT_CYCLE = {
     "no_cycle": "no cycle found",
     "separates": "immediate separation",
@@ -248,7 +248,7 @@ SHOWN = {
     "psi_velocity": Shown("dψ/dt", "", "rad/s"),
 }
 """Presentation of numeric parameters, their ratios, perturbations, and sampled variables."""
-SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[one].symbol for one in pair), "") for name, pair in RATIOS.items()}
+SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "") for name, pair in RATIOS.items()}
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
 
@@ -273,8 +273,8 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:
     """The "base" or the "options" that the dataset of a grid study states."""
-    found: dict[str, Any] = json.loads(study.attrs[what])
-    return found
+    stated: dict[str, Any] = json.loads(study.attrs[what])
+    return stated
 
 
 def angles_text(angles: Iterable[float]) -> str:

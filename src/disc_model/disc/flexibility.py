@@ -61,19 +61,19 @@ def residual_flexibility(p: Parameters) -> Flexibility:
         If the modes cannot be computed.
     """
     raise_faults(foreign_case(p))
-    kept = _modal_sum(p)
+    of_kept_modes = _modal_sum(p)
     if p.disc is not None:
         if p.disc.static_compliance is None:
             rule = "must be given for the compliance of the modes left out"
             raise ParameterError(Fault(("disc", "static_compliance"), "None", rule))
-        return Flexibility(p.disc.static_compliance, kept, 0.0)
+        return Flexibility(p.disc.static_compliance, of_kept_modes, 0.0)
     if p.normalization == "orthonormal":
         value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
-        return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
+        return Flexibility(value * p.b**2 / p.D, of_kept_modes, bound * p.b**2 / p.D)
     diameters, circles = MODAL_SUM
     whole = _modal_sum(p.replace(n_diameters=diameters, n_circles=circles))
     half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
-    return Flexibility(whole, kept, (whole - half) / 3)
+    return Flexibility(whole, of_kept_modes, (whole - half) / 3)
 
 
 def contact_compliance(p: Parameters) -> float:
@@ -152,7 +152,7 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     powers = np.stack([n, n + 2, -n, 2 - n])  # (4, n)
     # r^n over its value at the edge where it is largest: 1 for the first two, inner for the others
     largest = np.array([1.0, 1.0, inner, inner])[:, None]
-    clamped, free, here = ((r / largest) ** powers for r in (inner, 1.0, x))
+    clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
     moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
     matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
@@ -170,7 +170,7 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
         ]
     )
     edges = np.linalg.solve(np.moveaxis(matrix, -1, 0), -right.T[..., None])[..., 0]
-    return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * here, axis=0)
+    return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * at_slider, axis=0)
 
 
 def _axisymmetric(s: float) -> Array:

@@ -128,9 +128,9 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
         raise ParameterError(Fault(("disc",), "", rule))
     radii = np.array(disc.radii)
     others = radii[~np.isclose(radii, r_0, rtol=1e-9, atol=0)]
-    place = int(np.searchsorted(others, r_0))
-    kept = np.array(disc.shapes)[:, np.isin(radii, others)]
-    return np.insert(others, place, r_0), np.insert(kept, place, disc.amplitude, axis=1)
+    index = int(np.searchsorted(others, r_0))
+    shapes = np.array(disc.shapes)[:, np.isin(radii, others)]
+    return np.insert(others, index, r_0), np.insert(shapes, index, disc.amplitude, axis=1)
 
 
 def coupled_natural_frequencies(p: Parameters) -> Array:
@@ -184,8 +184,8 @@ def _inverse_squares(p: Parameters, compliance: float, kept: Any = slice(None), 
     try:
         with np.errstate(all="ignore"):
             matrices = _coupling(omega, psi, p.m, p.k, compliance)
-        found = linalg.eigh(*matrices, **how)
-        values = found if how else found[0]
+        solution = linalg.eigh(*matrices, **how)
+        values = solution if how else solution[0]
         resolved = values.size == 0 or values[0] * WIDEST > values[-1]
     except (linalg.LinAlgError, ValueError):  # a matrix that is singular by rounding, or not finite
         resolved = False
@@ -195,7 +195,7 @@ def _inverse_squares(p: Parameters, compliance: float, kept: Any = slice(None), 
             f"and disc modes of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies "
             f"must be within a factor of {WIDEST:g}"
         )
-    return found
+    return solution
 
 
 def _coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
@@ -318,11 +318,11 @@ def _check_circles(values: Array, l: NDArray[np.int64], circles: NDArray[np.int6
     """Compare the sign changes of R, `values` (n, k), with the number of circles that belongs to the root."""
     for shape, diameters, expected in zip(values, l, circles, strict=True):
         clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
-        found = np.count_nonzero(clear[1:] * clear[:-1] < 0)
-        if found != expected:
+        circles_counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
+        if circles_counted != expected:
             raise ModeError(
                 f"plate modes: root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g} "
-                f"has {found} nodal circles; a root was missed or doubled"
+                f"has {circles_counted} nodal circles; a root was missed or doubled"
             )
 
 
@@ -331,7 +331,7 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
     start = 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)  # below the first roots, where the determinant is well conditioned
-    found: list[list[tuple[float, float]]] = [[] for _ in l]
+    by_diameters: list[list[tuple[float, float]]] = [[] for _ in l]
     chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
     missing = l
     for first in range(0, 200 * chunk, chunk):
@@ -340,13 +340,13 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
         signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
         # A zero on the grid belongs to the interval that ends there.
         for row, i in zip(*np.nonzero((signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)), strict=True):
-            found[missing[row]].append((grid[row, i], grid[row, i + 1]))
-        missing = np.array([order for order in missing if len(found[order]) <= n_circles], dtype=np.int64)
+            by_diameters[missing[row]].append((grid[row, i], grid[row, i + 1]))
+        missing = np.array([order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64)
         if missing.size == 0:
             break
     else:
         raise ModeError(f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}")
-    brackets = np.array([brackets[: n_circles + 1] for brackets in found]).transpose(1, 0, 2)
+    brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(1, 0, 2)
     orders = np.tile(l, n_circles + 1)
     lam = _refine(lambda x: _determinant(orders, x, inner, nu), brackets[..., 0].ravel(), brackets[..., 1].ravel())
     return lam.reshape(n_circles + 1, n_diameters + 1)

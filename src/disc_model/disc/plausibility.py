@@ -100,12 +100,12 @@ def _elsewhere(p: Parameters) -> str:
     if p.disc is None or not p.disc.radii:
         return ""
     amplitude, shape = max(zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0]))
-    there = float(np.interp(p.r_0, p.disc.radii, shape))
-    if abs(there - amplitude) <= 0.05 * abs(amplitude):
+    at_slider = float(np.interp(p.r_0, p.disc.radii, shape))
+    if abs(at_slider - amplitude) <= 0.05 * abs(amplitude):
         return ""
     return (
         f"{_value(p, 'r_0')} is not where the amplitudes of the disc were taken: "
-        f"a mode moves by {there:.3g} kg^-1/2 there, and its amplitude is {amplitude:.3g}"
+        f"a mode moves by {at_slider:.3g} kg^-1/2 there, and its amplitude is {amplitude:.3g}"
     )
 
 

@@ -46,7 +46,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
             for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()
         ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [_variable(one) for one in study.data_vars.values() if one.ndim and one.dtype.kind in "biuf"],
+        "variables": [_variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"],
         "messages": None if message is None else _messages(message),
         "motions": None if motions is None else motion_contents(motions, text),
     }
@@ -54,19 +54,19 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
 
 def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
     """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are left out."""
-    there = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
-    names = [str(name) for name in there.coords if there[name].dims == ("point",)]
-    places = zip(*(_plain(there[name].values) for name in names), strict=True)
-    lengths, phases = there["length"].values.tolist(), there["phase"].values
+    good = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
+    names = [str(name) for name in good.coords if good[name].dims == ("point",)]
+    places = zip(*(_plain(good[name].values) for name in names), strict=True)
+    lengths, phases = good["length"].values.tolist(), good["phase"].values
     return {
         "text": text,
         "names": names,
-        "samples": there.sizes["sample"],
-        "phases": there["phase"].attrs["flag_meanings"].split(),
-        "traces": [{"name": name, "unit": there[name].attrs["units"], **traces(there[name].values)} for name in TRACES],
+        "samples": good.sizes["sample"],
+        "phases": good["phase"].attrs["flag_meanings"].split(),
+        "traces": [{"name": name, "unit": good[name].attrs["units"], **traces(good[name].values)} for name in TRACES],
         "points": [
-            {"at": list(at), "length": length, "phase": runs(phase)}
-            for at, length, phase in zip(places, lengths, phases, strict=True)
+            {"at": list(coordinates), "length": length, "phase": runs(phase)}
+            for coordinates, length, phase in zip(places, lengths, phases, strict=True)
         ],
     }
 
@@ -95,8 +95,8 @@ def packed(values: NDArray[Any], kind: str) -> str:
 def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
     """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses well."""
     whole = np.array(values, dtype=np.float32)
-    bits, left = whole.view(np.uint32), np.uint32(23 - BITS)
-    rounded = (bits + np.uint32(1 << (left - 1))) >> left << left
+    bits, shift = whole.view(np.uint32), np.uint32(23 - BITS)
+    rounded = (bits + np.uint32(1 << (shift - 1))) >> shift << shift
     return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
 
 
@@ -119,14 +119,14 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
 
 def _variable(variable: xr.DataArray) -> dict[str, Any]:
     attrs, values = variable.attrs, variable.values
-    found = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
+    described = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
     if "flag_meanings" in attrs:
         words = str(attrs["flag_meanings"]).split()
         codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
-        return found | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
+        return described | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
     if np.abs(values[np.isfinite(values)]).max(initial=0.0) > MOST_SINGLE:
-        return found | {"wide": True, "data": packed(values, "<f8")}
-    return found | {"data": packed(shortened(values), "<f4")}
+        return described | {"wide": True, "data": packed(values, "<f8")}
+    return described | {"data": packed(shortened(values), "<f4")}
 
 
 def _messages(variable: xr.DataArray) -> dict[str, Any]:

@@ -2,9 +2,6 @@
 
 Rules within one part are checked here, rules between parts in `disc_model.studies.study`. The module imports nothing
 heavy. A job receives the values of all options, so this module is not among the sources of its result.
-
-``python -m disc_model.studies.document`` prints the JSON Schema, with which editors complete and check study files. The
-shipped copy is ``workflow/schemas/study.schema.json``.
 """
 
 import json
@@ -26,7 +23,6 @@ from pydantic import (
     WrapValidator,
     create_model,
 )
-from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError
@@ -275,13 +271,13 @@ class NamedCase(Strict):
             return p, "", ""
         return choice.parameters, choice.to_json(), ""
 
-    def _within(self, span: SomeSpan, place: tuple[str, ...], faults: list[Fault]) -> SomeSpan:
+    def _within(self, span: SomeSpan, path: tuple[str, ...], faults: list[Fault]) -> SomeSpan:
         """A stretch of the run with absolute times."""
         start, stop = span.ends(0.0, self.t_end)
         if 0 <= start < stop <= self.t_end:
             return span.resolved(0.0, self.t_end)
         rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
-        faults.append(Fault(place, "", rule))
+        faults.append(Fault(path, "", rule))
         return span
 
 
@@ -389,55 +385,3 @@ class Document(Strict):
     studies: tuple[str, ...] = ()
     overrides: dict[str, dict[str, Any]] = Field({})
     resolution: Annotated[Count, Field(ge=1)] = 1
-
-
-# ----------------------------------------------------------------------------------------------------
-# For editors
-
-
-class _Plain(GenerateJsonSchema):
-    """JSON Schema without redundant text: titles that repeat a name, and paragraphs of docstrings after the first."""
-
-    def field_title_should_be_set(self, schema: Any) -> bool:
-        return False
-
-    def float_schema(self, schema: Any) -> Any:
-        """Numbers may be given as text: with a unit, or because YAML reads 1e-3 as text."""
-        return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.]*\d"}
-
-    def get_default_value(self, schema: Any) -> Any:
-        found = super().get_default_value(schema)
-        return found if isinstance(found, str | int | float) else NoDefault
-
-    def model_schema(self, schema: Any) -> Any:
-        found = super().model_schema(schema)
-        found.pop("title", None)
-        if "description" in found:
-            found["description"] = found["description"].split("\n\n")[0].replace("\n", " ")
-        return found
-
-
-def schema_text() -> str:
-    """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
-    options = {name: quantity_of(name) for name in quantity_names()}
-    models: tuple[type[BaseModel], ...] = (Document, *options.values())
-    refs, found = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
-    schema = {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "A study of disc_model",
-        **found["$defs"].pop(Document.__name__),
-        "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
-        "allOf": [
-            {
-                "if": {"properties": {"quantity": {"const": name}}, "required": ["quantity"]},
-                "then": {"properties": {"options": refs[model, "validation"]}},
-            }
-            for name, model in options.items()
-        ],
-        **found,
-    }
-    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
-
-
-if __name__ == "__main__":
-    print(schema_text(), end="")

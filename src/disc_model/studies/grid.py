@@ -57,8 +57,8 @@ class Dimension:
     def of(cls, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> Dimension:
         """A dimension from blocks in any order; a value belongs to the first block that has it."""
         first = {value: i for i, block in reversed([*enumerate(map(set, blocks))]) for value in block}
-        kept = ([value for value in first if first[value] == i] for i in sorted({*first.values()}))
-        return cls(tuple(names), tuple(tuple(sorted(block)) for block in kept))
+        blocks_of_values = ([value for value in first if first[value] == i] for i in sorted({*first.values()}))
+        return cls(tuple(names), tuple(tuple(sorted(block)) for block in blocks_of_values))
 
     @property
     def name(self) -> str:
@@ -275,21 +275,21 @@ class GridStudy:
 
     def _wrong_names(self) -> Iterator[Fault]:
         """Faults of the names that vary and that are given, and names that are lacking."""
-        given, scanned = self.document.base.model_fields_set, self.options.scanned
+        in_base, scanned = self.document.base.model_fields_set, self.options.scanned
         quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
         for name in scanned:
-            if name in counts or name in given:
+            if name in counts or name in in_base:
                 yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
         for name in sorted(counts):
             stands_for, other = RATIOS.get(name, ("", ""))
-            others = {RATIOS.get(word, (word,))[0] for word in (*counts.keys() - {name}, *given, *scanned)}
+            others = {RATIOS.get(word, (word,))[0] for word in (*counts.keys() - {name}, *in_base, *scanned)}
             of_plate = not {name, stands_for, other}.isdisjoint((*PLATE, "damping_ratio"))
-            if name in given:
+            if name in in_base:
                 value = getattr(self.document.base, name)
                 yield Fault.of(("base", name), value, "varies as well: give it in base or as an axis, not both")
             for broken, rule in (
                 (counts[name] > 1, "varies along two dimensions"),
-                (of_plate and "disc" in {*counts, *given}, "must be left out where a disc is given"),
+                (of_plate and "disc" in {*counts, *in_base}, "must be left out where a disc is given"),
                 (stands_for in others, f"stands for {stands_for}, which is given as well"),
                 (other in scanned, f"needs {other}, which {quantity} varies"),
                 (self.mode_request is not None and name in ("n_diameters", "n_circles"), _CHOSEN),
@@ -297,7 +297,7 @@ class GridStudy:
                 if broken:
                     yield Fault(("axes", name), "", rule)
         for name in REQUIRED:
-            if name not in {*counts, *given, *scanned}:
+            if name not in {*counts, *in_base, *scanned}:
                 yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")

@@ -87,8 +87,8 @@ def failures(study: xr.Dataset) -> Iterator[str]:
     failed = np.isin(status, STATUSES[1:])
     others = ~failed & (status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))
     for index in (*np.argwhere(failed), *np.argwhere(others)):
-        place = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
-        point = study.isel(place)
+        index_of = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
+        point = study.isel(index_of)
         values = {name: point[name].item() for name in varied}
         where = ", ".join(f"{name} = {x if isinstance(x, str) else as_text(x)}" for name, x in values.items())
         word, message = str(status[tuple(index)]), str(point["message"].item())
@@ -118,7 +118,7 @@ def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
         specification.pop(name, None)
     for key in specification.keys() & {"starts", "discs"}:
         every = [json.loads(batch.attrs["specification"])[key] for batch in batches]
-        specification[key] = {name: one for named in every for name, one in sorted(named.items())}
+        specification[key] = {name: definition for named in every for name, definition in sorted(named.items())}
     common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
     return common | common_provenance(batches)
 
@@ -135,8 +135,8 @@ def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
     rows = [
         quantity.summarise(study.isel(dict(zip(others, index, strict=True)))) for index in np.ndindex(*others.values())
     ]
-    own = coordinates_of(quantity.SUMMARY_COORDINATES, quantity)
-    return study.assign_coords(own).assign(variables_of(quantity.SUMMARY_COLUMNS, own, rows, others))
+    coords = coordinates_of(quantity.SUMMARY_COORDINATES, quantity)
+    return study.assign_coords(coords).assign(variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others))
 
 
 # ----------------------------------------------------------------------------------------------------

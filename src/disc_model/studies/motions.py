@@ -58,8 +58,8 @@ class Motions:
 
 def run_motions(text: str) -> xr.Dataset:
     """Histories along `point` and `sample`, for a text from `disc_model.studies.grid.GridStudy.motions`."""
-    found = run_batch(text, Motions)
-    return found.assign({name: found[name].astype(np.float32) for name in SHOWN})
+    histories = run_batch(text, Motions)
+    return histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})
 
 
 def cycle_length(p: Parameters, state: State) -> float:

@@ -85,14 +85,14 @@ class Range(Ruled):
         n = self.intervals * resolution
         if n >= MOST:
             raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
-        found: dict[int, list[Value]] = {}
+        by_level: dict[int, list[Value]] = {}
         for i in range(n + 1):
             # the lowest resolution at which this value is there
             level = resolution // math.gcd(i, resolution)
-            found.setdefault(level, []).append(self._at(i / n))
-        if len({*chain(*found.values())}) <= n:
+            by_level.setdefault(level, []).append(self._at(i / n))
+        if len({*chain(*by_level.values())}) <= n:
             raise ValueError(f"must be {n + 1} values that differ in their first 12 digits")
-        return tuple(tuple(found[level]) for level in sorted(found))
+        return tuple(tuple(by_level[level]) for level in sorted(by_level))
 
     def _at(self, share: float) -> float:
         """The value at a fraction of the range, rounded to 12 digits, so that ranges and lists agree on 0.3."""

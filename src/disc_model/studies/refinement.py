@@ -26,7 +26,7 @@ from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
-Place = tuple[int, int]
+Index = tuple[int, int]
 
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
 CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
@@ -38,7 +38,7 @@ class Tile:
     def __init__(
         self,
         points: Sequence[Sequence[Made]],
-        sampled: Collection[Place] = (),
+        sampled: Collection[Index] = (),
         *,
         horizon: float,
         tol: float,
@@ -46,17 +46,17 @@ class Tile:
     ) -> None:
         self.horizon, self.tol, self.initial_cell_size = horizon, tol, initial_cell_size
         self.shape = len(points), len(points[0])
-        self.points = {(i, j): point for i, row in enumerate(points) for j, point in enumerate(row)}
+        self.points = {(i, j): p for i, row in enumerate(points) for j, p in enumerate(row)}
         self.starts = {
-            place: point if isinstance(point, Exception) else _result_or_error(cycle_of_static_start, point)
-            for place, point in self.points.items()
+            index: p if isinstance(p, Exception) else _result_or_error(cycle_of_static_start, p)
+            for index, p in self.points.items()
         }
-        self.results: dict[Place, OutcomeResult | Exception] = {}
-        self.filled: dict[Place, str] = {}
-        self.presumed: dict[Place, str] = {}
-        self.trends = {place: self._trend(place) for place in self.starts}
-        for place in sampled:
-            self.outcome(place)
+        self.results: dict[Index, OutcomeResult | Exception] = {}
+        self.filled: dict[Index, str] = {}
+        self.presumed: dict[Index, str] = {}
+        self.trends = {index: self._trend(index) for index in self.starts}
+        for index in sampled:
+            self.outcome(index)
         rows, columns = (_edges(size, initial_cell_size) for size in self.shape)
         known = -1
         # a result on its edge may require a cell to be divided
@@ -68,9 +68,9 @@ class Tile:
                 self._refine(across, along)
         self._check_what_is_filled()
 
-    def _own(self, place: Place) -> NearCycle | None:
+    def _own(self, index: Index) -> NearCycle | None:
         """The cycle that the static start follows from its beginning."""
-        start = self.starts[place]
+        start = self.starts[index]
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
@@ -79,11 +79,11 @@ class Tile:
         Their start follows a growing cycle and yet was taken to stay quiet, or follows none though most neighbours do.
         """
         for (i, j), outcome in (self.presumed | self.filled).items():
-            beside = [there for there in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if there in self.starts]
+            beside = [index for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if index in self.starts]
             doubtful = outcome in CALM
             if self._own((i, j)) is None:
                 # the strip of points without a cycle is thinner than the grid
-                doubtful = sum(self._own(there) is None for there in beside) <= 1
+                doubtful = sum(self._own(index) is None for index in beside) <= 1
             if doubtful:
                 self.outcome((i, j))
 
@@ -93,63 +93,63 @@ class Tile:
         Multipliers do not keep the phase of a departure. Near a border it may decide about separation.
         """
         changed = False
-        for (i, j), found in list(self.results.items()):
-            if not isinstance(found, OutcomeResult) or found.extrapolated is None:
+        for (i, j), result in list(self.results.items()):
+            if not isinstance(result, OutcomeResult) or result.extrapolated is None:
                 continue
             sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
-            beside = {self._shown(one) for one, other in sides if self._shown(one) == self._shown(other)}
-            if any(both != found.word and {both, found.word} - GROWN == {Outcome.SEPARATION} for both in beside):
+            beside = {self._shown(before) for before, after in sides if self._shown(before) == self._shown(after)}
+            if any(both != result.word and {both, result.word} - GROWN == {Outcome.SEPARATION} for both in beside):
                 whole = self._result((i, j), furthest=0.0)
                 if isinstance(whole, OutcomeResult):
-                    whole.simulated += found.simulated
+                    whole.simulated += result.simulated
                 self.results[i, j] = whole
-                changed |= self.outcome((i, j)) != found.word
+                changed |= self.outcome((i, j)) != result.word
         return changed
 
-    def _shown(self, place: Place) -> str | None:
+    def _shown(self, index: Index) -> str | None:
         """The outcome at a point as far as it is known."""
-        if place in self.results:
-            return self.outcome(place)
-        return self.trends.get(place) or self.filled.get(place, self.presumed.get(place))
+        if index in self.results:
+            return self.outcome(index)
+        return self.trends.get(index) or self.filled.get(index, self.presumed.get(index))
 
-    def outcome(self, place: Place) -> str:
+    def outcome(self, index: Index) -> str:
         """Outcome of the static start at a point, computed once."""
-        if place not in self.results:
-            self.results[place] = self._result(place)
-        found = self.results[place]
-        return found.word if isinstance(found, OutcomeResult) else "failed"
+        if index not in self.results:
+            self.results[index] = self._result(index)
+        result = self.results[index]
+        return result.word if isinstance(result, OutcomeResult) else "failed"
 
-    def _result(self, place: Place, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        start = self.starts[place]
+    def _result(self, index: Index, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
+        start = self.starts[index]
         if isinstance(start, Exception):
             return start
         how = {"tol": self.tol, "near": start, "furthest": furthest}
-        return _result_or_error(find_outcome, self.points[place], self.horizon, **how)
+        return _result_or_error(find_outcome, self.points[index], self.horizon, **how)
 
-    def _trend(self, place: Place) -> str:
+    def _trend(self, index: Index) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
-        start = self._own(place)
+        start = self._own(index)
         if start is None:
             return ""
         if start.cycle.stable:
             return Outcome.QUIET
         return Outcome.GROWING if stays_linear_until(start, self.horizon) else ""
 
-    def _refine(self, rows: Place, columns: Place) -> None:
+    def _refine(self, rows: Index, columns: Index) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""
         inside = list(product(range(rows[0], rows[1] + 1), range(columns[0], columns[1] + 1)))
-        undecided = [place for place in inside if not self.trends[place]]
+        undecided = [index for index in inside if not self.trends[index]]
         if not undecided:
             return
         corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
-        for place in corners or ([] if any(place in self.results for place in undecided) else [_middle(undecided)]):
-            if place not in self.presumed:
-                self.outcome(place)
+        for index in corners or ([] if any(index in self.results for index in undecided) else [_middle(undecided)]):
+            if index not in self.presumed:
+                self.outcome(index)
         # Between slow growth and separation there may be faster growth, still without separation. If all corners show
         # only that, stripes of separation may lie between them: these cells are divided once more.
-        outcomes = {self.outcome(place) for place in undecided if place in self.results}
+        outcomes = {self.outcome(index) for index in undecided if index in self.results}
         outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
-        outcomes |= {self.trends[place] for place in inside if self.trends[place] is Outcome.GROWING}
+        outcomes |= {self.trends[index] for index in inside if self.trends[index] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
         most = max(1, self.initial_cell_size // 2)
@@ -157,83 +157,85 @@ class Tile:
             # late separations depend on rounding: all corners may miss them by chance
             outcomes.add(self.outcome(_middle(undecided)))
         if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
-            self.filled |= {place: next(iter(outcomes)) for place in undecided}
+            self.filled |= {index: next(iter(outcomes)) for index in undecided}
         elif len(halves[0]) * len(halves[1]) > 1:
             if side <= 2:
                 self._presume(rows, columns)
             for i, j in product(*halves):
                 self._refine(i, j)
 
-    def _presume(self, rows: Place, columns: Place) -> None:
+    def _presume(self, rows: Index, columns: Index) -> None:
         """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside it may differ."""
         edges = [((row, columns[0]), (row, columns[1])) for row in rows]
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
-        for one, two in edges:
-            middle = (one[0] + two[0]) // 2, (one[1] + two[1]) // 2
-            if middle not in (one, two) and not self.trends[middle] and self._format(one) == self._format(two):
-                self.presumed.setdefault(middle, self._format(one))
+        for first, two in edges:
+            middle = (first[0] + two[0]) // 2, (first[1] + two[1]) // 2
+            if middle not in (first, two) and not self.trends[middle] and self._format(first) == self._format(two):
+                self.presumed.setdefault(middle, self._format(first))
 
-    def _format(self, place: Place) -> str:
+    def _format(self, index: Index) -> str:
         """The outcome at a corner, computed or presumed."""
-        if self.trends[place]:
-            return self.trends[place]
-        return self.presumed[place] if place not in self.results else self.outcome(place)
+        if self.trends[index]:
+            return self.trends[index]
+        return self.presumed[index] if index not in self.results else self.outcome(index)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         """Values and message of each point."""
         others = self._others()
-        self.followed = {place: self._follow(place) for place in self.starts}
+        self.followed = {index: self._follow(index) for index in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
-    def _follow(self, place: Place) -> NearCycle | None:
+    def _follow(self, index: Index) -> NearCycle | None:
         """The cycle that the static start follows at a point, if that is known.
 
         This is the point's own cycle as long as the motion departs from it. The later motion is known at simulated
         points only, which would then differ from their neighbours.
         """
-        own, found = self._own(place), self.results.get(place)
-        if not isinstance(found, OutcomeResult):
-            return own
-        return own if own is not None and found.outcome is not Outcome.QUIET else found.near
+        cycle, result = self._own(index), self.results.get(index)
+        if not isinstance(result, OutcomeResult):
+            return cycle
+        return cycle if cycle is not None and result.outcome is not Outcome.QUIET else result.near
 
-    def _joined(self, here: Place, ahead: Place) -> str:
+    def _joined(self, index: Index, ahead: Index) -> str:
         """Whether, and how, a point's cycle continues into the cycle of the next point."""
-        one, two = self.followed.get(here), self.followed.get(ahead)
-        if one is None or two is None or one.x.shape != two.x.shape or one.cycle.releases != two.cycle.releases:
+        near, further = self.followed.get(index), self.followed.get(ahead)
+        if near is None or further is None or near.x.shape != further.x.shape:
             return "no"
-        size = two.map.deflection
+        if near.cycle.releases != further.cycle.releases:
+            return "no"
+        size = further.map.deflection
         # in units of the static deflection, which varies with the parameters
-        x = one.x * size / one.map.deflection
-        if np.linalg.norm(x - two.x) <= 0.002 * size:  # smoothly
+        x = near.x * size / near.map.deflection
+        if np.linalg.norm(x - further.x) <= 0.002 * size:  # smoothly
             return "yes"
-        found = newton(two.map, x, releases=two.cycle.releases)
-        return "yes" if found is not None and np.linalg.norm(found.start - two.x) <= SAME_POINT * size else "no"
+        orbit = newton(further.map, x, releases=further.cycle.releases)
+        return "yes" if orbit is not None and np.linalg.norm(orbit.start - further.x) <= SAME_POINT * size else "no"
 
-    def _row(self, place: Place, others: int) -> tuple[Row, str]:
-        start, found = self.starts[place], self.results.get(place)
+    def _row(self, index: Index, others: int) -> tuple[Row, str]:
+        start, result = self.starts[index], self.results.get(index)
         if isinstance(start, Exception):
             return failed(start)
-        if isinstance(found, Exception):
-            return failed(found)
+        if isinstance(result, Exception):
+            return failed(result)
         row: dict[str, Any] = {
             "status": "ok",
             "other_cycles": others,
-            "branch_continues_first": self._joined(place, (place[0] + 1, place[1])),
-            "branch_continues_second": self._joined(place, (place[0], place[1] + 1)),
+            "branch_continues_first": self._joined(index, (index[0] + 1, index[1])),
+            "branch_continues_second": self._joined(index, (index[0], index[1] + 1)),
         }
-        if found is None:
-            row |= {"outcome": self._shown(place), "method": "multipliers" if self.trends[place] else "inferred"}
+        if result is None:
+            row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
         else:
             row |= {
-                "status": found.status,
-                "outcome": found.word,
-                "method": "simulation" if found.simulated else "multipliers",
-                "first_separation": found.first_separation,
-                "simulated_time": found.simulated,
+                "status": result.status,
+                "outcome": result.word,
+                "method": "simulation" if result.simulated else "multipliers",
+                "first_separation": result.first_separation,
+                "simulated_time": result.simulated,
             }
-        followed = self.followed[place]
+        followed = self.followed[index]
         if followed is None:
-            row["cycle"] = _without(start, found)
+            row["cycle"] = _without(start, result)
         else:
             cycle = followed.cycle
             lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
@@ -244,36 +246,36 @@ class Tile:
                 "releases": cycle.releases,
                 "period_ratio": cycle.period * lowest,
             }
-        return row, "" if found is None else found.message
+        return row, "" if result is None else result.message
 
-    def _others(self) -> dict[Place, int]:
+    def _others(self) -> dict[Index, int]:
         """Number of known cycles at each point besides the one nearest to the start.
 
         Each row is followed in both directions. A cycle that does not continue into the next point's own cycle is
         searched for there.
         """
-        known = {place: [start.x] if isinstance(start, NearCycle) else [] for place, start in self.starts.items()}
+        known = {index: [start.x] if isinstance(start, NearCycle) else [] for index, start in self.starts.items()}
         for i in range(self.shape[0]):
             row = [(i, j) for j in range(self.shape[1])]
-            for before, here in (*pairwise(row), *pairwise(row[::-1])):
-                self._carry(known, before, here)
-        return {place: max(0, len(cycles) - 1) for place, cycles in known.items()}
+            for before, index in (*pairwise(row), *pairwise(row[::-1])):
+                self._carry(known, before, index)
+        return {index: max(0, len(cycles) - 1) for index, cycles in known.items()}
 
-    def _carry(self, known: dict[Place, list[Array]], before: Place, here: Place) -> None:
-        start, there = self.starts[here], self.starts[before]
-        if not (isinstance(start, NearCycle) and isinstance(there, NearCycle)) or start.x.shape != there.x.shape:
+    def _carry(self, known: dict[Index, list[Array]], before: Index, index: Index) -> None:
+        start, last = self.starts[index], self.starts[before]
+        if not (isinstance(start, NearCycle) and isinstance(last, NearCycle)) or start.x.shape != last.x.shape:
             return
         size = start.map.deflection
         # in units of the static deflection, which varies with the parameters
-        scale = size / there.map.deflection
+        scale = size / last.map.deflection
         for cycle in known[before]:
-            if len(known[here]) >= 4:  # further ones cost too much
+            if len(known[index]) >= 4:  # further ones cost too much
                 return
-            if min(np.linalg.norm(scale * cycle - x) for x in known[here]) <= 0.02 * size:  # not another one
+            if min(np.linalg.norm(scale * cycle - x) for x in known[index]) <= 0.02 * size:  # not another one
                 continue
-            found = newton(start.map, scale * cycle, releases=there.cycle.releases)
-            if found is not None and min(np.linalg.norm(found.start - x) for x in known[here]) > SAME_POINT * size:
-                known[here].append(found.start)
+            orbit = newton(start.map, scale * cycle, releases=last.cycle.releases)
+            if orbit is not None and min(np.linalg.norm(orbit.start - x) for x in known[index]) > SAME_POINT * size:
+                known[index].append(orbit.start)
 
 
 def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
@@ -283,9 +285,9 @@ def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -
         return error
 
 
-def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> str:
+def _without(start: NearCycle | FloquetResult, result: OutcomeResult | None) -> str:
     """The flag of a point whose motion follows no cycle."""
-    if found is not None and found.outcome is Outcome.STEADY_SLIDING:
+    if result is not None and result.outcome is Outcome.STEADY_SLIDING:
         return "steady_sliding"
     if isinstance(start, NearCycle):
         return "nearby_only"
@@ -294,10 +296,10 @@ def _without(start: NearCycle | FloquetResult, found: OutcomeResult | None) -> s
     return "steady_sliding" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "no_cycle"
 
 
-def _middle(places: Sequence[Place]) -> Place:
-    """The place nearest to the middle of several places; the first of equally near ones."""
-    middle = np.mean(places, axis=0)
-    return min(places, key=lambda place: (float(np.sum((np.array(place) - middle) ** 2)), place))
+def _middle(indices: Sequence[Index]) -> Index:
+    """The indices nearest to the middle of several; the first of equally near ones."""
+    middle = np.mean(indices, axis=0)
+    return min(indices, key=lambda index: (float(np.sum((np.array(index) - middle) ** 2)), index))
 
 
 def _edges(size: int, coarse: int) -> list[int]:
@@ -306,7 +308,7 @@ def _edges(size: int, coarse: int) -> list[int]:
     return [round(i * (size - 1) / cells) for i in range(cells + 1)]
 
 
-def _halves(first: int, last: int) -> list[Place]:
+def _halves(first: int, last: int) -> list[Index]:
     """The two halves of an interval of indices, or the interval itself if it cannot be divided."""
     middle = (first + last) // 2
     return [(first, middle), (middle, last)] if middle > first else [(first, last)]

@@ -46,18 +46,18 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     parameters = [_made(data, values) for values in varied] if chosen or "tile" not in data else []
     began = time.process_time()
     if "tile" in data and of is None:
-        found = list(_over_tile(quantity, data))
+        results = list(_over_tile(quantity, data))
     else:
         starts = {name: Start.model_validate(stated) for name, stated in data.get("starts", {}).items()}
         each = zip(parameters, varied, strict=True)
-        found = [compute(computed, _point(p, values, start, starts)) for p, values in each]
+        results = [compute(computed, _point(p, values, start, starts)) for p, values in each]
     log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
-    rows, messages = zip(*found, strict=True)
+    rows, messages = zip(*results, strict=True)
     for values, message in zip(varied, messages, strict=True):
         if message:
             log.warning("%s: %s", values, message)
-    own = coordinates_of(computed.COORDINATES, quantity)
-    variables = variables_of(computed.COLUMNS, own, rows, {POINT: len(rows)})
+    coords_of_quantity = coordinates_of(computed.COORDINATES, quantity)
+    variables = variables_of(computed.COLUMNS, coords_of_quantity, rows, {POINT: len(rows)})
     if chosen:
         for name in ("diameters", "circles"):  # -1 without a choice
             highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
@@ -71,7 +71,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }
-    return xr.Dataset(variables, coords | own, attrs)
+    return xr.Dataset(variables, coords | coords_of_quantity, attrs)
 
 
 def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
@@ -142,12 +142,12 @@ def compute(quantity: Any, point: Point | DiscModelError) -> tuple[Row, str]:
 
 
 def variables_of(
-    columns: Mapping[str, Variable], own: Mapping[str, xr.Variable], rows: Sequence[Row], sizes: Mapping[str, int]
+    columns: Mapping[str, Variable], coords: Mapping[str, xr.Variable], rows: Sequence[Row], sizes: Mapping[str, int]
 ) -> dict[str, xr.Variable]:
     """Rows as variables along dimensions of these sizes, the last one fastest, and along the quantity's own."""
     variables = {}
     for name, column in columns.items():
-        array = column.empty((len(rows), *(own[dim].size for dim in column.dims)))
+        array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
             if name in row:
                 _store(row[name], array, (i,), column)
@@ -156,14 +156,14 @@ def variables_of(
     return variables
 
 
-def _store(value: Any, array: NDArray[Any], place: tuple[int, ...], column: Variable) -> None:
+def _store(value: Any, array: NDArray[Any], index: tuple[int, ...], column: Variable) -> None:
     """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
-    room = array.shape[len(place) :]
+    room = array.shape[len(index) :]
     if isinstance(value, list):
         for i, item in enumerate(value[: room[0]]):
-            _store(item, array, (*place, i), column)
+            _store(item, array, (*index, i), column)
     elif isinstance(value, np.ndarray) and value.ndim:
-        kept = value[tuple(map(slice, room))]
-        array[place][tuple(map(slice, kept.shape))] = kept
+        part = value[tuple(map(slice, room))]
+        array[index][tuple(map(slice, part.shape))] = part
     elif value is not None:
-        array[place] = column.flags.index(value) if isinstance(value, str) else value
+        array[index] = column.flags.index(value) if isinstance(value, str) else value

@@ -130,8 +130,8 @@ class Meter:
     def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
         """The result of a method with the meter's counts; times are those from the start on."""
         seconds, work, heights = self.seconds, self.work, (self.low, self.high)
-        found = self.problem.start.time + np.array(times), tuple(kinds), final
-        return MethodResult(*found, seconds, work, self.outcome, self.message, self.longest_step, heights)
+        events = self.problem.start.time + np.array(times), tuple(kinds), final
+        return MethodResult(*events, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
         """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size).
@@ -213,9 +213,9 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
             if added < 0:
                 raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
             crowd = crowd + 1 if times and t - times[-1] < 1e-12 else 0  # s, at one instant
-            for place in range(added):
+            for index in range(added):
                 times.append(t)
-                kinds.append(EVENT_KINDS[new[place]])
+                kinds.append(EVENT_KINDS[new[index]])
             if problem.stop and phase == kernels.SEPARATION:
                 break
             if crowd > CROWD:

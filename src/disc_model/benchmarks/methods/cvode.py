@@ -33,13 +33,13 @@ def solve(problem: Problem, value: float, budget: float, family: str) -> MethodR
     """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
     meter = Meter(problem, budget)
     n, scale = meter.physics.n, value * absolute_scale(meter.physics)
-    state, given = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
+    state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
     time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)
     call, switches = _library(), _callbacks()[1]
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
-        state[:], given[:2], time.value = y, (phase, direction), t
+        state[:], constants[:2], time.value = y, (phase, direction), t
         call.CVodeReInit(memory, ctypes.c_double(t), vector)
         call.CVodeRootInit(memory, ENDS[phase], switches)
         call.CVodeSetRootDirection(memory, falling)
@@ -58,9 +58,9 @@ def solve(problem: Problem, value: float, budget: float, family: str) -> MethodR
         if flag == REACHED:
             return None, time.value, state
         call.CVodeGetRootInfo(memory, roots)
-        return next(i for i, found in enumerate(roots) if found), time.value, state
+        return next(i for i, is_root in enumerate(roots) if is_root), time.value, state
 
-    with _solver(family, state, value, scale, given) as (memory, vector):
+    with _solver(family, state, value, scale, constants) as (memory, vector):
         return run_phases(advance, meter)
 
 
@@ -85,9 +85,9 @@ def _callbacks() -> tuple[ctypes.c_void_p, ...]:
     @numba.njit(forceinline=True)
     def case(data):
         n = int(data[2])
-        given = carray(data, HEAD + scalars + rows * n)
-        modes = given[HEAD + scalars :].reshape((rows, n))
-        return modes, given[HEAD : HEAD + scalars], int(data[0]), int(data[1]), 4 * n + 4
+        constants = carray(data, HEAD + scalars + rows * n)
+        modes = constants[HEAD + scalars :].reshape((rows, n))
+        return modes, constants[HEAD : HEAD + scalars], int(data[0]), int(data[1]), 4 * n + 4
 
     @numba.cfunc(types.int32(types.float64, owner, owner, data), error_model="numpy")
     def rate(_t, y, dy, data):
@@ -109,12 +109,12 @@ def _callbacks() -> tuple[ctypes.c_void_p, ...]:
         return 0
 
     _callbacks.kept = rate, switches, jacobian  # type: ignore[attr-defined]
-    return tuple(ctypes.c_void_p(one.address) for one in _callbacks.kept)  # type: ignore[attr-defined]
+    return tuple(ctypes.c_void_p(callback.address) for callback in _callbacks.kept)  # type: ignore[attr-defined]
 
 
 @contextmanager
 def _solver(
-    family: str, y: Array, tol: float, atol: Array, given: Array
+    family: str, y: Array, tol: float, atol: Array, constants: Array
 ) -> Iterator[tuple[ctypes.c_void_p, ctypes.c_void_p]]:
     """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
     call = _library()
@@ -128,7 +128,7 @@ def _solver(
     memory = ctypes.c_void_p(call.CVodeCreate(FAMILIES[family], context))
     call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
     call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
-    call.CVodeSetUserData(memory, given.ctypes.data_as(ctypes.c_void_p))
+    call.CVodeSetUserData(memory, constants.ctypes.data_as(ctypes.c_void_p))
     call.CVodeSetMaxNumSteps(memory, ctypes.c_long(STEPS_PER_LOOK))
     if family == "Adams":
         iteration = ctypes.c_void_p(call.SUNNonlinSol_FixedPoint(vector, 0, context))
@@ -144,6 +144,6 @@ def _solver(
         yield memory, vector
     finally:
         call.CVodeFree(ctypes.byref(memory))
-        for free, one in (*made, ("N_VDestroy", vector), ("N_VDestroy", least)):
-            getattr(call, free)(one)
+        for free, handle in (*made, ("N_VDestroy", vector), ("N_VDestroy", least)):
+            getattr(call, free)(handle)
         call.SUNContext_Free(ctypes.byref(context))

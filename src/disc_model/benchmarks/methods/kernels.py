@@ -59,14 +59,14 @@ class Physics:
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
-    def distance(self, one: State, other: State) -> float:
+    def distance(self, state: State, other: State) -> float:
         """Energy norm of the difference of two states divided by that of ``other``; dimensionless.
 
         The norm includes displacement and velocity of every mode and of the in-plane motion, weighted as in the energy.
         If either state is separated, it includes those of the slider's height too.
         """
         right = self.pack(other)
-        return float(np.sqrt(self._energy(self.pack(one) - right) / self._energy(right)))
+        return float(np.sqrt(self._energy(self.pack(state) - right) / self._energy(right)))
 
     def _energy(self, y: Array) -> float:
         p, squares = self.p, y**2
@@ -103,11 +103,11 @@ _part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is c
 def tables(physics: Physics) -> tuple[np.ndarray, np.ndarray]:
     """The pair (modes, c): rows of `ROWS` with a column per mode, and the scalars."""
     p, l, psi = physics.p, physics.l, physics.shape
-    own = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bonded")}
+    derived = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bonded")}
     by_a, by_alpha = (p.k - p.m * physics.stiffness) * psi, (p.c - p.m * physics.damping) * psi
     bent = p.m * l**2 * psi
     modes = np.array([l, psi, physics.stiffness, physics.damping, l * psi, by_a, by_alpha, 2.0 * p.m * l * psi, bent])
-    return modes, np.array([own[name] if name in own else getattr(p, name) for name in CONSTANTS])
+    return modes, np.array([derived[name] if name in derived else getattr(p, name) for name in CONSTANTS])
 
 
 @_part
@@ -313,13 +313,13 @@ def switch(modes, c, phase, cause, y, kinds):
 
 
 @_kernel
-def _dip(before, here, after):
+def _dip(before, current, after):
     """Place of the minimum, in the last of two equal steps, of the parabola through three values; 0 unless it is below
     half of both ends there.
     """
-    bend, rise = after - 2.0 * here + before, 0.5 * (after - before)
+    bend, rise = after - 2.0 * current + before, 0.5 * (after - before)
     s = -rise / bend if bend > 0.0 else 0.0
-    return s if 0.0 < s < 1.0 and here + 0.5 * s * rise < 0.5 * min(here, after) else 0.0
+    return s if 0.0 < s < 1.0 and current + 0.5 * s * rise < 0.5 * min(current, after) else 0.0
 
 
 @_kernel
@@ -343,7 +343,7 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     size, n = len(y), modes.shape[1]
     k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
     new, end, first, following_rate = np.empty(2, np.int64), np.empty(size), np.empty(size), np.empty(size)
-    before, here, after = np.empty(3), np.empty(3), np.empty(3)
+    before, current, after = np.empty(3), np.empty(3), np.empty(3)
     lows, probe, final = np.empty(3), np.empty(size), y
     why, origin, count, local, events, steps = FINISHED, 0.0, 0, 0.0, 0, 0
     while local < t_end:
@@ -352,7 +352,7 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
             break
         if count == 0:
             rate(modes, c, phase, direction, y, first)
-            switch_values(modes, c, phase, direction, y, here)
+            switch_values(modes, c, phase, direction, y, current)
         # time is event time plus a whole number of steps: summing h would lose digits of the event times
         following = origin + (count + 1) * h
         length = following - local
@@ -369,7 +369,7 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         conditions = _margins(c, phase, direction, end, n, P, F, w, after)
         cause, high = violated(after, conditions), length
         for index in range(conditions if cause < 0 < count else 0):
-            s = _dip(before[index], here[index], after[index])
+            s = _dip(before[index], current[index], after[index])
             if s > 0.0:
                 rk4_step(modes, c, phase, direction, y, first, s * length, probe, k, z)
                 steps += 1
@@ -381,12 +381,12 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if cause < 0:
             y, end = end, y
             first, following_rate = following_rate, first
-            before, here, after = here, after, before
+            before, current, after = current, after, before
             local = following
             count += 1
             continue
-        low, at_low, at_high, side = 0.0, here[cause], after[cause], 0
-        lows[:] = here
+        low, at_low, at_high, side = 0.0, current[cause], after[cause], 0
+        lows[:] = current
         for _ in range(ROOT_TRIES):
             middle = low + (high - low) * at_low / (at_low - at_high)
             if not low < middle < high or (low == 0.0 and count == 0):  # a phase may begin at a root

@@ -36,15 +36,15 @@ def solve(problem: Problem, value: float, budget: float, algorithm: str) -> Meth
         rate, slopes, events = _functions(meter, phase, direction)
         more = {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
         with np.errstate(over="ignore", invalid="ignore"):
-            found = solve_ivp(
+            solution = solve_ivp(
                 meter.counted(rate), (t, t_end), y,
                 method=algorithm, rtol=max(value, least), atol=value * scale, events=events, **more,
             )  # fmt: skip
-        meter.steps(found.t, found.y.T)
-        if found.status == -1:
-            raise GaveUp(found.message)
-        cause = next((i for i, times in enumerate(found.t_events) if len(times)), None)
-        return cause, float(found.t[-1]), found.y[:, -1].copy()
+        meter.steps(solution.t, solution.y.T)
+        if solution.status == -1:
+            raise GaveUp(solution.message)
+        cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)
+        return cause, float(solution.t[-1]), solution.y[:, -1].copy()
 
     return run_phases(advance, meter)
 
@@ -63,14 +63,14 @@ def _functions(meter: Meter, phase: int, direction: int) -> tuple[Function, Func
         kernels.jacobian(modes, c, phase, direction, y, J)
         return J
 
-    def event(place: int) -> Function:
+    def event(index: int) -> Function:
         def value(_t: float, y: Array) -> float:
             kernels.switch_values(modes, c, phase, direction, y, values)
-            return float(values[place])
+            return float(values[index])
 
         return crossing(value, -1, last=True)
 
-    return rate, slopes, [event(place) for place in range(ENDS[phase])]
+    return rate, slopes, [event(index) for index in range(ENDS[phase])]
 
 
 def crossing(function: Any, direction: int, *, last: bool) -> Function:
@@ -165,15 +165,15 @@ def solve_regularised(problem: Problem, value: float, budget: float, algorithm: 
     switches: list[tuple[float, str]] = []
     t = 0.0
     with meter.running(), np.errstate(over="ignore", invalid="ignore"):
-        found = solve_ivp(
+        solution = solve_ivp(
             meter.counted(lambda _t, z: law.rate(z)), (t, problem.span), y,
             method=algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
         )  # fmt: skip
-        meter.steps(found.t, found.y.T)
-        t, y = float(found.t[-1]), found.y[:, -1]
-        switches = _read_off(law, found.t_events, found.y_events)
-        if found.status < 0:
-            raise GaveUp(found.message)
+        meter.steps(solution.t, solution.y.T)
+        t, y = float(solution.t[-1]), solution.y[:, -1]
+        switches = _read_off(law, solution.t_events, solution.y_events)
+        if solution.status < 0:
+            raise GaveUp(solution.message)
     if not np.all(np.isfinite(y)):
         meter.outcome = RunStatus.NON_FINITE
     times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
@@ -182,25 +182,25 @@ def solve_regularised(problem: Problem, value: float, budget: float, algorithm: 
 
 def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[float, str]]:
     """Events in order of time; the rates at each crossing give its direction."""
-    found: list[tuple[float, str]] = []
+    events: list[tuple[float, str]] = []
     f = law.physics.f
     for t, y in zip(times[0], states[0], strict=True):
         if law.force(y) <= 0:
             continue  # in separation a zero of f is no event
         leaving = float(np.sign(y[f]) * law.rate(y)[f]) > 0
-        found.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
+        events.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
     for t, y in zip(times[1], states[1], strict=True):
         rising = law.force(y + 1e-9 * law.rate(y)) > law.force(y)
-        found.append((float(t), "reattachment" if rising else "separation"))
-    return _without_reversals(sorted(found))
+        events.append((float(t), "reattachment" if rising else "separation"))
+    return _without_reversals(sorted(events))
 
 
-def _without_reversals(found: list[tuple[float, str]]) -> list[tuple[float, str]]:
+def _without_reversals(events: list[tuple[float, str]]) -> list[tuple[float, str]]:
     """Events without sticks shorter than a microsecond: there f only passes zero, a slip reversal."""
-    kept: list[tuple[float, str]] = []
-    for t, kind in found:
-        if kind == "stick_to_slip" and kept and kept[-1][1] == "slip_to_stick" and t - kept[-1][0] < 1e-6:
-            kept[-1] = (kept[-1][0], "slip_reversal")
+    merged: list[tuple[float, str]] = []
+    for t, kind in events:
+        if kind == "stick_to_slip" and merged and merged[-1][1] == "slip_to_stick" and t - merged[-1][0] < 1e-6:
+            merged[-1] = (merged[-1][0], "slip_reversal")
         else:
-            kept.append((t, kind))
-    return kept
+            merged.append((t, kind))
+    return merged

@@ -32,7 +32,7 @@ def solve(problem: Problem, value: float, budget: float, mode: str = "") -> Meth
     import heyoka as hy
 
     meter, p = Meter(problem, budget), problem.parameters
-    given = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
+    drive = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
     at_end, no_more = int(hy.taylor_outcome.time_limit), int(hy.taylor_outcome.step_limit)
     path: list[tuple[float, Array]] = []
     inside = 0.0
@@ -45,7 +45,7 @@ def solve(problem: Problem, value: float, budget: float, mode: str = "") -> Meth
     seen = {"callback": note} if problem.watched else {}
     prepared = []
     for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True):
-        integrator.pars[:2] = given
+        integrator.pars[:2] = drive
         # with fewer events, the last ones of ENDS
         state = integrator.state
         skipped = ends - len(integrator.t_events)

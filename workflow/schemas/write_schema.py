@@ -1,0 +1,58 @@
+"""Print the JSON Schema of study files, with which editors complete and check them: `make schema`."""
+
+import json
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
+
+from disc_model.studies.document import Document
+from disc_model.studies.quantity import quantity_names, quantity_of
+
+
+class _Plain(GenerateJsonSchema):
+    """JSON Schema without redundant text: titles that repeat a name, and paragraphs of docstrings after the first."""
+
+    def field_title_should_be_set(self, schema: Any) -> bool:
+        return False
+
+    def float_schema(self, schema: Any) -> Any:
+        """Numbers may be given as text: with a unit, or because YAML reads 1e-3 as text."""
+        return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.]*\d"}
+
+    def get_default_value(self, schema: Any) -> Any:
+        default = super().get_default_value(schema)
+        return default if isinstance(default, str | int | float) else NoDefault
+
+    def model_schema(self, schema: Any) -> Any:
+        described = super().model_schema(schema)
+        described.pop("title", None)
+        if "description" in described:
+            described["description"] = described["description"].split("\n\n")[0].replace("\n", " ")
+        return described
+
+
+def schema_text() -> str:
+    """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
+    options = {name: quantity_of(name) for name in quantity_names()}
+    models: tuple[type[BaseModel], ...] = (Document, *options.values())
+    refs, content = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "A study of disc_model",
+        **content["$defs"].pop(Document.__name__),
+        "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
+        "allOf": [
+            {
+                "if": {"properties": {"quantity": {"const": name}}, "required": ["quantity"]},
+                "then": {"properties": {"options": refs[model, "validation"]}},
+            }
+            for name, model in options.items()
+        ],
+        **content,
+    }
+    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
+
+
+if __name__ == "__main__":
+    print(schema_text(), end="")
