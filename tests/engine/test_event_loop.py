@@ -68,7 +68,7 @@ def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
 def test_flights_say_how_they_end() -> None:
     map_, x = wild()
     assert outcome(map_, map_.static) == exit_codes.RETURNED
-    assert outcome(map_, x) == exit_codes.LOST_CONTACT
+    assert outcome(map_, x) == exit_codes.STOPPED
     assert outcome(map_, x, may_separate=True) == exit_codes.RETURNED
     assert outcome(map_, -5 * map_.static) == exit_codes.OFF_SECTION  # P would be negative
     assert outcome(map_, np.full(map_.size, math.nan)) != exit_codes.RETURNED

@@ -39,7 +39,7 @@ def test_a_slider_that_touches_down_without_speed_slips_to_the_side_of_its_sprin
     p = Parameters(N=200, Omega=10, n_diameters=1, contact_compliance=1e-7)
     start = static_start(p)
     w = p.N * 1e-7 + start.u  # the slider is N C below the disc at rest
-    falling = start.replace(phase="separation", direction=0, psi=psi, u=w, u_velocity=-0.2, f=0.0, known=0)
+    falling = start.replace(phase="separation", direction=0, psi=psi, u=w, u_velocity=-0.2, f=0.0, _roots=(0, 0))
     result = simulate(p, 2e-5, initial_state=falling)
     # the contact force is still too small to stop it
     assert list(result.events.kind) == ["reattachment"]

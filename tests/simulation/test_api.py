@@ -53,7 +53,7 @@ STATE = simulate(P, 0.0371).final_state
     "change",
     [
         {"a": np.float32, "alpha": lambda x: x[::-1].copy()[::-1], "b": np.asfortranarray},
-        {"direction": np.int8, "known": np.uint64, "psi": np.longdouble, "f": Fraction},
+        {"direction": np.int8, "psi": np.longdouble, "f": Fraction},
         {"beta": lambda x: np.zeros(len(x), int), "a": lambda x: list(map(float, x))},
     ],
 )

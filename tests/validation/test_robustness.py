@@ -145,7 +145,7 @@ def changed(state: State, **changes: float | str) -> State:
     one = np.arange(len(state.a)) == 1
     added = {name: getattr(state, name) + changes[name] * one for name in ("a", "alpha") if name in changes}
     height = {"u": state.u + changes["u"]} if "u" in changes else {}
-    return state.replace(time=0.0, known=0, **changes | added | height)
+    return state.replace(time=0.0, _roots=(0, 0), **changes | added | height)
 
 
 def beginning(what: str) -> tuple[Parameters, State]:
@@ -216,7 +216,7 @@ def test_the_spring_can_hold_the_slider_on_where_stick_could_not(in_stick: float
     wanted = (1 + p.m * psi @ psi) * in_stick
     static = p.N + p.k * (psi @ a - quiet.u) - p.m * (psi * omega**2) @ a
     a[1] += (wanted - static) / (psi[1] * (p.k - p.m * omega[1] ** 2))
-    turning = quiet.replace(phase="slip", direction=1, f=1e-7, psi=-0.03, a=a, b=b, u=float(psi @ a), known=0)
+    turning = quiet.replace(phase="slip", direction=1, f=1e-7, psi=-0.03, a=a, b=b, u=float(psi @ a), _roots=(0, 0))
     turning = turning.replace(alpha=0 * a, beta=0 * a)
     result = simulate(p, 1e-3, initial_state=turning)
     assert result.status is Status.OK
@@ -256,12 +256,12 @@ def test_a_start_that_pulls_at_the_slider_is_a_separation_that_has_begun(phase: 
         a, alpha = quiet.a + 1e-3 * random.normal(size=5), quiet.alpha + random.normal(size=5)
         psi = plate_modes(p).psi.to_numpy()
         here = {"a": a, "alpha": alpha, "u": float(psi @ a)}
-        start = quiet.replace(time=0.0, phase=phase, direction=int(phase == "slip"), known=0, **here)
+        start = quiet.replace(time=0.0, phase=phase, direction=int(phase == "slip"), _roots=(0, 0), **here)
         found = simulate(p, 2e-3, tol=1e-12, initial_state=start)
         if "separation" not in set(found.events.kind[found.events.time == 0]):
             continue
         apart += 1
-        off = start.replace(phase="separation", direction=0, u_velocity=float(psi @ alpha), known=2)
+        off = start.replace(phase="separation", direction=0, u_velocity=float(psi @ alpha), _roots=(2, 0))
         right = simulate(p, 2e-3, tol=1e-12, initial_state=off)
         times = found.events.time[found.events.time > 0].to_numpy()
         np.testing.assert_allclose(times, right.events.time.to_numpy(), rtol=0, atol=1e-11)

@@ -54,14 +54,14 @@ def transverse_energy(model, state, phase):
 def inplane_energy(model, state):
     """Energy of the slider's in-plane motion, J."""
     x = state.x
-    return 0.5 * model.r_0**2 * (model.m * x[layout.SPEED] ** 2 + model.k_p * x[layout.PSI] ** 2)
+    return 0.5 * model.r_0**2 * (model.m * x[layout.F] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
 
 @helper
 def _powers_in(model, state, phase, direction, P):
     """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
     u, v, dw_dtheta = slider_motion(model, state)
-    f, F, Omega = state.x[layout.SPEED], inplane_force_per_radius(model, state), layout.drive_now(model, state)
+    f, F, Omega = state.x[layout.F], inplane_force_per_radius(model, state), layout.drive_now(model, state)
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
@@ -125,7 +125,7 @@ def audit_impact(model, before, impulse, dw_dtheta, state, audit):
 
     The normal force changes f: the energy that the slope takes from the in-plane motion beyond p f B is lost.
     """
-    lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.SPEED]
+    lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.F]
     expected = -lost + impulse * f * dw_dtheta
     after = transverse_energy(model, state, layout.SEPARATION)
     accumulate_residuals(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)

@@ -46,7 +46,7 @@ def state_at(model, s, order, x, phase, state):
         state.x[layout.U_VELOCITY] = dot(s.v, 0, s.powers, order)
     state.x[layout.PHASE] = phase
     state.x[layout.PSI] = psi
-    state.x[layout.SPEED] = 0.0 if phase == layout.STICK else f
+    state.x[layout.F] = 0.0 if phase == layout.STICK else f
     if model.ramped:
         state.x[layout.DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
         state.x[layout.LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
@@ -80,7 +80,7 @@ def load_state(model, s, state):
         store(s.e, b, load(state.e, b))
     for j in range(len(state.y)):
         s.y[j * ROWS], s.g[j * ROWS] = state.y[j], state.g[j]
-    s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.SPEED]
+    s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.F]
     s.u[0], s.v[0] = state.x[layout.U], state.x[layout.U_VELOCITY]
     if model.ramped:
         s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], model.Omega_rate * model.unit

@@ -1,7 +1,8 @@
 """The event loop: expand the series, find the first event, move there, change phase, record; until the end.
 
-The loop runs inside one compiled function and returns when a buffer is full. Memory therefore does not grow with the
-simulated time, and callers can show progress.  Pauses have no influence on results.
+A `run` records the motion, and returns when a buffer is full: memory does not grow with the simulated time, and callers
+can show progress.  Pauses have no influence on results.  Elsewhere the same loop takes small changes along with the
+motion instead, and records nothing but counts: see ``variational``.
 """
 
 from typing import NamedTuple
@@ -11,11 +12,13 @@ import numpy as np
 from . import layout, transitions
 from .audit import audit_impact, audit_step, transverse_energy
 from .dense_output import CLOSED_FORM, move_to
-from .exit_codes import NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
+from .exit_codes import CONSISTENT, NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .jit import inlined, kernel
+from .saltation import pass_event
 from .sampling import sample_step
 from .stepping import advance_time, expand, first_event, set_course, step_size
 from .stick_propagator import LONGEST_STICK, closed_form_length
+from .tangent import take_step
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -23,7 +26,7 @@ STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = ran
 KIND_OF = (-1, STICK_TO_SLIP, STICK_TO_SLIP, SLIP_TO_STICK, LOSS_OF_CONTACT, REATTACHMENT)
 
 # Counters, shape (N_COUNTERS,).
-STEPS, EVENTS, SEPARATIONS, IN_A_ROW, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COUNTERS = range(8)
+STEPS, EVENTS, SEPARATIONS, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COUNTERS = range(7)
 # Columns of a row of events.
 EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
 
@@ -41,7 +44,7 @@ class Limits(NamedTuple):
     order: int  # of the series
     tolerance: float  # of the series
     t_end: float  # s
-    stop_at_first: bool  # separation
+    may_separate: bool  # if not, a loss of contact ends the run
     max_steps: int
     pause_after: int  # steps
     audit_every: int  # steps
@@ -73,7 +76,7 @@ def _record(model, state, kind, buffers):
     u, v, _ = transitions.slider_motion(model, state)
     row[0] = x[layout.TIME] + x[layout.TIME_LOW]
     row[1], row[2], row[3] = kind, x[layout.PHASE], x[layout.DIRECTION]
-    row[4], row[5], row[6], row[7], row[8] = x[layout.PSI], x[layout.SPEED], u, v, x[layout.FORCE]
+    row[4], row[5], row[6], row[7], row[8] = x[layout.PSI], x[layout.F], u, v, x[layout.FORCE]
     counters[EVENT_ROWS] += 1
 
 
@@ -102,25 +105,30 @@ def _apply_event(model, state, cause, at_once, buffers):
 
 
 @inlined
-def _move(model, s, state, probe, order, x_end, audit_every, buffers):
-    """Advance state and clock over a step, or over stick in closed form (``CLOSED_FORM``), with audits and samples."""
-    x, phase, counters = state.x, state.x[layout.PHASE], buffers.counters
+def _record_step(model, s, state, probe, order, x_end, audit_every, buffers):
+    """Move ``state`` over a step, or over stick in closed form (``CLOSED_FORM``), with audits and samples."""
+    phase, counters = state.x[layout.PHASE], buffers.counters
     counters[STEPS] += 1
     counters[FROM_AUDIT] += 1
     if counters[FROM_AUDIT] >= audit_every:
         counters[FROM_AUDIT] = 0
-        audit_step(model, s, order, x_end, phase, x[layout.DIRECTION], probe, buffers.audit)
+        audit_step(model, s, order, x_end, phase, state.x[layout.DIRECTION], probe, buffers.audit)
     if len(buffers.samplers) > 0:
         kept, filled = buffers.sample_rows, counters[SAMPLE_ROWS]
         counters[SAMPLE_ROWS] = sample_step(
             model, s, order, state, x_end, buffers.samplers, buffers.sampled, probe, kept, filled
         )
     move_to(model, s, order, x_end, phase, state)
-    x[layout.KNOWN], x[layout.FORCE] = 0.0, 0.0
+
+
+@inlined
+def _advance_clock(model, state, order, x_end, dt):
+    """Advance the clock, and the drive and load of a ramp, over a step of x_end time units, ``dt`` s."""
+    x = state.x
+    x[layout.KNOWN], x[layout.KNOWN_FORCE], x[layout.FORCE] = 0.0, 0.0, 0.0
     x[layout.PROPAGATED] = 0.0 if x_end >= LONGEST_STICK else JUST_PROPAGATED if order == CLOSED_FORM else 1.0
-    advance_time(x, x_end * model.unit)
+    advance_time(x, dt)
     set_course(model, state)
-    buffers.phase_times[int(phase)] += x_end * model.unit
 
 
 @inlined
@@ -131,43 +139,72 @@ def _full(buffers):
     return events or counters[SAMPLE_ROWS] > buffers.sample_capacity
 
 
-@kernel
-def run(model, s, state, probe, limits, buffers):
-    """Advance ``state`` until a reason to return: see ``exit_codes``.  ``probe`` is a work state."""
-    x, counters = state.x, buffers.counters
-    pause = counters[STEPS] + limits.pause_after
+@inlined
+def follow(model, s, state, probe, limits, buffers, t):
+    """Advance ``state`` until a reason to return: see ``exit_codes``.
+
+    The motion is recorded in ``buffers``; or ``t`` is a tuple of one `Tangent`, which takes counts and small changes,
+    and ``limits`` are `IntegrationLimits`. The compiler drops the branches of the other use. ``probe`` is a work state.
+    """
+    x, start, releases, pause, order = state.x, state.x[layout.TIME], 0, 0, limits.order
+    if len(t) == 0:
+        pause = buffers.counters[STEPS] + limits.pause_after
     set_course(model, state)
     while True:
-        if counters[STEPS] >= limits.max_steps:
-            return STEP_LIMIT
-        if _full(buffers) or counters[STEPS] >= pause:
-            return PAUSED
-        left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
-        if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
-            x_end = min(closed_form_length(model, s, state), left)
-            if x_end > 0.0:
-                _move(model, s, state, probe, CLOSED_FORM, x_end, limits.audit_every, buffers)
-                if x_end >= left:
-                    return TIME_OVER
-                continue
-        order = limits.order
-        if x[layout.PROPAGATED] == JUST_PROPAGATED and not model.compliant:
-            order = ORDER_BEFORE_RELEASE
+        if len(t) == 0:
+            if buffers.counters[STEPS] >= limits.max_steps:
+                return STEP_LIMIT
+            if _full(buffers) or buffers.counters[STEPS] >= pause:
+                return PAUSED
+            left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
+            if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
+                x_end = min(closed_form_length(model, s, state), left)
+                if x_end > 0.0:
+                    dt = x_end * model.unit
+                    buffers.phase_times[layout.STICK] += dt
+                    _record_step(model, s, state, probe, CLOSED_FORM, x_end, limits.audit_every, buffers)
+                    _advance_clock(model, state, CLOSED_FORM, x_end, dt)
+                    if x_end >= left:
+                        return TIME_OVER
+                    continue
+            longest, order = left, limits.order
+            if x[layout.PROPAGATED] == JUST_PROPAGATED and not model.compliant:
+                order = ORDER_BEFORE_RELEASE
+        else:
+            left = (limits.t_max - (x[layout.TIME] - start)) / model.unit
+            longest = min(left, limits.longest)
         if expand(model, s, state, order) <= transitions.PAINLEVE_MARGIN:
             return NO_SOLUTION
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:
             return NON_FINITE
-        x_end, cause = first_event(model, s, state, order, min(x_end, left))
-        before = x[layout.TIME]
-        _move(model, s, state, probe, order, x_end, limits.audit_every, buffers)
+        x_end, cause = first_event(model, s, state, order, min(x_end, longest))
+        before, dt = x[layout.TIME], x_end * model.unit
+        if len(t) == 0:
+            buffers.phase_times[int(x[layout.PHASE])] += dt
+            _record_step(model, s, state, probe, order, x_end, limits.audit_every, buffers)
+        else:
+            take_step(model, s, t[0], order, x_end, dt, state, limits.tangent)
+        _advance_clock(model, state, order, x_end, dt)
         if cause != transitions.NOTHING:
-            counters[IN_A_ROW] = counters[IN_A_ROW] + 1 if x[layout.TIME] == before else 0
-            if counters[IN_A_ROW] > transitions.MAX_EVENTS_IN_A_ROW:
+            x[layout.IN_A_ROW] = x[layout.IN_A_ROW] + 1.0 if x[layout.TIME] == before else 0.0
+            if x[layout.IN_A_ROW] > transitions.MAX_EVENTS_IN_A_ROW:
                 return STALLED
-            if _apply_event(model, state, cause, x_end == 0.0, buffers) == NO_SOLUTION:
-                return NO_SOLUTION
-            if limits.stop_at_first and counters[SEPARATIONS] > 0:
+            if len(t) == 0:
+                outcome = _apply_event(model, state, cause, x_end == 0.0, buffers)
+            else:
+                releases += 1 if cause == transitions.RELEASE_FORWARD else 0
+                returns = cause == transitions.RELEASE_FORWARD and releases == limits.releases
+                outcome = pass_event(model, state, t[0], cause, x_end == 0.0, returns, limits.tangent)
+            if outcome != CONSISTENT:
+                return outcome
+            if x[layout.PHASE] == layout.SEPARATION and not limits.may_separate:
                 return STOPPED
         if x_end >= left:
             return TIME_OVER
+
+
+@kernel
+def run(model, s, state, probe, limits, buffers):
+    """Advance ``state`` and record the motion: see `follow`.  Returns the exit code."""
+    return follow(model, s, state, probe, limits, buffers, ())

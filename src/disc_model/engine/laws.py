@@ -38,7 +38,9 @@ class Instant(NamedTuple):
 
 
 # Indices of the entries of a state; the entries of the model stand before them.
-PSI, F, W, W_VELOCITY, DW_DTHETA, FREE, U, U_VELOCITY, N_ENTRIES = range(8, 17)
+(
+    PSI_ENTRY, F_ENTRY, W_ENTRY, W_VELOCITY_ENTRY, DW_DTHETA_ENTRY, FREE_ENTRY, U_ENTRY, U_VELOCITY_ENTRY, N_ENTRIES,
+) = range(8, 17)  # fmt: skip
 
 
 @inlined
@@ -133,8 +135,8 @@ def stepped(i, entry):
     return Instant(
         _step(i.N, entry == 0), _step(i.k, entry == 1), _step(i.c, entry == 2), _step(i.m, entry == 3),
         _step(i.k_p, entry == 4), _step(i.c_p, entry == 5), _step(i.Omega, entry == 6), _step(i.compliance, entry == 7),
-        _step(i.psi, entry == PSI), _step(i.f, entry == F),
-        _step(i.w, entry == W), _step(i.w_velocity, entry == W_VELOCITY),
-        _step(i.dw_dtheta, entry == DW_DTHETA), _step(i.free, entry == FREE),
-        _step(i.u, entry == U), _step(i.u_velocity, entry == U_VELOCITY),
+        _step(i.psi, entry == PSI_ENTRY), _step(i.f, entry == F_ENTRY),
+        _step(i.w, entry == W_ENTRY), _step(i.w_velocity, entry == W_VELOCITY_ENTRY),
+        _step(i.dw_dtheta, entry == DW_DTHETA_ENTRY), _step(i.free, entry == FREE_ENTRY),
+        _step(i.u, entry == U_ENTRY), _step(i.u_velocity, entry == U_VELOCITY_ENTRY),
     )  # fmt: skip

@@ -19,6 +19,8 @@ from .jit.simd import WIDTH, aligned, aligned_pieces
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
+# Indices of the slider's psi, f, u, u', and their number.
+PSI, F, U, U_VELOCITY, SLIDER = range(5)
 
 # Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
 # From SLOPE_RATE on, a row for each order k: dw_dtheta (k + 1) / unit in a-lanes, dw_dtheta in b-lanes.
@@ -29,7 +31,7 @@ SLOPE_RATE = 8
 # slider's series in Series.slider, and its end.
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
-F, PSI_SERIES, P_SERIES, U_SERIES, V_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
+PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
 SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 14))
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
@@ -116,7 +118,7 @@ def drive_angle(model, time):
 class Series(NamedTuple):
     """Taylor coefficients of one step.
 
-    z and e are views of ``modes``, whose end is scratch; f to down of ``slider``, ``ROWS`` doubles each. Behind them
+    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``, ``ROWS`` doubles each. Behind them
     stand those of B / r_0, under the normal force, and of Omega and N, on a ramp.
     """
 
@@ -126,11 +128,11 @@ class Series(NamedTuple):
     e: np.ndarray
     y: np.ndarray
     g: np.ndarray
-    f: np.ndarray
     psi: np.ndarray
-    P: np.ndarray
+    f: np.ndarray
     u: np.ndarray
     v: np.ndarray
+    P: np.ndarray
     switch: np.ndarray  # direction * f in slip, gap in separation, forward release function in stick
     switch2: np.ndarray  # backward release function
     powers: np.ndarray
@@ -152,10 +154,13 @@ class EngineState(NamedTuple):
     x: np.ndarray
 
 
-# Indices into State.x.  KNOWN: multiplicity of the event function's known root at present; PROPAGATED: not 0 if stick
-# has used its closed form as far as possible, see ``event_loop``. The time is TIME + TIME_LOW, summed with compensation
-# so that event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
-TIME, TIME_LOW, PSI, SPEED, U, U_VELOCITY, PHASE, DIRECTION, KNOWN, FORCE, PROPAGATED, DRIVE, LOAD, SCALARS = range(14)
+# Indices into EngineState.x beside PSI to U_VELOCITY.  KNOWN, KNOWN_FORCE: multiplicity of the root with which a phase
+# began, of event function and contact force; PROPAGATED: not 0 if stick has used its closed form as far as possible,
+# see ``event_loop``; IN_A_ROW: events at this instant. The time is TIME + TIME_LOW, summed with compensation so that
+# event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
+TIME, TIME_LOW, PHASE, DIRECTION, KNOWN, KNOWN_FORCE, FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(
+    SLIDER, SLIDER + 12
+)
 
 
 def pair_lanes(n_pairs):

@@ -6,13 +6,13 @@ time, J the Jacobian of the jump and v the rates before and after,
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
 """
 
-from . import laws, tangent
+from . import laws, tangent, transitions
+from .exit_codes import CONSISTENT, NO_SOLUTION, RETURNED
 from .jit import helper, inlined, kernel
 from .jit.simd import WIDTH, fma, load, mul, splat, store, sub, total
-from .laws import DW_DTHETA, FREE, N_ENTRIES, PSI, U_VELOCITY, W_VELOCITY, F, U, W
-from .layout import DIRECTION, HALF, PHASE, SEPARATION, SLIP, SPEED, STICK
+from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, STICK, U_VELOCITY, F, U
 from .tangent import N_SCALARS, point_change, slider_row
-from .transitions import disc_point, event_function, instant
+from .transitions import change_phase, disc_point, event_function, instant
 
 # An event function passed its root before the phase began if it did so earlier than this, in radians of the fastest
 # motion: less is rounding of the time at which a motion was cut.
@@ -42,18 +42,18 @@ def rates(model, state, out):
         out[(2 * width + j) * WIDTH] = state.g[j]
         rate = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
         out[(2 * width + n0 + j) * WIDTH] = rate - model.mode_amplitude0[j] * V
-    out[slider_row(model, tangent.PSI_ROW) * WIDTH] = model.Omega - f
-    out[slider_row(model, tangent.F_ROW) * WIDTH] = rate_f
+    out[slider_row(model, PSI) * WIDTH] = model.Omega - f
+    out[slider_row(model, F) * WIDTH] = rate_f
     u, v = (i.u, i.u_velocity) if model.compliant or phase == SEPARATION else (i.w, i.w_velocity)
-    out[slider_row(model, tangent.U_ROW) * WIDTH] = v
-    out[slider_row(model, tangent.V_ROW) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
+    out[slider_row(model, U) * WIDTH] = v
+    out[slider_row(model, U_VELOCITY) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
 
 
 @inlined
 def _free_change(model, state, x, at, q, parameters, changes):
     """Change of A, ``transitions.Instant.free`` (lanes)."""
-    width, n0, f = len(model.mode_amplitude), len(model.mode_amplitude0), state.x[SPEED]
-    df, acceleration = load(x, at + slider_row(model, tangent.F_ROW) * WIDTH), splat(0.0)
+    width, n0, f = len(model.mode_amplitude), len(model.mode_amplitude0), state.x[F]
+    df, acceleration = load(x, at + slider_row(model, F) * WIDTH), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
             i, l = j + HALF, model.shift[j]
@@ -85,23 +85,23 @@ def _put_changes(model, state, t, x, c, changes):
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
     _, _, dw_dtheta = disc_point(model, state)
-    dw, dv, d_slope = point_change(model, x, at, state.x[SPEED], dw_dtheta)
-    store(t.change, PSI * WIDTH, load(x, slider + tangent.PSI_ROW * WIDTH))
-    store(t.change, F * WIDTH, load(x, slider + tangent.F_ROW * WIDTH))
-    store(t.change, W * WIDTH, dw)
-    store(t.change, W_VELOCITY * WIDTH, dv)
-    store(t.change, DW_DTHETA * WIDTH, d_slope)
-    store(t.change, FREE * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
-    store(t.change, U * WIDTH, load(x, slider + tangent.U_ROW * WIDTH))
-    store(t.change, U_VELOCITY * WIDTH, load(x, slider + tangent.V_ROW * WIDTH))
+    dw, dv, d_slope = point_change(model, x, at, state.x[F], dw_dtheta)
+    store(t.change, laws.PSI_ENTRY * WIDTH, load(x, slider + PSI * WIDTH))
+    store(t.change, laws.F_ENTRY * WIDTH, load(x, slider + F * WIDTH))
+    store(t.change, laws.W_ENTRY * WIDTH, dw)
+    store(t.change, laws.W_VELOCITY_ENTRY * WIDTH, dv)
+    store(t.change, laws.DW_DTHETA_ENTRY * WIDTH, d_slope)
+    store(t.change, laws.FREE_ENTRY * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
+    store(t.change, laws.U_ENTRY * WIDTH, load(x, slider + U * WIDTH))
+    store(t.change, laws.U_VELOCITY_ENTRY * WIDTH, load(x, slider + U_VELOCITY * WIDTH))
 
 
 @inlined
 def _change(t, row):
     """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
     change = splat(0.0)
-    for entry in range(N_ENTRIES):
-        change = fma(splat(t.gradient[row * N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
+    for entry in range(laws.N_ENTRIES):
+        change = fma(splat(t.gradient[row * laws.N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
     return change
 
 
@@ -113,10 +113,10 @@ def _set_derivative(model, i, t, row, entry, value):
     """
     derivative = value.imag / laws.TINY
     if entry == tangent.D_K:
-        derivative += model.u_0 * t.gradient[row * N_ENTRIES + tangent.LOAD]
+        derivative += model.u_0 * t.gradient[row * laws.N_ENTRIES + tangent.LOAD]
     elif entry == tangent.D_COMPLIANCE:
         derivative *= i.compliance
-    t.gradient[row * N_ENTRIES + entry] = derivative
+    t.gradient[row * laws.N_ENTRIES + entry] = derivative
 
 
 @helper
@@ -124,7 +124,7 @@ def event_gradient(model, state, t, cause):
     """Derivatives of the event function of ``cause``, into ``t.gradient``."""
     i, _ = instant(model, state)
     slipping = state.x[PHASE] == SLIP
-    for entry in range(N_ENTRIES):
+    for entry in range(laws.N_ENTRIES):
         _set_derivative(model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping))
 
 
@@ -167,14 +167,14 @@ def impact_change(model, state, t):
     """Jacobian of the plastic impact, applied to the columns; ``state`` is the one before."""
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     i, _ = instant(model, state)
-    for entry in range(N_ENTRIES):
+    for entry in range(laws.N_ENTRIES):
         p, f = laws.impact(model, laws.stepped(i, entry))
         _set_derivative(model, i, t, 0, entry, p)
         _set_derivative(model, i, t, 1, entry, f)
     for c in range(0, t.columns, WIDTH):
         _put_changes(model, state, t, t.now, c, c >= t.plain)
         block, dp = c * t.rows, _change(t, 0)
-        store(t.now, block + slider_row(model, tangent.F_ROW) * WIDTH, _change(t, 1))
+        store(t.now, block + slider_row(model, F) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
             store(t.now, at, sub(load(t.now, at), mul(splat(model.mode_amplitude[j]), dp)))
@@ -190,8 +190,55 @@ def slider_rows(model, state, t):
     for c in range(0, t.columns, WIDTH):
         block = c * t.rows
         if not model.compliant:
-            du, dv, _ = point_change(model, t.now, block, state.x[SPEED], B)
-            store(t.now, block + slider_row(model, tangent.U_ROW) * WIDTH, du)
-            store(t.now, block + slider_row(model, tangent.V_ROW) * WIDTH, dv)
+            du, dv, _ = point_change(model, t.now, block, state.x[F], B)
+            store(t.now, block + slider_row(model, U) * WIDTH, du)
+            store(t.now, block + slider_row(model, U_VELOCITY) * WIDTH, dv)
         if state.x[PHASE] == STICK:
-            store(t.now, block + slider_row(model, tangent.F_ROW) * WIDTH, splat(0.0))
+            store(t.now, block + slider_row(model, F) * WIDTH, splat(0.0))
+
+
+@helper
+def count_event(state, cause, log):
+    """Count an event that was carried out."""
+    phase = state.x[PHASE]
+    if cause == transitions.RELEASE_FORWARD:
+        log[tangent.RELEASES] += 1.0
+    elif cause == transitions.RELEASE_BACKWARD:
+        log[tangent.BACK_RELEASES] += 1.0
+    elif cause == transitions.AT_REST and phase == SLIP:
+        log[tangent.REVERSALS] += 1.0
+    if phase == SEPARATION:
+        log[tangent.SEPARATIONS] += 1.0
+    elif phase == STICK:
+        log[tangent.STICKS] += 1.0
+
+
+@helper
+def pass_event(model, state, t, cause, at_once, returns, changes):
+    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code.
+
+    at_once : whether the phase had no duration
+    returns : whether the integration ends at this event, still in the phase before it
+    """
+    if cause == transitions.AT_REST:
+        state.x[F] = 0.0
+    if changes:
+        rates(model, state, t.before)
+        event_times(model, state, t, cause, at_once)
+        shift(t, t.before, 1.0)
+        if cause == transitions.GAP_CLOSED and not model.compliant:
+            impact_change(model, state, t)
+    if returns:
+        t.log[tangent.RELEASES] += 1.0
+        return RETURNED
+    if change_phase(model, state, cause, at_once) == NO_SOLUTION:
+        return NO_SOLUTION
+    count_event(state, cause, t.log)
+    if changes:
+        if state.x[PHASE] == SEPARATION:
+            slider_rows(model, state, t)
+        rates(model, state, t.after)
+        shift(t, t.after, -1.0)
+        if state.x[PHASE] != SEPARATION:
+            slider_rows(model, state, t)
+    return CONSISTENT

@@ -47,7 +47,7 @@ def _write_row(model, s, order, x, time, phase, theta, probe, row):
         row[3], row[4] = probe.x[layout.U], probe.x[layout.U_VELOCITY]
     row[6], row[7] = point_motion(model, probe, angle)
     row[8] = probe.x[layout.PSI]
-    row[9] = layout.drive_now(model, probe) - probe.x[layout.SPEED]
+    row[9] = layout.drive_now(model, probe) - probe.x[layout.F]
     row[10] = phase
 
 

@@ -45,6 +45,7 @@ from .layout import (
     DOWN,
     DRIVE_SERIES,
     DW_DTHETA,
+    F_SERIES,
     LOAD_SERIES,
     MINUS_AMPLITUDE_DAMPING,
     MINUS_AMPLITUDE_STIFFNESS,
@@ -62,7 +63,6 @@ from .layout import (
     UP,
     V_SERIES,
     E,
-    F,
 )
 
 # Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, the constant C, and in a-lanes that of
@@ -140,7 +140,7 @@ def _modal_sum(model, s, row, k):
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
     B = _modal_sum(model, s, DW_DTHETA, 0)
-    u, v = _modal_sum(model, s, AMPLITUDE_ROW, 0), _modal_sum(model, s, AMPLITUDE_ROW, E) + s.slider[F] * B
+    u, v = _modal_sum(model, s, AMPLITUDE_ROW, 0), _modal_sum(model, s, AMPLITUDE_ROW, E) + s.slider[F_SERIES] * B
     for j in range(len(model.mode_amplitude0)):
         u += model.mode_amplitude0[j] * s.y[j * ROWS]
         v += model.mode_amplitude0[j] * s.g[j * ROWS]
@@ -155,7 +155,7 @@ def _products(s, width, b, k, f_high, e_low, z_low):
     """
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
-        f_low = spread(s.slider, F + k - i)
+        f_low = spread(s.slider, F_SERIES + k - i)
         e, z = _e(s, width, at), _z(s, at + width)
         e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
@@ -173,7 +173,7 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
-        f_mid, f_low = spread(s.slider, F + k - i), spread(s.slider, F + k - i - 1)
+        f_mid, f_low = spread(s.slider, F_SERIES + k - i), spread(s.slider, F_SERIES + k - i - 1)
         e, z = _e(s, width, at), _z(s, at + width)
         e_low, z_low = fma(f_mid, e, e_low), fma(f_mid, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
@@ -196,19 +196,19 @@ def _inner_terms(s, width, b, k, e_last, z_last):
     if k % 2 == 0:
         e_low, z_low = _kept(s, _E_HIGH, width, b), _kept(s, _Z_HIGH, width, b)
         if k > 2:
-            f = splat(s.slider[F + k - 1])
+            f = splat(s.slider[F_SERIES + k - 1])
             e_low, z_low = fma(f, _e(s, width, width + b), e_low), fma(f, _z(s, 2 * width + b), z_low)
-        f = splat(s.slider[F + 1])
+        f = splat(s.slider[F_SERIES + 1])
         return fma(f, e_last, e_low), fma(f, z_last, z_low)
     e_high, z_high = e_low, z_low
     if k > 1:
-        f = splat(s.slider[F + k - 1])
+        f = splat(s.slider[F_SERIES + k - 1])
         e_low, z_low = mul(f, _e(s, width, width + b)), mul(f, _z(s, 2 * width + b))
         if ONE_REGISTER:
             e_low, z_low, e_high, z_high = _products_apart(s, width, b, k, f, e_low, z_low)
         else:
             e_low, z_low, e_high, z_high = _products(s, width, b, k, f, e_low, z_low)
-        f_low, f_high = splat(s.slider[F + 1]), splat(s.slider[F + 2])
+        f_low, f_high = splat(s.slider[F_SERIES + 1]), splat(s.slider[F_SERIES + 2])
         e_low, z_low = fma(f_low, e_last, e_low), fma(f_low, z_last, z_low)
         e_high, z_high = fma(f_high, e_last, e_high), fma(f_high, z_last, z_high)
     _keep(s, _E_HIGH, width, b, e_high)
@@ -345,7 +345,7 @@ def _next_order(model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
 @inlined
 def _spring(model, s, k):
     """F of order k, from psi_k and f_k."""
-    F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k]
+    F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k]
     if model.ramped:
         return F_k + model.c_p * s.slider[DRIVE_SERIES + k]
     return F_k + model.c_p * model.Omega if k == 0 else F_k
@@ -358,8 +358,8 @@ def _move_slider(model, s, k, f_rate, acceleration):
     driven = drive(model, s) if k == 0 else 0.0
     if model.ramped and k == 1:
         driven = s.slider[DRIVE_SERIES + 1]
-    s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F + k]) * up
-    s.slider[F + k + 1] = f_rate * up
+    s.slider[PSI_SERIES + k + 1] = (driven - s.slider[F_SERIES + k]) * up
+    s.slider[F_SERIES + k + 1] = f_rate * up
     s.slider[U_SERIES + k + 1] = s.slider[V_SERIES + k] * up
     s.slider[V_SERIES + k + 1] = acceleration * up
 
@@ -394,7 +394,7 @@ def slip_series(model, s, order, direction):
     Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the event function
     direction * f.
     """
-    f0, psi = s.slider[F], s.slider[PSI_SERIES]
+    f0, psi = s.slider[F_SERIES], s.slider[PSI_SERIES]
     u, v, dw_dtheta = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
     friction = direction * model.mu_k / model.r_0
@@ -415,7 +415,7 @@ def slip_series(model, s, order, direction):
         impulse, f_hat = P * up, pull * up
         u, v = v * up, acceleration * up + f_hat * dw_dtheta - recoil * impulse
         f = f_hat - braking * impulse
-        s.slider[F + k], s.slider[PSI_SERIES + k] = f, psi
+        s.slider[F_SERIES + k], s.slider[PSI_SERIES + k] = f, psi
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
@@ -486,13 +486,13 @@ def stick_series(model, s, order):
         u, v_hat = v * up, acceleration * up
         v = v_hat - model.inverse_effective_mass * impulse
         s.slider[U_SERIES + k + 1], s.slider[V_SERIES + k + 1] = u, v
-        s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
+        s.slider[F_SERIES + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
         # without P_k, whose share is in by_force
         vertical = model.k * u + model.c * v_hat
         if model.ramped and k == 0:
             vertical += s.slider[LOAD_SERIES + 1]
     _last_force(model, s, order, impulse)
-    s.slider[F + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
+    s.slider[F_SERIES + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
     growth = model.r_0 * model.k_p * s.slider[PSI_SERIES + 1]
@@ -511,17 +511,17 @@ def stick_series(model, s, order):
 @inlined
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
-    n, f0, weight = len(model.mode_amplitude0), s.slider[F], load_at(model, s) - model.k * model.u_0
+    n, f0, weight = len(model.mode_amplitude0), s.slider[F_SERIES], load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (drive(model, s) - f0)
     _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     for k in range(order + 1):
         if k > 0:
             # not by _spring: in the branches there, sums would be rounded otherwise
-            pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F + k], 0.0
+            pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k], 0.0
             if model.ramped:
                 pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
             _, _, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, s.slider[F + k], f0, 0.0, pending, e, carried, e_last, z_last
+                model, s, k, s.slider[F_SERIES + k], f0, 0.0, pending, e, carried, e_last, z_last
             )
         gap = s.slider[U_SERIES + k] - _modal_sum(model, s, AMPLITUDE_ROW, k)
         for j in range(n):
@@ -607,11 +607,11 @@ def compliant_slip_series(model, s, order, direction):
     """
     stiffness, friction = 1.0 / model.compliance, direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
-    f0, ratio, share, beta, V, impulse = s.slider[F], 1.0, 1.0, 0.0, 0.0, 0.0
+    f0, ratio, share, beta, V, impulse = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
     _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     for k in range(order):
-        f = s.slider[F + k]
+        f = s.slider[F_SERIES + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
         # computed before the modes: every order would wait for their sum
         w = (closing + f * slope - impulse * model.inverse_effective_mass) * s.slider[UP + k]
@@ -644,7 +644,7 @@ def compliant_stick_series(model, s, order):
     """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
     width, stiffness, lightness, impulse = lane_count(model), 1.0 / model.compliance, 1.0 / model.m, 0.0
     for k in range(order + 1):
-        s.slider[F + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
+        s.slider[F_SERIES + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     if model.ramped:
         s.slider[PSI_SERIES + 2] = s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
@@ -705,7 +705,7 @@ def normal_slip_series(model, s, order, direction):
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
     """
-    f0, friction, mobility = s.slider[F], direction * model.mu_k, 1.0 + model.m * model.inverse_effective_mass
+    f0, friction, mobility = s.slider[F_SERIES], direction * model.mu_k, 1.0 + model.m * model.inverse_effective_mass
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
@@ -715,7 +715,7 @@ def normal_slip_series(model, s, order, direction):
     inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     h, impulse = 0.0, 0.0
     for k in range(order):
-        f = s.slider[F + k]
+        f = s.slider[F_SERIES + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)

@@ -156,8 +156,8 @@ def _touchdown(model, s, state, order, x_end, x):
 def first_event(model, s, state, order, x_end):
     """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
     phase, known, known_force = state.x[layout.PHASE], int(state.x[layout.KNOWN]), 0
-    if model.compliant:
-        known, known_force = known % transitions.TOUCHING, known // transitions.TOUCHING
+    if model.compliant:  # there the contact force, too, starts at zero
+        known_force = int(state.x[layout.KNOWN_FORCE])
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
         x, cause = _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)

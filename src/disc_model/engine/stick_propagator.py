@@ -9,7 +9,7 @@ import math
 
 from .jit import helper, inlined
 from .jit.simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
-from .layout import PHASE, PSI, SPEED, STICK, U_VELOCITY, U
+from .layout import PHASE, PSI, STICK, U_VELOCITY, F, U
 from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
 
 # The closed form saves time from about the length of a usual step (time units).
@@ -94,5 +94,5 @@ def propagate_stick(model, s, x, state):
     if model.compliant:
         states = 2 * (len(model.shift) + len(model.mode_amplitude0))
         state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
-    state.x[PHASE], state.x[SPEED] = STICK, 0.0
+    state.x[PHASE], state.x[F] = STICK, 0.0
     state.x[PSI] = s.psi[0] + model.Omega * model.unit * x

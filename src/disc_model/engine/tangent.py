@@ -14,17 +14,18 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.packing import packed
 from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, slip_denominator
-from .layout import HALF, ROWS, SEPARATION, SLIP, STICK, Model
+from .layout import DIRECTION, HALF, PHASE, PSI, ROWS, SEPARATION, SLIDER, SLIP, STICK, U_VELOCITY, F, Model, U
 
-# Entries of ``Tangent.log``, explained in ``variational``.
+# Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
+DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
+    range(10)
+)
 LOG_SIZE = 16
-
-# Rows of the slider in a column, after those of the disc, which have the order of ``EngineState.disc``.
-PSI_ROW, F_ROW, U_ROW, V_ROW, N_SLIDER_ROWS = range(5)
 
 # Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
 # relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
@@ -60,7 +61,7 @@ def longest_step(order: int, tolerance: float) -> float:
 
 def n_rows(model: Model) -> int:
     """Number of rows of a column."""
-    return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + N_SLIDER_ROWS
+    return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + SLIDER
 
 
 def build_tangent(model: Model, columns: int, order: int, plain: int | None = None) -> Tangent:
@@ -68,7 +69,7 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, order_size = n_rows(model), (order + 2) * columns
-    inputs = N_SCALARS + rows - N_SLIDER_ROWS
+    inputs = N_SCALARS + rows - SLIDER
     arrays = aligned_pieces(
         order_size * rows, order_size, order_size, rows * columns, inputs * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
@@ -78,7 +79,7 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
 
 @inlined
 def slider_row(model, row):
-    """Index of a slider's row, ``PSI_ROW`` to ``V_ROW``, in a column."""
+    """Row of one of the slider's quantities, ``PSI`` to ``U_VELOCITY``, in a column: behind those of the disc."""
     return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + row
 
 
@@ -116,7 +117,7 @@ def point_change(model, x, at, f, B):
         force = splat(model.mode_amplitude0[j])
         du = fma(force, load(x, at + (2 * width + j) * WIDTH), du)
         dv = fma(force, load(x, at + (2 * width + n0 + j) * WIDTH), dv)
-    df = load(x, at + slider_row(model, F_ROW) * WIDTH)
+    df = load(x, at + slider_row(model, F) * WIDTH)
     return du, fma(splat(f), dB, fma(splat(B), df, dv)), dB
 
 
@@ -127,7 +128,7 @@ def _diametral_rates(model, s, t, block, k, phase):
     Returns their share of d(u'') and dB of order k + 1 (lanes).
     """
     width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * t.rows * WIDTH
-    f_row, q = slider_row(model, F_ROW), block * t.inputs * WIDTH
+    f_row, q = slider_row(model, F), block * t.inputs * WIDTH
     here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
     up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
     for j in range(width):
@@ -231,7 +232,7 @@ def _compliant_change(model, s, t, block, k, friction):
     """Change of V = (w - u) / compliance of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
     at = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
-    compression = sub(dw, load(t.series, at + slider_row(model, U_ROW) * WIDTH))
+    compression = sub(dw, load(t.series, at + slider_row(model, U) * WIDTH))
     change = mul(splat(1.0 / model.compliance), compression)
     if block * WIDTH >= t.plain:
         V = s.P[k]
@@ -284,8 +285,8 @@ def _apply_force(model, s, t, block, k, P):
 def tangent_series(model, s, t, order, phase, direction):
     """Taylor coefficients of all columns along the step whose series is ``s``, from ``t.now``."""
     R, orders, width = t.rows, len(t.base_dw_dtheta), len(model.mode_amplitude)
-    psi_row, f_row = slider_row(model, PSI_ROW), slider_row(model, F_ROW)
-    u_row, v_row = slider_row(model, U_ROW), slider_row(model, V_ROW)
+    psi_row, f_row = slider_row(model, PSI), slider_row(model, F)
+    u_row, v_row = slider_row(model, U), slider_row(model, U_VELOCITY)
     for k in range(order + 1):
         dw_dtheta = 0.0
         for j in range(width):
@@ -355,3 +356,16 @@ def tangent_at(t, order, x):
                 j -= size
                 value = fma(value, at, load(t.series, j))
             store(t.now, now + i, value)
+
+
+@helper
+def take_step(model, s, t, order, x, dt, state, tangent):
+    """Count a step to x (time units; ``dt`` s), and move ``state`` and, if requested, the columns there."""
+    phase = state.x[PHASE]
+    if tangent:
+        tangent_series(model, s, t, order, phase, state.x[DIRECTION])
+        tangent_at(t, order, x)
+    state_at(model, s, order, x, phase, state)
+    t.log[DURATION] += dt
+    t.log[STICK_TIME + int(phase)] += dt
+    t.log[N_STEPS] += 1.0

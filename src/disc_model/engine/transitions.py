@@ -16,14 +16,12 @@ MAX_EVENTS_IN_A_ROW = 200
 PAINLEVE_MARGIN = 1e-6
 # A force below this fraction of the terms that make it is rounding.
 ROUNDING = 1e-13
-# Added to KNOWN in contact: the contact force, too, starts at a root of multiplicity one (a compliant contact begins).
-TOUCHING = 4
 
 
 @inlined
 def disc_point(model, state):
     """u, u' and the slope B = dw/dtheta of the disc under the slider."""
-    f, zero = state.x[layout.SPEED], splat(0.0)
+    f, zero = state.x[layout.F], splat(0.0)
     by_u, by_v, by_slope = zero, zero, zero
     for b in range(0, len(model.shift), WIDTH):
         z, amplitude = load(state.z, b), load(model.mode_amplitude, b)
@@ -48,7 +46,7 @@ def slider_motion(model, state):
 @inlined
 def _free_acceleration(model, state):
     """A: u'' of the disc under the slider without P and f'; size of its terms."""
-    f, parts, sizes = splat(state.x[layout.SPEED]), splat(0.0), splat(0.0)
+    f, parts, sizes = splat(state.x[layout.F]), splat(0.0), splat(0.0)
     for b in range(0, len(model.shift), WIDTH):
         z, e, turned = load(state.z, b), load(state.e, b), mul(f, load(model.shift, b))
         pull = fma(load(model.damping, b), e, mul(fma(turned, turned, load(model.stiffness, b)), z))
@@ -70,7 +68,7 @@ def instant(model, state):
     # Read in this order, before the sums over modes: it decides which product in F the optimiser does not round (see
     # ``jit``). In another order results with c_p differ in their last bits.
     x, N, Omega = state.x, load_now(model, state), drive_now(model, state)
-    k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.SPEED], model.compliance, x[layout.PSI]
+    k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.F], model.compliance, x[layout.PSI]
     (w, velocity, dw_dtheta), (free, size) = disc_point(model, state), _free_acceleration(model, state)
     return Instant(
         N, model.k, model.c, model.m, k_p, c_p, Omega, compliance, psi, f,
@@ -149,7 +147,7 @@ def slip_force(model, state, direction):
 def impact(model, state):
     """Plastic impact (Eqs. 29-37).  Returns the impulse p; the slider takes the disc's velocity."""
     i, _ = instant(model, state)
-    p, state.x[layout.SPEED] = laws.impact(model, i)
+    p, state.x[layout.F] = laws.impact(model, i)
     for j in range(len(model.shift)):
         state.e[j] -= model.mode_amplitude[j] * p
     for j in range(len(model.mode_amplitude0)):
@@ -174,10 +172,10 @@ def event_function(model, i, cause, slipping):
 
 
 @inlined
-def _begin(state, phase, direction, known, force):
-    """Begin a phase; known: multiplicity of the event function's root there; force: of the contact."""
+def _begin(state, phase, direction, known, force, known_force=0):
+    """Begin a phase; known, known_force: multiplicity of the root there, of event function and force of the contact."""
     x = state.x
-    x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN] = phase, direction, known
+    x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN], x[layout.KNOWN_FORCE] = phase, direction, known, known_force
     x[layout.FORCE], x[layout.PROPAGATED] = force, 0.0
 
 
@@ -204,7 +202,7 @@ def enter_slip(model, state, direction):
         _enter_separation(model, state, P, noise)
         return CONSISTENT
     known = 0
-    if state.x[layout.SPEED] == 0.0:
+    if state.x[layout.F] == 0.0:
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
         # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
         resistance = bound = model.mu_k
@@ -247,7 +245,7 @@ def lose_contact(model, state):
 @helper
 def stop_slip(model, state):
     """Stop: f has reached zero. Stick if friction holds the spring, else slip to the side of the spring's pull."""
-    state.x[layout.SPEED] = 0.0
+    state.x[layout.F] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
     pull, press = laws.stick_loads(model, i, P)
@@ -261,15 +259,15 @@ def stop_slip(model, state):
 @inlined
 def _begin_contact(model, state):
     """Begin a compliant contact: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
-    f, F = state.x[layout.SPEED], inplane_force_per_radius(model, state)
+    f, F = state.x[layout.F], inplane_force_per_radius(model, state)
     if f == 0.0 and F == 0.0:
-        _begin(state, layout.STICK, 0.0, TOUCHING, 0.0)
+        _begin(state, layout.STICK, 0.0, 0, 0.0, 1)
         return CONSISTENT
     direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
     _, denominator, _ = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN:
         return NO_SOLUTION
-    _begin(state, layout.SLIP, direction, TOUCHING + (1 if f == 0.0 else 0), 0.0)
+    _begin(state, layout.SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
     return CONSISTENT
 
 
@@ -279,7 +277,7 @@ def reattach(model, state):
     if model.compliant:
         return _begin_contact(model, state)
     impact(model, state)
-    f = state.x[layout.SPEED]
+    f = state.x[layout.F]
     if f == 0.0:
         return stop_slip(model, state)
     return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)

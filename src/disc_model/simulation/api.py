@@ -229,7 +229,7 @@ class _Run:
             order,
             series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
             self.t_end,
-            self.stop_at is not None,
+            self.stop_at is None,
             min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
             # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
             max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1))),
@@ -264,7 +264,7 @@ class _Run:
         low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
         buffers = buffers._replace(samplers=buffers.samplers[:0], sampled=buffers.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), buffers)
-        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED] = low, 0.0
+        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED], state.x[layout.IN_A_ROW] = low, 0.0, 0.0
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
@@ -324,7 +324,7 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
     text = f"{status.value}: at t = {time:.9g} s in {phase}"
     if status is Status.PARADOX:
         slope = float(np.dot(model.dw_dtheta, state.z))
-        text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.SPEED]:.6g} rad/s, slope B = {slope:.6g}"
+        text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
     return text
 
 

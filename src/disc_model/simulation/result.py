@@ -164,7 +164,7 @@ class Result(Summarised, Pictures):
         states = {"final_state": self.final_state}
         if self.initial_state is not None:
             states["initial_state"] = self.initial_state
-        plain = (*PLAIN, "direction", "known", "phase", "case_key")
+        plain = (*PLAIN, "direction", "_roots", "phase", "case_key")
         described = {
             "parameters": self.parameters.canonical,
             **{which: {name: getattr(state, name) for name in plain} for which, state in states.items()},

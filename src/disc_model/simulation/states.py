@@ -19,7 +19,6 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.engine import layout
-from disc_model.engine.transitions import TOUCHING
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
@@ -42,8 +41,7 @@ class State:
         initial state with another u is refused, and its u_velocity is ignored
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
-    known : multiplicity of the root of the phase's event function at this instant (0 away from an event)
-    case_key : the case in which it was computed; in any other case, phase and `known` of an event are determined anew
+    case_key : the case in which it was computed; in any other case, the phase after an event is determined anew
     mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
         with other amplitudes refuses the state. None if the state was made by hand
     """
@@ -60,9 +58,10 @@ class State:
     alpha: Array
     beta: Array
     time_low: float = 0.0
-    known: int = 0
     case_key: str = ""
     mode_amplitudes: Array | None = None
+    _roots: tuple[int, int] = (0, 0)
+    """Multiplicity of the roots of event function and contact force at this instant: `layout.KNOWN`, `KNOWN_FORCE`."""
 
     def replace(self, **changes: Any) -> State:
         """A copy with some values changed.
@@ -100,7 +99,7 @@ class State:
         plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in PLAIN.items()}
         if self.mode_amplitudes is not None:
             modal["mode_amplitudes"] = ("mode", np.asarray(self.mode_amplitudes, float), {"units": "kg-1/2"})
-        whole = {name: ((), np.int64(getattr(self, name))) for name in ("direction", "known")}
+        whole = {"direction": ((), np.int64(self.direction)), "roots": ("kind", np.array(self._roots, np.int64))}
         attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
         dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
 
@@ -118,12 +117,12 @@ class State:
         from disc_model.data import dataset
 
         data = dataset.load(path).to_dataset()
-        wanted = (*MODAL, *PLAIN, "direction", "known")
+        wanted = (*MODAL, *PLAIN, "direction", "roots")
         if "phase" not in data.attrs or not {*wanted} <= data.data_vars.keys():
             raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
         values: dict[str, Any] = {name: data[name].values for name in MODAL}
         values |= {name: float(data[name]) for name in PLAIN}
-        values |= {name: int(data[name]) for name in ("direction", "known")}
+        values |= {"direction": int(data["direction"]), "_roots": tuple(data["roots"].values.tolist())}
         values |= {name: data[name].values for name in ("mode_amplitudes",) if name in data}
         return cls(phase=str(data.attrs["phase"]), case_key=str(data.attrs.get("case_key", "")), **values)
 
@@ -272,7 +271,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     modal.setflags(write=False)
     a, b, alpha, beta = modal.reshape(4, -1)
     x = state.x.tolist()
-    phase, f = int(x[layout.PHASE]), x[layout.SPEED]
+    phase, f = int(x[layout.PHASE]), x[layout.F]
     u, v = x[layout.U], x[layout.U_VELOCITY]
     if phase != layout.SEPARATION and not case.model.compliant:
         u, v, slope = case.point.dot(state.disc).tolist()
@@ -286,7 +285,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
         f=f,
         u=u,
         u_velocity=v,
-        known=int(x[layout.KNOWN]),
+        _roots=(int(x[layout.KNOWN]), int(x[layout.KNOWN_FORCE])),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
         a=a,
@@ -311,12 +310,12 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
         _check_height(case, source.u, state)
     x = state.x
     x[layout.TIME], x[layout.TIME_LOW] = source.time, source.time_low
-    x[layout.PSI], x[layout.SPEED] = source.psi, source.f
+    x[layout.PSI], x[layout.F] = source.psi, source.f
     x[layout.U], x[layout.U_VELOCITY] = source.u, source.u_velocity
     x[layout.PHASE] = PHASES.index(source.phase)
     x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
-    x[layout.KNOWN] = source.known
-    return bool(source.known) and source.case_key != (key or case.key) and _forget_switch(case, state)
+    x[layout.KNOWN], x[layout.KNOWN_FORCE] = source._roots
+    return any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
@@ -327,15 +326,16 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     """
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
-    f, compliant, known = x[layout.SPEED], case.model.compliant, x[layout.KNOWN]
+    f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])
     opening = x[layout.U_VELOCITY] - velocity - f * slope
     touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
-    x[layout.KNOWN] = 0.0
+    x[layout.KNOWN] = x[layout.KNOWN_FORCE] = 0.0
     if x[layout.PHASE] == layout.SEPARATION and touches and not rests:
         x[layout.KNOWN] = 1.0 if opening > 0 else 0.0
-    elif compliant and touches and known >= TOUCHING:
-        x[layout.KNOWN] = TOUCHING + (1 if f == 0 and x[layout.PHASE] == layout.SLIP else 0)
+    elif case.model.compliant and touches and begins:
+        x[layout.KNOWN_FORCE] = 1.0
+        x[layout.KNOWN] = 1.0 if f == 0 and x[layout.PHASE] == layout.SLIP else 0.0
     elif touches or x[layout.PHASE] == layout.SLIP:
         x[layout.PHASE], x[layout.DIRECTION] = layout.SLIP if f else layout.STICK, np.sign(f)
         return True
@@ -359,8 +359,6 @@ def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None
 
 def _faults(source: State, case: EngineCase) -> list[str]:
     n_modes = len(case.amplitudes)
-    # in compliant contact, contact and its force can begin at the same instant
-    highest, known = (7, "a whole number from 0 to 7") if case.model.compliant else (3, "0, 1, 2 or 3")
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     wrong = [name for name in MODAL if not is_finite_array(getattr(source, name), n_modes)]
     faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
@@ -373,7 +371,6 @@ def _faults(source: State, case: EngineCase) -> list[str]:
     rules = (
         *((finite[name], name, "must be finite") for name in PLAIN if name != "time_low"),
         (small, "time_low", "must be less than the last digit of the time"),
-        (_is_among(source.known, range(highest + 1)), "known", f"must be {known}"),
         (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),
         (phase != "stick" or f == 0, "f", "must be 0 in stick"),
         (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),

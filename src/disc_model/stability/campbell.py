@@ -87,6 +87,6 @@ def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexAr
     for part in (shape.real, shape.imag):
         a, alpha, b, beta = part[:-2].reshape(4, -1)
         # in separation, because in contact the height would be the disc's
-        given = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, known=0)
+        given = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0))
         parts.append(map_.point(given.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
     return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

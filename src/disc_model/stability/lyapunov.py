@@ -173,10 +173,10 @@ def _summary(
     converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
     order = np.argsort(-exponents, kind="stable")
     # a motion at rest or in steady sliding has no trivial exponent
-    if leave_out_trivial and log[variational.RELEASES] + log[variational.STICKS] + log[variational.SEPARATIONS] > 0:
+    if leave_out_trivial and log[tangent.RELEASES] + log[tangent.STICKS] + log[tangent.SEPARATIONS] > 0:
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
-    order, separations = order[:count], int(log[variational.SEPARATIONS])
+    order, separations = order[:count], int(log[tangent.SEPARATIONS])
     return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
 
 

@@ -35,7 +35,7 @@ ENDS = {
     exit_codes.NO_SOLUTION: "paradox",
     exit_codes.STALLED: "stalled",
     exit_codes.NON_FINITE: "non_finite",
-    exit_codes.LOST_CONTACT: "lost_contact",
+    exit_codes.STOPPED: "lost_contact",
     exit_codes.OFF_SECTION: "off_section",
 }
 
@@ -186,11 +186,11 @@ class ReturnMap:
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
         self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
-        modes, slider = np.split(coordinate_rows(model), [-columns.N_SLIDER_ROWS])
+        modes, slider = np.split(coordinate_rows(model), [-layout.SLIDER])
         self._slider = int(slider[0])
         l = np.abs(model.shift).astype(np.int64)
         self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[modes]
-        height = slider[[columns.U_ROW, columns.V_ROW]]
+        height = slider[[layout.U, layout.U_VELOCITY]]
         rows = np.append(modes, height) if model.compliant else modes
         self.scale = energy_scale(model)[rows]
         self.size = n = len(rows)
@@ -230,8 +230,8 @@ class ReturnMap:
         )
         start = np.array(x, dtype=float)
         code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
-        whole, stick = t.log[[variational.DURATION, variational.STICK_TIME]].tolist()
-        counts = Counts(*t.log[variational.RELEASES : variational.STICKS + 1].astype(int).tolist())
+        whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
+        counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())
         jacobian, last = self._section.jacobian, self._first + len(self._names)
         by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first : last].copy()
         return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
@@ -252,7 +252,7 @@ class ReturnMap:
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
-        state, column = self._state, np.zeros(self._slider + columns.N_SLIDER_ROWS)
+        state, column = self._state, np.zeros(self._slider + layout.SLIDER)
         column[self._section.rows] = x / self.scale
         state.disc[:], state.x[:] = 0.0, 0.0
         state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(column, [self._slider])
