@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,8 +15,10 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, perturb, static_start
+from disc_model.stability.attractor import outcome
 from disc_model.stability.attractor.basins import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
+from disc_model.stability.return_map import ReturnMap
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -195,6 +198,35 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     assert (quiet.kind, quiet.segment.separation_rate) == (Outcome.QUIET, 0)
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
+
+
+@pytest.mark.compiled
+def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settled() -> None:
+    """After a small kick it takes 300 s, and a record of 200 s after that."""
+    p = Parameters(N=385, Omega=10)
+    kick = random_perturbation(p, static_start(p), 0.01, (1, 0, 0))
+    kinds = [Basins(p, horizon).follow(kick).outcome for horizon in (300.0, 500.0)]
+    assert kinds == [Outcome.UNDECIDED, Outcome.QUASI_PERIODIC]
+
+
+@pytest.mark.parametrize("before", [[], [math.nan], [2e-3, math.nan], [5e-4, math.nan]])
+def test_a_change_is_compared_with_the_last_one_known(before: list[float], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A motion that has departed comes near another cycle only if it changes less than before."""
+    monkeypatch.setattr(outcome, "find_cycle_near", lambda *_, **__: SimpleNamespace(follows_cycle=True))
+    search = outcome._OutcomeSearch(P14, 100.0, 1e-10, None, True, 0.0, ReturnMap(SMALL), None, 0.1)
+    search._begin()
+    search.departed_from, search.section_point, search.near_return = SimpleNamespace(), np.zeros(1), None
+    search.result.changes = [*before, 1e-3]
+    assert (search._find_followed_cycle() is None) == (5e-4 in before)
+
+
+@pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])
+@pytest.mark.parametrize("early", [True, False])
+def test_steady_sliding_that_has_arrived_is_known_at_any_tolerance(tol: float, early: bool) -> None:
+    """At 1e-8 the errors of the simulation were larger than what counted as arrived: undecided, after the horizon."""
+    found = find_outcome(Parameters(N=100, Omega=20, D_star=1e-3, c_p=5), 40, tol=tol, early=early)
+    assert found.outcome is Outcome.STEADY_SLIDING
+    assert found.simulated == (5 if early else 40)
 
 
 def stretch(**changes: float) -> Segment:

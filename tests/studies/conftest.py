@@ -70,7 +70,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         first_separation = first if first <= horizon else math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
-    def arrival(p, leg, tol):
+    def arrival(p, legs, tol):
         """All have settled."""
         return arrivals.Arrival(Settling(Settled.SETTLED))
 

@@ -17,8 +17,8 @@ from disc_model.data.variables import Variable
 Array = NDArray[np.float64]
 WINDOWS, FEWEST = 8, 8
 """Number of windows into which a record is cut, and least number of samples in each."""
-PARTS = 20
-"""Number of starts of the later parts of a record that are tried."""
+PARTS = 1 - np.geomspace(1, 0.05, 40)
+"""Starts of the later parts of a record that are tried, relative to its length: each leaves out 7 % of the rest."""
 QUANTILE = 3.707
 """Of Student's t with `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope, in its errors."""
 RESOLUTION = 0.01
@@ -76,9 +76,11 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
     if not t.size or not np.isfinite(x).all():
         return Settling()
 
-    starts = np.searchsorted(t, np.linspace(t[0], t[-1], PARTS, endpoint=False))
-    drifts = [_drift(t[i:], x[i:], slowest, still) for i in starts]
-    return next((drift for drift in drifts if drift.answer is Settled.SETTLED), drifts[0])
+    whole = _drift(t, x, slowest, still)
+    # shorter parts cannot show that little
+    starts = [start for start in t[0] + PARTS * (t[-1] - t[0]) if t[-1] - start >= RESOLUTION / slowest]
+    later = (_drift(t[i:], x[i:], slowest, still) for i in np.searchsorted(t, starts))
+    return next((part for part in later if part.answer is Settled.SETTLED), whole)
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:

@@ -74,7 +74,8 @@ class Branches(Plot):
             for color in (BLACK, SEPARATED, UNSETTLED)
         )
         simulated: dict[str, Any] = {"rising": rising, "falling": falling, "separating": tuple(both)}
-        if (flag_names(study["sweep_settled"]) != "settled").any():
+        swept = np.isfinite(study["sweep_range"].values)
+        if (flag_names(study["sweep_settled"])[swept] != "settled").any():
             simulated["not settled, or undecided"] = tuple(pale)
         handles += simulated.values()
         labels += [f"simulated, {text}" for text in simulated]

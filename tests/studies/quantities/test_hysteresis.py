@@ -1,12 +1,15 @@
 """Sweeps up and down."""
 
+import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.analysis.settling import Settled, Settling
 from disc_model.parameters import Parameters
+from disc_model.stability.attractor import arrival
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantity import Point
-from tests.studies.conftest import compute
+from tests.studies.conftest import SCAN, compute
 
 
 @pytest.mark.compiled
@@ -27,3 +30,21 @@ def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
     assert one["offset_speed"] == 13.0
     assert (one["separation_rate"].sel(direction="up") > 0).values.tolist() == [False] * 4 + [True] * 3
     assert (one["separation_rate"].sel(direction="down") > 0).values.tolist() == [False] * 2 + [True] * 5
+
+
+@pytest.mark.usefixtures("fake_motions")
+def test_a_stay_is_doubled_until_its_whole_record_has_settled(monkeypatch: pytest.MonkeyPatch) -> None:
+    stays = []
+
+    def settles_above_13(p, legs, tol):
+        ends = [leg.final_state.time for leg in legs]
+        if len(legs) == 1:
+            stays.append([ends[0] - 60])  # the begin, since a stay begins with `dwell`
+        stays[-1] = [stays[-1][0], *ends]
+        return arrival.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
+
+    monkeypatch.setattr(arrival, "arrival", settles_above_13)
+    options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60, "max_dwell": 250, "evaluation_time": 2})
+    found = compute(options, [Point(Parameters(N=200, Omega=0))]).arrays
+    assert [np.diff(stay).tolist() for stay in stays] == 3 * [[60, 60, 120]] + 8 * [[60]] + 3 * [[60, 60, 120]]
+    assert found["sweep_settled"][0].tolist() == 2 * [3 * [0] + 4 * [2]]

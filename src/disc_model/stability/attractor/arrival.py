@@ -19,7 +19,7 @@ from disc_model.stability.attractor.linear_motion import NearCycle, find_cycle_n
 from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
 
 
 class Arrival(NamedTuple):
@@ -41,12 +41,13 @@ class Arrival(NamedTuple):
         return self.settling.answer is Settled.SETTLED
 
 
-def arrival(p: Parameters, leg: Result, tol: float) -> Arrival:
-    """What a motion has come to at the end of a leg, recorded with its events.
+def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
+    """What a motion has come to at the end of its successive legs, recorded with their events.
 
-    Rest, eigenvalues of steady sliding and multipliers of a stable cycle prove it. Otherwise the record decides,
-    by the angles at releases and at losses of contact.
+    Rest, eigenvalues of steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs
+    decides, by the angles at releases and at losses of contact.
     """
+    leg = legs[-1]
     if (calm := find_calm(p, leg, tol)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
     near = cycle_reached(p, leg)
@@ -55,8 +56,13 @@ def arrival(p: Parameters, leg: Result, tol: float) -> Arrival:
         return Arrival(Settling(Settled.SETTLED, rate, 0.0, since), near=near)
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
-    events = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
-    return Arrival(settling(events["time"], events["psi"]))
+    return Arrival(settling(*np.hstack([switch_angles(leg) for leg in legs])))
+
+
+def switch_angles(leg: Result) -> Array:
+    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2, n)."""
+    events = leg.events
+    return events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]].to_numpy(dtype=float).T
 
 
 def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCycle | None:
@@ -77,25 +83,33 @@ def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCy
 
 
 def sweep(
-    p: Parameters, name: str, values: Sequence[float], dwell: float, longest: float, late: float, tol: float
+    p: Parameters,
+    name: str,
+    values: Sequence[float],
+    dwell: float,
+    longest: float,
+    late: float,
+    tol: float,
+    lowest: int = 0,
 ) -> Iterator[tuple[tuple[int, int], Result, Segment | None, Arrival]]:
-    """Follow the motion through values of a parameter, up and down again.
+    """Follow the motion through values of a parameter, up from that of index ``lowest`` and down again to the first.
 
-    It stays ``dwell`` s at each value, and twice as long until it has settled, up to ``longest`` s; from a stable cycle
-    that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of the value, the last run
-    there, its last segment of ``late`` s, and what the motion has come to. If a run ends early, the segment is None and
-    the sweep ends.
+    It stays ``dwell`` s at each value, then up to twice as long again and again until it has settled, ``longest`` s at
+    most; from a stable cycle that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of
+    the value, the last run there, its last segment of ``late`` s, and what the motion has come to. If a run ends early,
+    the segment is None and the sweep ends.
     """
     state: State | None = None
-    for step in [(0, i) for i in range(len(values))] + [(1, i) for i in reversed(range(len(values)))]:
+    for step in [(0, i) for i in range(lowest, len(values))] + [(1, i) for i in reversed(range(len(values)))]:
         case = p.replace(**{name: values[step[1]]})
-        begin, stay = 0.0 if state is None else state.time, dwell
+        begin, stay, legs = 0.0 if state is None else state.time, dwell, list[Result]()
         while True:
             result = simulate(case, begin + stay, tol=tol, initial_state=state)
+            legs.append(result)
             if not result.status.complete:
                 yield step, result, None, Arrival(Settling())
                 return
-            state, reached = result.final_state, arrival(case, result, tol)
+            state, reached = result.final_state, arrival(case, legs, tol)
             if reached.settled or 2 * stay > longest:
                 break
             stay *= 2

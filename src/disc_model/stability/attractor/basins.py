@@ -2,7 +2,8 @@
 
 A motion is followed in legs of some seconds, as docs/algorithms.md, Settled motions, describes.  A motion that
 stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
-the motion might only be passing an unstable one.
+the motion might only be passing an unstable one, and the record must show that the motion has settled
+(`disc_model.analysis.settling`).
 """
 
 import math
@@ -14,6 +15,7 @@ from itertools import chain, pairwise
 import numpy as np
 
 from disc_model.analysis.classify import SETTLED
+from disc_model.analysis.settling import Settled, settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -22,7 +24,7 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
-from disc_model.stability.attractor.arrival import cycle_reached, regularity
+from disc_model.stability.attractor.arrival import cycle_reached, regularity, switch_angles
 from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment, find_calm, segment_of
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
@@ -63,8 +65,8 @@ class Basins:
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
         segments: list[Segment] = []
-        first_separation, least_tested = math.nan, math.inf
-        steady: Segment | None = None  # that on which the motion has been steady since
+        angles: list[Array] = []
+        first_separation, least_tested, steady = math.nan, math.inf, False
         while True:
             leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
             state = leg.final_state
@@ -72,6 +74,7 @@ class Basins:
             if not leg.status.complete:
                 return OutcomeResult(None, state.time, first_separation=first_separation, failed=leg)
             segments.append(segment_of(leg))
+            angles.append(switch_angles(leg))
             over, attractor = state.time >= self.horizon, None
             if self.near:
                 # tested only nearer to the quiet cycle than ever before
@@ -81,12 +84,10 @@ class Basins:
                 else:
                     attractor = self._approached([segment.range for segment in segments[-thresholds.NEARING :]])
                 least_tested = min(distance, least_tested)
-            if not self._is_steady(segments):
-                steady = None
-            elif attractor is None and (over or (self.near and steady is None)):
-                stays = over and self._difference(steady or segments[-1], segments[-1]) <= SETTLED
-                attractor = self._settled_on(leg, stays)
-                steady = steady or segments[-1]
+            was_steady, steady = steady, self._is_steady(segments)
+            if attractor is None and (over or (self.near and steady and not was_steady)):
+                settled = over and settling(*np.hstack(angles)).answer is Settled.SETTLED
+                attractor = self._settled_on(leg, steady, settled)
             if attractor is not None:
                 kind = attractor.kind
                 return OutcomeResult(kind, state.time, attractor=attractor, first_separation=first_separation)
@@ -144,17 +145,21 @@ class Basins:
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
-    def _settled_on(self, leg: Result, stays: bool) -> Attractor | None:
-        """The attractor of a motion that has settled; None as long as it is uncertain.
+    def _settled_on(self, leg: Result, steady: bool, settled: bool) -> Attractor | None:
+        """The attractor on which a motion is; None as long as it is uncertain.
 
-        stays : whether the motion has been steady until the horizon
+        steady : whether the last legs differ as little as those on a known attractor may
+        settled : whether the record shows that the motion has settled
         """
         attractor = self._described(leg)
         if attractor is None:
             return None
         same = next((known for known in self.known if self._same(attractor, known)), None)
-        if same is None and (stays or attractor.points is not None):
-            if attractor.kind is Outcome.UNDECIDED:
+        proven = attractor.kind is not Outcome.UNDECIDED
+        if not (proven or settled or (steady and same)):
+            return None
+        if same is None:
+            if not proven:
                 attractor = replace(attractor, kind=regularity(self.p, leg.final_state, self.tol).kind)
             self.known.append(attractor)
             return attractor

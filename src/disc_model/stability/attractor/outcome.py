@@ -333,8 +333,8 @@ class _OutcomeSearch:
                 self.cycle_to_come = self.result.near = None
                 return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
-            least = max(self.result.changes[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol)
-            if self.result.changes[-1] > least:
+            known = [change for change in self.result.changes if not math.isnan(change)]
+            if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
             waits = 1
         near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])

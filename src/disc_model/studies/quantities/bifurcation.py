@@ -17,6 +17,7 @@ from disc_model.studies.ranges import MOST
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
@@ -123,6 +124,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     p = point.parameters
     state, transient = make_initial_state(p, point.start, options.tol), options.transient
     first, separations = math.nan, 0
+    legs: list[Result] = []
     while True:
         run = simulate(p, transient, tol=options.tol, initial_state=state)
         first = run.first_separation if math.isnan(first) else first
@@ -130,7 +132,8 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         if not run.status.complete:
             known = {"status": run.status.value, "first_separation": first, "separations": separations}
             return known, f"the simulation ended early: {run.status}"
-        state, reached = run.final_state, arrival(p, run, options.tol)
+        legs.append(run)
+        state, reached = run.final_state, arrival(p, legs, options.tol)
         if reached.settled or 2 * transient > options.max_transient:
             break
         transient *= 2

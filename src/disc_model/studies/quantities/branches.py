@@ -17,7 +17,7 @@ from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import DIRECTION, NUMERICAL, STATUS, WORK, Coordinate, Free, Point, Quantity, listed
 from disc_model.studies.ranges import Range
-from disc_model.units import Count, Positive, Seconds, Tolerance, Unit
+from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -31,6 +31,7 @@ class Branches(Quantity):
 
     parameter : the one that varies
     scan : its values in the sweep; each cycle found is followed between the first and the last
+    sweep_from : the rising sweep leaves out values below; null: none
     dwell : s at each value; it is doubled until the motion has settled
     max_dwell : s, greatest length of the stay then
     evaluation_time : s, the last stretch of it, over which the range is taken
@@ -42,6 +43,7 @@ class Branches(Quantity):
 
     parameter: Free = "Omega"
     scan: Annotated[Range, Unit(of="parameter")]
+    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None
     dwell: Seconds
     max_dwell: Seconds = 480.0
     evaluation_time: Seconds = 2.0
@@ -51,7 +53,10 @@ class Branches(Quantity):
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
 
-    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
+    _rules = (
+        (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
+        (lambda o: o.sweep_from is None or o.sweep_from <= o.scan.stop, "sweep_from must be <= the scan's last value"),
+    )
 
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
@@ -103,16 +108,17 @@ class Branches(Quantity):
                 except NUMERICAL as error:
                     unfollowed.append(str(error))
 
+        lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
         dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
         for (way, i), result, late, reached in sweep(
-            point.parameters, self.parameter, values, dwell, longest, evaluated, self.tol
+            point.parameters, self.parameter, values, dwell, longest, evaluated, self.tol, lowest
         ):
             if late is None:
                 message = f"{self.parameter}={values[i]:g}: {result.message}"
                 break
             swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
             swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
-            if way == 0 and (own := find_cycle(result.parameters)).state is not None:
+            if (way == 0 or i < lowest) and (own := find_cycle(result.parameters)).state is not None:
                 follow(own, False)
             if reached.near is not None and reached.near.cycle.releases <= self.releases:
                 follow(reached.near.cycle, True)
