@@ -215,6 +215,16 @@ class Sources:
         grid = self.grid("branches")
         return float(grid["value"].where((grid["growth_rate"] < 0) & (grid["separations"] > 0)).min())
 
+    def compared(self, normalization: str, word: str = "") -> int:
+        """Number of points where steady sliding and the motion are compared; with a key of `AGREEMENTS`."""
+        from disc_model.figures.sliding import agreement, common_points
+
+        studies = (self.grid("map_c_p"), self.grid("sliding").rename(value="c_p"))
+        order = (each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies)
+        plane, linear = common_points(*order, ("N", "c_p"))
+        words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
+        return int((words == word).sum()) if word else words.size
+
     def critical_speed(self, N: float, horizon: float = 2000) -> float:
         return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
 

@@ -10,8 +10,9 @@ from PIL import Image
 
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
+from disc_model.figures.disc import colour_of, draw_circle, draw_disc, scale_of
 from disc_model.figures.drawing import BLACK, styled
-from disc_model.paper.figures.instants import colour_of, draw_circle, draw_disc, motion_of, scale_of
+from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 
 SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
@@ -23,6 +24,8 @@ OF_GRIDS = (
     "survival_growth",
     "sensitivity",
     "campbell",
+    "sliding_modes",
+    "sliding_outcome",
     "ramps",
 )
 """Figures of grid studies; where they are not there, the pictures of an earlier run stay."""
