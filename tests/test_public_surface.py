@@ -11,16 +11,13 @@ import pytest
 import disc_model as dm
 from disc_model.data import dataset
 from disc_model.stability.branch import StepControl
-from disc_model.stability.continuation import continue_cycle
-from disc_model.stability.curves import stability_curves
-from disc_model.stability.lyapunov import lyapunov_exponents
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.nan, "negative": -1.5, "huge": 10**400}
 WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object()}
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
-PLANE = {"p": P, "names": ("Omega", "N"), "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
+PLANE = {"p": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
 
 def start(**changes: Any) -> None:
@@ -53,14 +50,14 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None"}),
     (dm.deflection, SHAPES, {"theta": "negative"}),
     (dm.floquet, {"p": P}, {"guess": "None"}),
-    (continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, {"guess": "None"}),
+    (dm.continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, {"guess": "None"}),
     (
         StepControl,
         {},
         {name: [*WRONG] for name in ("growth", "easy", "sharpest")} | {"scale": "None", "max_points": "huge"},
     ),
-    (stability_curves, PLANE, {"max_points": "huge"}),
-    (lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
+    (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None"}),
+    (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),
     (dm.Poincare, {}, {"stop": "huge", "theta": "negative"}),
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),

@@ -32,7 +32,10 @@ _NAMES = {
     "simulation.ramps": "Ramp",
     "simulation.result": "Result",
     "simulation.states": "State",
+    "stability.continuation": "continue_cycle",
+    "stability.curves": "neutral_curves",
     "stability.cycle": "floquet",
+    "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
@@ -64,7 +67,10 @@ if TYPE_CHECKING:
     from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
+    from disc_model.stability.continuation import continue_cycle
+    from disc_model.stability.curves import neutral_curves
     from disc_model.stability.cycle import floquet
+    from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
 
 

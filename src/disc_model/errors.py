@@ -191,7 +191,8 @@ def as_text(value: Any) -> str:
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
     """Text with the most similar known name and the known names; with `all_of_them` false, only one of the two."""
     folded = {field.lower(): field for field in known}
-    close = difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
+    begin = [field for field in folded if len(str(name)) > 1 and field.startswith(str(name).lower())]
+    close = begin or difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""
     return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
 

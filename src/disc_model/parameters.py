@@ -6,10 +6,11 @@ import inspect
 import math
 import operator
 from collections.abc import Iterable, Mapping, Sized
+from contextlib import suppress
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, field_validator, model_validator
+from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, PrivateAttr, field_validator, model_validator
 
 from disc_model.display import html_table
 from disc_model.errors import Fault, as_text, raise_faults
@@ -22,6 +23,7 @@ from disc_model.units import (
     Real,
     canonical_json,
     content_key,
+    in_si,
     is_number,
     limits_faults,
     must,
@@ -225,7 +227,8 @@ class Parameters(Checked):
     """One case of disc and slider, in SI units. Defaults are the paper's Table 1.
 
     The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds
-    how many modes a tolerance asks for.
+    how many modes a tolerance asks for. A ratio may stand for its first one: mu_k_over_mu_s, k_p_over_k, c_p_over_c,
+    a_over_b, r_0_over_b, h_over_b; it stays what it is in changed copies.
 
     Raises
     ------
@@ -235,6 +238,7 @@ class Parameters(Checked):
     """
 
     _word: ClassVar[str] = "parameter"
+    _ratios: dict[str, float] = PrivateAttr(default_factory=dict)
 
     N: Real = _number(..., "N", "preload pressing the slider onto the disc", ge=0)
     Omega: Real = _number(..., "rad/s", "speed of the drive point", ge=0)
@@ -282,8 +286,17 @@ class Parameters(Checked):
             mu_k: Quantity = ..., a: Quantity = ..., b: Quantity = ..., r_0: Quantity = ..., h: Quantity = ...,
             nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
             normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ..., contact_force: str = ...,
-            damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+            damping_ratio: Quantity | None = ..., disc: Disc | None = ..., mu_k_over_mu_s: float = ...,
+            k_p_over_k: float = ..., c_p_over_c: float = ..., a_over_b: float = ..., r_0_over_b: float = ...,
+            h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
+
+    else:
+
+        def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+            ratios = {name: data.pop(name) for name in RATIOS if name in data} if type(self) is Parameters else {}
+            super().__init__(*unnamed, **(_without_ratios(data, ratios) if ratios else data))
+            self.__pydantic_private__["_ratios"] = {name: float(value) for name, value in ratios.items()}
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -299,11 +312,27 @@ class Parameters(Checked):
         return self
 
     def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed; for a disc given by its modes also its `Disc.numbers`."""
+        """A validated copy with some values changed; for a disc given by its modes also its `Disc.numbers`.
+
+        A ratio by which the case was given, such as mu_k_over_mu_s, stays what it is, unless its first one changes.
+        """
         if self.disc is not None and "disc" not in changes:
             numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}
             changes |= {"disc": self.disc.with_numbers(**numbers)} if numbers else {}
-        return super().replace(**changes)
+        ratios = {name: value for name, value in self._ratios.items() if RATIOS[name][0] not in changes}
+        ratios |= {name: value for name, value in changes.items() if name in RATIOS}
+        follow = {RATIOS[name][0] for name in ratios}
+        values = {name: getattr(self, name) for name in self.model_fields_set if name not in follow}
+        return type(self)(**values | changes | ratios)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """All numbers of the case that may change continuously, by name: parameters, ratios and `Disc.numbers`."""
+        unused = {"D_star"} if self.damping_ratio is not None else {*PLATE} if self.disc is not None else set()
+        unused |= {"contact_compliance"} if self.contact_compliance == 0 else set()  # a model of its own
+        own = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
+        ratios = {name: own[one] / own[two] for name, (one, two) in RATIOS.items() if one in own and own.get(two)}
+        return own | ratios | ({} if self.disc is None else self.disc.numbers)
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
@@ -369,6 +398,25 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
+
+
+def _without_ratios(data: Mapping[str, Any], ratios: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a case with the parameters that follow from ratios; raises `ParameterError` for wrong ratios."""
+    faults: list[Fault] = []
+    for name, value in ratios.items():
+        if RATIOS[name][0] in data:
+            faults.append(Fault.of((name,), value, f"must not be given beside {RATIOS[name][0]}"))
+        elif not (is_number(value) and 0 <= value < math.inf):
+            faults.append(Fault.of((name,), value, "must be a finite number >= 0"))
+    raise_faults(faults)
+    others = {other: data[other] for _, other in RATIOS.values() if other in data}
+    others = {name: in_si(value, UNITS[name], faults, (name,)) for name, value in others.items()}
+    raise_faults(faults)
+    with suppress(ValueError):  # of a wrong value, which the fields report
+        others = {name: number(value) for name, value in others.items()}
+        completed = with_ratios({**others, **ratios})
+        return {**data, **{RATIOS[name][0]: completed[RATIOS[name][0]] for name in ratios}}
+    return dict(data)
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from disc_model.stability.continuation import (
     continue_border,
     continue_cycle,
 )
-from disc_model.stability.curves import stability_curves
+from disc_model.stability.curves import neutral_curves
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
 
 __all__ = ["toy"]
@@ -79,8 +79,8 @@ def test_without_a_curve_nearby_the_input_is_refused():
 
 
 def test_all_curves_of_a_plane_are_found_once():
-    curves, notes = stability_curves(P, ("Omega", "N"), BOX, [250.0, 300.0], points=9, max_points=60)
-    assert notes == []
+    curves = neutral_curves(P, BOX, [250.0, 300.0], points=9, max_points=60)
+    assert curves.failures == ()
     assert sorted(curve.kind for curve in curves) == ["fold", "neutral"]
     for curve in curves:
         Omega, N = curve.values.T

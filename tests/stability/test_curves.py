@@ -24,8 +24,8 @@ def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
 def test_a_fold_is_followed_across_its_line():
     """The gradient at the former place leads the corrector astray here, unless each step corrects it."""
     bounds = {"Omega": (9.5, 11.0), "N": (350.0, 400.0)}
-    found, notes = curves.stability_curves(Parameters(N=375, Omega=10), ("Omega", "N"), bounds, [375.0], points=2)
-    assert notes == []
+    found = curves.neutral_curves(Parameters(N=375, Omega=10), bounds, [375.0], points=2)
+    assert found.failures == ()
     fold = next(curve for curve in found if curve.kind == "fold")
     assert fold.values[:, 1].min() < 375 < fold.values[:, 1].max()
     assert len(fold.values) < 30  # short steps are a sign of a corrector that fails

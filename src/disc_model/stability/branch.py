@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import Summarised, draw
-from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     ENDS,
+    PARAMETERS,
     Array,
     ComplexArray,
     Counts,
@@ -40,8 +41,11 @@ if TYPE_CHECKING:
 # The equation
 
 
-USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5}
+USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8, "damping_ratio": 1e-3}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
+DIFFERENCE = 1e-5
+"""Step of finite differences, over a parameter's scale: flights are accurate to 1e-13, and their second derivatives
+are of order one."""
 
 
 class CorrectorFailed(Exception):
@@ -68,7 +72,8 @@ class CyclePoint:
 class CycleProblem:
     """F(x, q) in scaled unknowns z = (x / size, q / scales); ``parameter_scale`` replaces the usual scales.
 
-    With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
+    Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
+    `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
@@ -80,6 +85,7 @@ class CycleProblem:
         order: Counts | None = None,
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
+        self._analytic = tuple(name for name in names if name in PARAMETERS)
         self._reference = reference = ReturnMap(p, tol)
         self.n = reference.size
         self.scale = reference.scale
@@ -102,31 +108,42 @@ class CycleProblem:
 
     def unknowns(self, state: State) -> Array:
         """Unknowns z of a state on the section in the present case."""
-        q = np.array([getattr(self.base, name) for name in self.names]) / self.scales
+        q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
         return np.concatenate([self._reference.point(state) / self.size, q])
 
     def evaluate(self, z: Array) -> CyclePoint:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
             raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
-        map_ = ReturnMap(p, self.tol, self.names, patient=self.order is not None)
-        x = z[: self.n] * self.size / self.scale * map_.scale
-        releases = self.order.releases if self.order else 1
-        flight = map_.evaluate(x, releases=releases, may_separate=self.order is not None)
-        if not flight.returned:
-            raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
+        flight, turn, residual = self._fly(p, z, self._analytic)
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
             raise Reordered(", ".join(changes), z)
-        # convert to the reference's coordinates, which differ if E is free
-        turn = self.scale / map_.scale
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
-        residual = (flight.end - x) * turn / self.size
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
             raise CorrectorFailed("the variational equations are singular: a switch is grazed")
-        parameters = flight.by * turn[:, None] * self.scales[None, :] / self.size
+        parameters = np.zeros((self.n, len(self.names)))
+        known = [name in self._analytic for name in self.names]
+        parameters[:, known] = flight.by * turn[:, None] * self.scales[None, known] / self.size
+        for i in np.flatnonzero(np.logical_not(known)):
+            move = DIFFERENCE * np.eye(len(z))[self.n + i]
+            ends = [self._fly(self.case(z + side * move), z, tangent=False)[2] for side in (1, -1)]
+            parameters[:, i] = (ends[0] - ends[1]) / (2 * DIFFERENCE)
         return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
+
+    def _fly(
+        self, p: Parameters, z: Array, names: tuple[str, ...] = (), *, tangent: bool = True
+    ) -> tuple[Flight, Array, Array]:
+        """The flight from the point of z, the factor to the reference's coordinates, and the residual in these."""
+        map_ = ReturnMap(p, self.tol, names, patient=self.order is not None)
+        x = z[: self.n] * self.size / self.scale * map_.scale
+        releases = self.order.releases if self.order else 1
+        flight = map_.evaluate(x, releases=releases, tangent=tangent, may_separate=self.order is not None)
+        if not flight.returned:
+            raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
+        turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
+        return flight, turn, (flight.end - x) * turn / self.size
 
     def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:
         """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
@@ -167,15 +184,22 @@ def newton_step(matrix: Array, right: Array) -> Array:
 
 def default_scale(p: Parameters, name: str) -> float:
     """Change of a parameter that weighs as much as the static deflection: its value, or a fifth of a typical one."""
-    usual = USUAL.get(name, Parameters.model_fields[name].default)
-    return max(abs(float(getattr(p, name))), 0.2 * usual)
+    usual = USUAL.get(name, DEFAULTS.get(name, 0.0))
+    return max(abs(p.numbers[name]), 0.2 * usual)
+
+
+def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
+    """Faults of the names of free parameters."""
+    known = p.numbers
+    wrong = [name for name in names if not (isinstance(name, str) and name in known)]
+    return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
 
 
 # ----------------------------------------------------------------------------------------------------
 # The curve
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Branch(Summarised):
     """Cycles along a curve.
 
@@ -206,6 +230,12 @@ class Branch(Summarised):
     def __len__(self) -> int:
         return len(self.period)
 
+    def __repr__(self) -> str:
+        spans = zip(self.parameters, self.values.min(axis=0), self.values.max(axis=0), strict=True)
+        spanned = ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in spans)
+        folds = f"{len(self.folds)} fold{'s' * (len(self.folds) != 1)}"
+        return f"Branch({len(self)} cycles, {spanned}, {folds}: {self.ended})"
+
     def _summary(self) -> Iterator[tuple[str, object]]:
         for name, values in zip(self.parameters, self.values.T, strict=True):
             yield name, f"{values.min():.6g} to {values.max():.6g}"
@@ -221,8 +251,7 @@ class Branch(Summarised):
         Examples
         --------
         >>> import disc_model as dm
-        >>> from disc_model.stability.continuation import continue_cycle
-        >>> continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
+        >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period (ms)'
         """
         axes: Axes = draw("plot_branch", self, y, ax=ax)

@@ -29,12 +29,13 @@ from disc_model.stability.branch import (
     StepControl,
     branch_of,
     continue_curve,
+    free_faults,
     is_interval,
     newton_step,
     starting_point,
 )
 from disc_model.stability.cycle import find_cycle, guess_faults
-from disc_model.stability.return_map import PARAMETERS, Array, ComplexArray, Counts, multipliers
+from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
 from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
 # ----------------------------------------------------------------------------------------------------
@@ -68,7 +69,7 @@ def continue_cycle(
     Parameters
     ----------
     p : case whose cycle is the first point
-    name : the free parameter, one of Omega, N, D_star, c, c_p, k, k_p, E, m
+    name : the free parameter, one of `Parameters.numbers`
     bounds : values of the parameter between which the cycle is followed
     direction : 1 to begin with increasing values, -1 with decreasing ones
     guess, releases, tol : as in `floquet`
@@ -78,15 +79,23 @@ def continue_cycle(
     ------
     ParameterError
         If an argument breaks a rule, or no cycle is found to start from.
+
+    Examples
+    --------
+    The fold of the cycle at 385 N:
+
+    >>> import disc_model as dm
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+    >>> branch
+    Branch(16 cycles, Omega from 14.7024 to 15.0949, 1 fold: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
-        (isinstance(name, str) and name in PARAMETERS, "name", name, f"must be 1 of {', '.join(PARAMETERS)}"),
         (is_interval(bounds), "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
-    raise_faults(foreign_case(p) + wrong)
+    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
@@ -197,7 +206,7 @@ def continue_border(
         curve on which a multiplier is one, starting from the point of a branch nearest to its fold
     p, guess : a case near the curve, and the point of the section near which its cycle is sought; by default the
         static equilibrium
-    names : the free parameters, two of Omega, N, D_star, c, c_p, k, k_p, E, m
+    names : the free parameters, two of `Parameters.numbers`
     bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
     tol, steps : as in `continue_cycle`; the number of points is that in each direction
 

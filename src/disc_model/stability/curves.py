@@ -11,11 +11,11 @@ from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import compiling
 from disc_model.simulation.states import is_finite_array
-from disc_model.stability.branch import Branch, StepControl, is_interval
+from disc_model.stability.branch import Branch, StepControl, free_faults, is_interval
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
-from disc_model.stability.return_map import PARAMETERS, Array, ReturnMap
+from disc_model.stability.return_map import Array, ReturnMap
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 MOST_POINTS = 100_000
@@ -45,6 +45,33 @@ class StabilityCurve:
 
 
 @dataclass(frozen=True)
+class NeutralCurves:
+    """Curves in the plane of two parameters; iterating yields them.
+
+    Attributes
+    ----------
+    parameters, bounds : the case, and the bounds of both parameters by name, as given to `neutral_curves`
+    curves : those that could be followed
+    failures : descriptions of those that could not
+    """
+
+    parameters: Parameters
+    bounds: Mapping[str, tuple[float, float]]
+    curves: tuple[StabilityCurve, ...] = field(repr=False)
+    failures: tuple[str, ...] = field(repr=False)
+
+    def __iter__(self) -> Iterator[StabilityCurve]:
+        return iter(self.curves)
+
+    def __len__(self) -> int:
+        return len(self.curves)
+
+    def __repr__(self) -> str:
+        plane = " and ".join(f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items())
+        return f"NeutralCurves({len(self)} curves over {plane}, {len(self.failures)} not followed)"
+
+
+@dataclass(frozen=True)
 class _Seed:
     kind: Kind
     case: Parameters
@@ -53,61 +80,70 @@ class _Seed:
 
 
 @compiling()
-def stability_curves(
+def neutral_curves(
     p: Parameters,
-    names: tuple[str, str],
     bounds: Mapping[str, tuple[float, float]],
-    lines: Sequence[float],
+    lines: Sequence[float] | None = None,
     *,
     points: int = 31,
     max_points: int = 200,
     longest: float = 0.1,
     tol: float = 1e-12,
-) -> tuple[list[StabilityCurve], list[str]]:
-    """Neutral curves and folds of the cycles near the static start.
+) -> NeutralCurves:
+    """Neutral curves and folds of the cycles near the static start, in the plane of two parameters.
 
     Parameters
     ----------
     p : the case; its values of the two parameters are ignored
-    names : the two parameters
-    bounds : bounds of both parameters
-    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves
+    bounds : bounds of both, by their names: two of `Parameters.numbers`
+    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves. Three
+        within the bounds if they are not given
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
     tol : as in `floquet`
 
-    Returns
-    -------
-    The curves, and descriptions of those that could not be followed.
-
     Raises
     ------
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15, mu_k_over_mu_s=0.6)
+    >>> curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
+    >>> len(curves), curves.curves[0].resonance.label
+    (1, '2 f_s = 135.42 Hz')
     """
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
-    known = isinstance(names, tuple | list) and all(isinstance(name, str) and name in PARAMETERS for name in names)
-    free = known and len(names) == len({*names}) == 2
-    within = not free or (isinstance(bounds, Mapping) and all(is_interval(bounds.get(name)) for name in names))
+    free = isinstance(bounds, Mapping) and len(bounds) == 2
+    within = free and all(is_interval(interval) for interval in bounds.values())
     wrong = violations(
-        (free, "names", names, f"must be 2 of {', '.join(PARAMETERS)}"),
-        (within, "bounds", bounds, "must be two ascending finite numbers, by name"),
+        (within, "bounds", bounds, "must be two ascending finite numbers, by the names of two parameters")
     )
+    if free and isinstance(p, Parameters):
+        wrong += free_faults(p, [*bounds])
+    if lines is None and within:
+        low, high = [*bounds.values()][1]
+        lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     raise_faults(foreign_case(p) + wrong)
+    assert lines is not None
+    x, y = bounds
+    names = x, y
     found: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
     for line in map(float, lines):
         along = np.linspace(*bounds[names[0]], points)
         for seed in _seeds([p.replace(**{names[1]: line, names[0]: float(x)}) for x in along], names[0], tol, notes):
-            place = np.array([getattr(seed.case, name) for name in names])
+            place = np.array([seed.case.numbers[name] for name in names])
             if _known(found, seed.kind, place, seed.period, span):
                 continue
             where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
@@ -125,7 +161,7 @@ def stability_curves(
             i = int(np.searchsorted(length, length[-1] / 2)) + 1
             if not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
                 found.append(curve)
-    return found, notes
+    return NeutralCurves(p, dict(bounds), tuple(found), tuple(notes))
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
@@ -137,7 +173,7 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
         for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
                 continue
-            seed = _first_event(cases[begin], name, float(getattr(cases[end], name)), tol, notes)
+            seed = _first_event(cases[begin], name, cases[end].numbers[name], tol, notes)
             if seed is None:
                 continue
             yield seed
@@ -147,7 +183,7 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
 
 def _first_event(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
     """The first fold or crossing of the unit circle between a case and another value of a parameter."""
-    begin = float(getattr(case, name))
+    begin = case.numbers[name]
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
         branch = continue_cycle(
@@ -172,8 +208,9 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
         return None
     there = case.replace(**{name: float(values[j])})
     point = branch.points[j]
-    if name == "E":  # E scales the coordinates, and the branch uses those of its first case
-        point = point / ReturnMap(case, tol).scale * ReturnMap(there, tol).scale
+    own, new = (ReturnMap(each, tol).scale for each in (case, there))
+    if not np.array_equal(own, new):  # frequencies scale the coordinates, and the branch uses those of its first case
+        point = point / own * new
     return _Seed(kind, there, point, float(branch.period[j]))
 
 

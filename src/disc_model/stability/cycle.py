@@ -160,6 +160,15 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     ------
     ParameterError
         If an argument breaks a rule; the message names the argument, its value and the rule.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> cycle = dm.floquet(dm.Parameters(N=385, Omega=15))
+    >>> cycle
+    FloquetResult(N=385 N, Omega=15 rad/s: growth rate -0.105494 1/s, period 0.014821021 s, 18 multipliers)
+    >>> cycle.stable, cycle.attractors
+    (True, ('stick_slip',))
     """
     raise_faults(
         [*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)]

@@ -30,7 +30,7 @@ CONVERGED = 0.05, 0.002
 """An exponent has converged if both halves of the time agree to this share of it, or to this difference in 1/s."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Lyapunov:
     """The largest Lyapunov exponents.
 
@@ -57,6 +57,10 @@ class Lyapunov:
     converged: NDArray[np.bool_]
     final_state: State
     trivial_exponent: float = math.nan
+
+    def __repr__(self) -> str:
+        exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
+        return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
 
 
 @compiling()
@@ -89,6 +93,13 @@ def lyapunov_exponents(
     ------
     ParameterError
         If an argument breaks a rule; the message names each such argument, its value and the rule.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15)
+    >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
+    Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
     _check(p, duration, count, interval, initial_state, tol, leave_out_trivial)
     duration, interval, tol = float(duration), float(interval), float(tol)

@@ -131,6 +131,13 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     ------
     ParameterError
         If `p` is not a `Parameters`, or has no modes.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> sliding = dm.steady_sliding(dm.Parameters(N=385, Omega=15))
+    >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
+    steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
     raise_faults(case_faults(p, "steady_sliding"))
     if p.Omega == 0:

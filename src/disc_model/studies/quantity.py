@@ -7,19 +7,21 @@ name. A quantity imports the engine only where it computes: reading a study file
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
+from pydantic import AfterValidator
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
-from disc_model.parameters import Parameters
+from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.ranges import Blocks, Ruled
-from disc_model.units import Tolerance
+from disc_model.units import Tolerance, must
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -96,8 +98,10 @@ CYCLE = 2.5e-3
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
-Free = Literal["Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m"]
-"""Parameters along which cycles are continued."""
+_NUMBERS = [name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")]
+_FREE = re.compile("|".join([*_NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio)_\d+_\d+"]))
+Free = Annotated[str, AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case"))]
+"""A number along which cycles are continued: a parameter, a ratio, or one of a disc's modes."""
 
 
 _QUANTITIES = "disc_model.studies.quantities"

@@ -81,13 +81,12 @@ class StabilityCurves(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the curves of the plane; the point's own values of its two parameters are not used."""
-        from disc_model.stability.curves import stability_curves
+        from disc_model.stability.curves import neutral_curves
 
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
-        curves, notes = stability_curves(
+        found = neutral_curves(
             point.parameters,
-            (self.x, self.y),
             {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)},
             lines.values,
             points=self.points,
@@ -107,6 +106,10 @@ class StabilityCurves(Quantity):
                 "multiplier_im": curve.multipliers.imag,
                 **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
             }
-            for curve in sorted(curves, key=lambda curve: -len(curve.period))
+            for curve in sorted(found, key=lambda curve: -len(curve.period))
         ]
-        return listed(rows) | {"status": "ok", "n_curves": len(curves), "n_continuation_failures": len(notes)}, ""
+        return listed(rows) | {
+            "status": "ok",
+            "n_curves": len(found),
+            "n_continuation_failures": len(found.failures),
+        }, ""
