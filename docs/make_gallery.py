@@ -8,6 +8,7 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from PIL import Image
 
+import disc_model as dm
 from disc_model.data.dataset import load_cases
 from disc_model.errors import script
 from disc_model.figures.disc import colour_of, draw_circle, draw_disc, scale_of
@@ -88,6 +89,8 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
 @script
 def main() -> None:
     results, docs = Path("results"), Path("docs")
+    axes = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
+    axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
     lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]

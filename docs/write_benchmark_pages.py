@@ -200,7 +200,6 @@ def passages(speed: Mapping[str, Any], modes: Mapping[str, Any]) -> dict[str, st
     }
     values = _convergence(modes) | {
         "speed": speed,
-        "first": answers["series (this package)"]["first_separation"],
         "cycle_growth": answers["series, from the cycle itself"]["growth_rate"],
         "costs_table": _printed(speed["costs"], {head: head for head in heads}),
         "answers_table": _printed(answers, titles),
@@ -209,6 +208,7 @@ def passages(speed: Mapping[str, Any], modes: Mapping[str, Any]) -> dict[str, st
         loader=jinja2.FileSystemLoader(Path(__file__).parent), undefined=jinja2.StrictUndefined, autoescape=False
     )
     environment.filters["each"] = lambda rows, text, between=" and ": between.join(text.format(**row) for row in rows)
+    environment.filters["times"] = lambda number: f"{plain(number)} times" if number else "-"
     template = environment.get_template("benchmark_passages.jinja")
     return {name: "".join(block(template.new_context(values))) for name, block in template.blocks.items()}
 
