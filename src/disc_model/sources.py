@@ -1,4 +1,6 @@
-"""The sources on which a result depends: all that its entry points import, at any depth, and the data read beside it.
+"""The origin of a result: its sources, the commit, and versions of packages.
+
+The sources are all that its entry points import, at any depth, and the data read beside it.
 
 An entry point is a module or package of `disc_model`, or the script of a job. Quantities and figures, which are loaded
 by their names, are entry points of their own. Deferred imports count, imports for type checkers do not. The data of a
@@ -9,7 +11,10 @@ the package on.
 import ast
 import functools
 import hashlib
+import importlib.metadata
+import platform
 import re
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -134,3 +139,36 @@ def _data(path: Path) -> frozenset[Path]:
     files = {*named, *path.parent.glob(f"{path.stem}.*")}
     files |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
     return frozenset(file for file in files if file.is_file() and file.suffix not in (".py", ".pyc"))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Commit and versions
+
+VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
+
+
+def versions(*further: str) -> dict[str, str]:
+    """Versions of Python and of the packages on which results depend, and of further packages."""
+    known = {"python": platform.python_version()}
+    for name in (*VERSIONS_OF, *further):
+        try:
+            known[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            known[name] = "not installed" if name in further else "unknown"
+    return known
+
+
+@functools.lru_cache(maxsize=1)
+def git_commit(package: Path = PACKAGE) -> str:
+    """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their repository."""
+    try:
+        # an environment may lie within the repository of another project
+        _git(package, "ls-files", "--error-unmatch", "__init__.py")
+        return _git(package, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
+    except (OSError, subprocess.SubprocessError):
+        return "unknown"
+
+
+def _git(folder: Path, *arguments: str) -> str:
+    done = subprocess.run(["git", *arguments], cwd=folder, capture_output=True, text=True, timeout=20, check=True)
+    return done.stdout.strip()

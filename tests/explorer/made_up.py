@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import PHASES
-from disc_model.explorer.contents import study_contents
+from disc_model.explorer.page import study_contents
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
 

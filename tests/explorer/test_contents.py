@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 import pytest
 
-from disc_model.explorer.contents import BITS, LEVELS, motion_contents
+from disc_model.explorer.page import BITS, LEVELS, motion_contents
 from disc_model.studies.motions import SAMPLES
 from tests.explorer import made_up
 

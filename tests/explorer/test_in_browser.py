@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from disc_model.explorer.contents import LEVELS
-from disc_model.explorer.page import WORDS, Picture, page
+from disc_model.explorer.page import LEVELS, WORDS, Picture, page
 from tests import needs
 from tests.explorer import made_up
 from tests.workflow.browser import Page, browser

@@ -71,5 +71,5 @@ def test_figures_have_pictures_and_captions(text):
         assert picture.size == (PICTURE_WIDTH, round(500 * PICTURE_WIDTH / PAGE_WIDTH))
         # a lossy format: a few steps of 256
         assert picture.convert("RGB").getpixel((9, 9)) == pytest.approx((0, 0x72, 0xB2), abs=7)
-    assert text.count("<figcaption>A curve of f &lt; 0 &amp; &quot;more&quot;</figcaption>") == 2
+    assert text.count("<figcaption>A curve of f &lt; 0 &amp; &#34;more&#34;</figcaption>") == 2
     assert text.index("<h3>Sec. 1</h3>") < text.index("<h3>Sec. 2</h3>")

@@ -18,8 +18,8 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.dataset import json_attribute
-from disc_model.data.provenance import versions
 from disc_model.data.variables import Variable
+from disc_model.sources import versions
 
 log = logging.getLogger(__name__)
 

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.jit import compiled_for
@@ -40,7 +39,7 @@ from disc_model.simulation.states import (
     used_tolerance,
     write_state,
 )
-from disc_model.sources import source_hash
+from disc_model.sources import git_commit, source_hash, versions
 from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults, number
 
 if TYPE_CHECKING:

@@ -11,14 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
-from disc_model.data.provenance import git_commit, versions
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes, read_asked
 from disc_model.parameters import AUTO, Parameters, case_of
 from disc_model.simulation.case import Start
-from disc_model.sources import source_hash
+from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
 
 # ----------------------------------------------------------------------------------------------------

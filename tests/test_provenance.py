@@ -3,7 +3,7 @@
 import subprocess
 from pathlib import Path
 
-from disc_model.data.provenance import git_commit
+from disc_model.sources import git_commit
 
 
 def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path) -> None:
