@@ -51,6 +51,12 @@ def annulus(p):
     return squares | {"(2, 1), Hz": (None, float(modes["omega"].iloc[6]) / (2 * pi))}
 
 
+def centre(p):
+    """Frequencies over h sqrt(E / (rho (1 - nu^2))) / (2 b)^2."""
+    modes, unit = plate_modes(p), p.h * sqrt(p.E / (p.rho * (1 - p.nu**2))) / (2 * p.b) ** 2
+    return {f"(0, {c})": (None, omega / unit) for c, omega in zip(modes["circles"], modes["omega"], strict=True)}
+
+
 def shoe(p):
     """Half a period from stop to stop, each nearer by twice the displacement under friction."""
     start, half = 8.5e-4, pi / sqrt(p.k_p / p.m)
@@ -187,8 +193,9 @@ def bounce(p):
 
 
 COMPUTED = {
-    f"E{i + 1}": f for i, f in enumerate((annulus, shoe, belt, damped_belt, divergence, dashpot, impact, bounce))
-}
+    "E1": annulus, "E1b": centre, "E2": shoe, "E3": belt, "E4": damped_belt, "E5": divergence, "E6": dashpot,
+    "E7": impact, "E8": bounce,
+}  # fmt: skip
 
 
 def says(text, value):
