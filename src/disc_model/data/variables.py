@@ -4,7 +4,9 @@ import enum
 import json
 import math
 import re
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -110,38 +112,19 @@ class Variable(NamedTuple):
 
 STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
 """Stable motions found near the static start: a cycle, steady sliding, rest on the disc."""
-SERIES = {
-    "time": Variable("s", "time"),
-    "kind": Variable("1", "kind of event", EVENT_KINDS),
-    "phase": Variable("1", "phase of the motion", PHASES),
-    "P": Variable("N", "contact force, positive in compression"),
-    "u": Variable("m", "vertical displacement of the slider"),
-    "u_velocity": Variable("m s-1", "vertical velocity of the slider"),
-    "w": Variable("m", "displacement of the disc under the slider"),
-    "w_point": Variable("m", "displacement of the disc at r_0 and a fixed angle"),
-    "w_point_velocity": Variable("m s-1", "velocity of the disc at r_0 and a fixed angle"),
-    "psi": Variable("rad", "angle of the drive point ahead of the slider"),
-    "psi_velocity": Variable("rad s-1", "angular velocity of the drive point relative to the slider, Omega - f"),
-    "f": Variable("rad s-1", "absolute angular velocity of the slider"),
-}
-SCALARS = {
-    "status": Variable("1", "how the simulation ended", STATUSES),
-    "first_separation": Variable("s", "time of the first separation, nan if there was none"),
-    "t_end": Variable("s", "time up to which the simulation was asked for"),
-    "time_reached": Variable("s", "time that the simulation reached"),
-    "tol": Variable("1", "tolerance of the simulation"),
-    "u_0": Variable("m", "displacement of the slider in static equilibrium"),
-    "steps": Variable("1", "number of steps", whole=True),
-    "n_events": Variable("1", "number of events", whole=True),
-    "n_separations": Variable("1", "number of separations", whole=True),
-    "time_stick": Variable("s", "time spent sticking"),
-    "time_slip": Variable("s", "time spent slipping"),
-    "time_separation": Variable("s", "time spent separated"),
-    "energy_residual": Variable("1", "largest relative residual of the energy balance over one audited step"),
-    "energy_residual_transverse": Variable("1", "accumulated relative residual of the transverse energy balance"),
-    "energy_residual_inplane": Variable("1", "accumulated relative residual of the in-plane energy balance"),
-    "audited_steps": Variable("1", "number of steps whose energy balance was audited", whole=True),
-}
+_FLAGS = {"kind": EVENT_KINDS, "phase": PHASES, "status": STATUSES}
+
+
+def _variables(section: str) -> dict[str, Variable]:
+    """Variables of a section of the table, by their names."""
+    return {
+        name: Variable(units, long_name, _FLAGS.get(name, ()), whole="whole" in marks)
+        for name, (units, long_name, *marks) in _TABLES[section].items()
+    }
+
+
+_TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+SERIES, SCALARS, PERTURBATIONS, _OF_GRIDS = map(_variables, ("series", "scalars", "perturbations", "of_grids"))
 COUNTS = {"steps": "steps", "n_events": "events", "n_separations": "separations", "audited_steps": "audited_steps"}
 """Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
 BESIDE_WINDOWS = frozenset({"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields})
@@ -149,12 +132,6 @@ BESIDE_WINDOWS = frozenset({"events", "final_state", "initial_state", *SCALARS, 
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
 }
-PERTURBATIONS = {
-    "perturbation_u": Variable("m", "perturbation of the slider and of the disc under it, upward"),
-    "perturbation_u_velocity": Variable("m s-1", "perturbation of their velocity, upward"),
-    "perturbation_f": Variable("rad s-1", "perturbation of the slider's angular velocity"),
-}
-"""Perturbations that grids may add to an initial state; they are coordinates of the grids' datasets."""
 _OF_RATIOS = {name: Variable("1", f"{name_above} relative to {other}") for name, (name_above, other) in RATIOS.items()}
 WITHOUT_CYCLE = {
     "no_cycle": "no cycle found",
@@ -169,12 +146,6 @@ START = "start"
 """The dimension of a grid along which the initial conditions vary."""
 SAMPLE = "sample"
 """The dimension of a grid that numbers the samples of distributed parameters."""
-_OF_GRIDS = {
-    START: Variable("", "where the motion starts"),
-    SAMPLE: Variable("1", "number of the sample"),
-    "truncation_quantity": Variable("", "quantity by which modes are chosen"),
-    "truncation_tolerance": Variable("1", "largest relative error of the quantity by which modes are chosen"),
-}
 
 
 def attributes(name: str) -> dict[str, Any]:
@@ -213,40 +184,7 @@ class Shown(NamedTuple):
     factor: float = 1.0
 
 
-SHOWN = {
-    "N": Shown("Preload", "N", "N"),
-    "Omega": Shown("Speed", "Ω", "rad/s"),
-    "D_star": Shown("Damping of the disc", "D*", "10⁻⁵ N m s", 1e5),
-    "c": Shown("Damper", "c", "N s/m"),
-    "c_p": Shown("In-plane damper", "c_p", "N s/m"),
-    "k": Shown("Spring", "k", "kN/m", 1e-3),
-    "k_p": Shown("In-plane spring", "k_p", "kN/m", 1e-3),
-    "E": Shown("Young's modulus", "E", "GPa", 1e-9),
-    "m": Shown("Mass", "m", "g", 1e3),
-    "mu_s": Shown("Static friction", "μ_s", ""),
-    "mu_k": Shown("Kinetic friction", "μ_k", ""),
-    "a": Shown("Inner radius", "a", "mm", 1e3),
-    "b": Shown("Outer radius", "b", "mm", 1e3),
-    "r_0": Shown("Slider's radius", "r_0", "mm", 1e3),
-    "h": Shown("Thickness", "h", "mm", 1e3),
-    "nu": Shown("Poisson's ratio", "ν", ""),
-    "rho": Shown("Density", "ρ", "kg/m³"),
-    "damping_ratio": Shown("Damping ratio of the disc's modes", "ζ", ""),
-    "contact_compliance": Shown("Contact compliance C", "", "μm/N", 1e6),
-    "perturbation_u": Shown("Perturbation", "", "mm", 1e3),
-    "perturbation_u_velocity": Shown("Perturbation", "", "m/s"),
-    "perturbation_f": Shown("Perturbation", "", "rad/s"),
-    "n_diameters": Shown("Nodal diameters", "", ""),
-    "n_circles": Shown("Nodal circles", "", ""),
-    "P": Shown("Contact force", "P", "N"),
-    "u": Shown("Slider", "u", "mm", 1e3),
-    "u_velocity": Shown("Slider du/dt", "", "m/s"),
-    "w": Shown("Disc under the slider", "w", "mm", 1e3),
-    "w_point": Shown("Disc at r_0", "", "mm", 1e3),
-    "w_point_velocity": Shown("Disc velocity at r_0", "", "m/s"),
-    "psi": Shown("Angle", "ψ", "rad"),
-    "psi_velocity": Shown("dψ/dt", "", "rad/s"),
-}
+SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
 """Presentation of numeric parameters, their ratios, perturbations, and sampled variables."""
 SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "") for name, pair in RATIOS.items()}
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
