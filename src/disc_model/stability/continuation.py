@@ -198,7 +198,7 @@ def continue_border(
 ) -> Branch:
     """Follow a border of stability in two parameters, in both directions from a place near a case.
 
-    The arguments are those that `disc_model.stability.curves.stability_curves` has checked.
+    The arguments are those that `disc_model.stability.curves.neutral_curves` has checked.
 
     Parameters
     ----------
