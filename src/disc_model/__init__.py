@@ -20,7 +20,6 @@ _NAMES = {
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
-    "disc.tables": "read_disc",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
@@ -47,7 +46,6 @@ if TYPE_CHECKING:
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue
-    from disc_model.disc.tables import read_disc
     from disc_model.errors import (
         DiscModelError,
         ModeError,

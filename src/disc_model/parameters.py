@@ -5,14 +5,15 @@ from __future__ import annotations
 import inspect
 import math
 import operator
-from collections.abc import Iterable, Mapping, Sized
+from collections.abc import Callable, Iterable, Mapping, Sized
 from contextlib import suppress
+from importlib import import_module
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, PrivateAttr, field_validator, model_validator
 
-from disc_model.display import html_table
+from disc_model.display import draw, html_table
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.units import (
     UNITS,
@@ -30,6 +31,9 @@ from disc_model.units import (
     number,
     within,
 )
+
+if TYPE_CHECKING:
+    import os
 
 AUTO = "auto"
 """Value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes."""
@@ -75,7 +79,7 @@ def _compliance(value: Any) -> Any:
 # What only study files and the command line accept is refused with the name of the function to use instead.
 _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
 _READ = must(
-    lambda value: not isinstance(value, str), "must be a Disc: disc_model.read_disc reads one from a table of modes"
+    lambda value: not isinstance(value, str), "must be a Disc: disc_model.Disc.from_csv reads one from a table of modes"
 )
 
 
@@ -97,7 +101,8 @@ Column = Iterable[float | str]
 class Disc(Checked):
     """An axisymmetric disc given by its modes, from finite elements or a modal test.
 
-    Modes with nodal diameters are pairs (cosine and sine), each given once. `disc_model.read_disc` reads a table.
+    Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff` and `from_section`
+    make one.
 
     Parameters
     ----------
@@ -159,6 +164,147 @@ class Disc(Checked):
             return (0.0,) * len(diameters)
         order = sorted(range(len(omega)), key=omega.__getitem__)
         return tuple(sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega)))
+
+    @classmethod
+    def from_csv(cls, path: str | os.PathLike[str]) -> Disc:
+        """Read a table of modes.
+
+        Parameters
+        ----------
+        path : CSV file. Its columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``, and
+            ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, and shapes at radii, such as
+            ``shape_at_0.08_m``. Lines that begin with # are comments; one may give ``static_compliance_m_per_N: ...``
+
+        Raises
+        ------
+        ParameterError
+            If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
+        """
+        disc: Disc = import_module("disc_model.disc.tables").read_disc(path)
+        return disc
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> disc = dm.Disc(diameters=[0, 1, 2], omega=[1490, 1515, 1820], amplitude=[1.53, 2.16, 2.15])
+        >>> disc.to_csv("disc.csv")
+        >>> dm.Disc.from_csv("disc.csv") == disc
+        True
+        """
+        import_module("disc_model.disc.tables").write_disc(self, path)
+
+    @classmethod
+    def from_uff(cls, path: str | os.PathLike[str], r_0: float) -> Disc:
+        """Read mode shapes from a universal file, as modal software writes it (pyuff, extra ``uff``).
+
+        Parameters
+        ----------
+        path : file with a dataset 55 for each mode, real or complex, with modal masses; and the nodes' coordinates in
+            m, dataset 15 or 2411, around the disc's axis z. Only the motion along z is used
+        r_0 : m, radius of a circle of nodes, at which the slider is. Other circles give the shapes
+
+        Returns
+        -------
+        Disc
+            The number of nodal diameters of a mode is that of the harmonic with most of its motion along the circle. A
+            mode with less than half of it in one harmonic is left out, such as one in the plane of the disc. Two modes
+            of equal diameters within 5 % in frequency are the halves of a pair, which is their mean.
+
+        Raises
+        ------
+        ParameterError
+            If the file cannot be read, or lacks nodes on the circle, modal masses or modes across the disc.
+        """
+        disc: Disc = import_module("disc_model.disc.tables").read_uff(path, r_0)
+        return disc
+
+    @classmethod
+    def from_section(  # noqa: PLR0913
+        cls,
+        section: Any,
+        *,
+        E: float,
+        nu: float,
+        rho: float,
+        clamped: Callable[[Any], Any],
+        slider: tuple[float, float],
+        highest_Hz: float,
+        damping_ratio: float = 0.0,
+        size: float | None = None,
+    ) -> Disc:
+        """Find the modes of a solid of revolution by finite elements (scikit-fem, extra ``fe``).
+
+        Parameters
+        ----------
+        section : rectangles (r from, r to, z from, z to) in m, whose union is the section; or a mesh of quadrilaterals
+            of scikit-fem with coordinates (r, z)
+        size : m, largest edge of an element; not for a mesh
+        E, nu, rho : Pa, 1 and kg/m^3
+        clamped : function that says which edges around the section are held, from the coordinates (r, z) of their
+            middles, shape (2, k)
+        slider : (r, z) of the point under the slider, m; a corner of a rectangle, or a node of the mesh
+        highest_Hz : modes up to this frequency are found
+        damping_ratio : damping ratio of every mode
+
+        Returns
+        -------
+        Disc
+            Modes ordered by frequency; ``circles`` numbers the modes of equal nodal diameters. Shapes are those at the
+            height of the slider.
+
+        Raises
+        ------
+        ParameterError
+            If a number breaks its rule, the section is in pieces or not held, the slider is not at a node, or no mode
+            moves under it.
+
+        Warns
+        -----
+        ImplausibleValue
+            If no solid has such values of E and rho.
+        """
+        elements = import_module("disc_model.disc.finite_elements")
+        mesh = section if size is None else elements.section(section, size)
+        disc: Disc = elements.disc_of_section(
+            mesh, E=E, nu=nu, rho=rho, clamped=clamped, slider=slider, highest_Hz=highest_Hz,
+            damping_ratio=damping_ratio,
+        )  # fmt: skip
+        return disc
+
+    def plot(self, *, r_0: float | None = None, most: int = 15, ax: Any = None) -> Any:
+        """Draw the shapes of the modes with their nodal lines and frequencies; needs shapes at two radii or more.
+
+        Parameters
+        ----------
+        r_0 : m, the slider's radius, for its mark; in the middle of the known radii if not given
+        most : number of modes that are drawn, by ascending frequency
+        ax : axes to draw on, one for each mode
+
+        Returns
+        -------
+        array of Axes
+        """
+        if r_0 is None:
+            r_0 = sum(self.radii) / len(self.radii) if self.radii else 0.1
+        return draw("plot_modes", Parameters(N=0, Omega=0, r_0=r_0, disc=self), most, ax=ax)
+
+    def __repr__(self) -> str:
+        low, high = (end(self.omega) / math.tau for end in (min, max))
+        return f"Disc({len(self.omega)} modes, {low:.0f} to {high:.0f} Hz)"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The table of modes in a notebook."""
+        columns = (self.diameters, self.circles, self.omega, self.amplitude, self.damping_ratio)
+        rows = [
+            (diameters, circles, f"{omega / math.tau:.5g}", f"{amplitude:.5g}", f"{damping:.3g}")
+            for diameters, circles, omega, amplitude, damping in zip(*columns, strict=True)
+        ]
+        return html_table(("diameters", "circles", "frequency (Hz)", "amplitude (kg^-1/2)", "damping ratio"), rows)
 
     def _faults_of_columns(self) -> list[str]:
         """Faults of the number of modes, and of columns that lack some or have more."""

@@ -120,10 +120,10 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.chdir(tmp_path)
     Path("disc.csv").write_text(table)
     phrase: dict[str, object] = {}
-    of_table = dm.read_disc("disc.csv")
+    of_table = dm.Disc.from_csv("disc.csv")
     exec(first + drawing, phrase)
     disc = phrase["disc"]
     assert isinstance(disc, dm.Disc)
-    assert dm.read_disc("disc.csv") == disc
+    assert dm.Disc.from_csv("disc.csv") == disc
     np.testing.assert_allclose(disc.omega[:3], of_table.omega, rtol=0.01)
     np.testing.assert_allclose(disc.amplitude[:3], of_table.amplitude, rtol=0.01)

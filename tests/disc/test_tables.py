@@ -3,7 +3,6 @@
 import contextlib
 import itertools
 import json
-import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,7 +21,6 @@ from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import load_study
-from tests import needs
 from tests.commands import Command
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -33,7 +31,7 @@ def written(path: Path, p: dm.Parameters) -> dm.Parameters:
     """The case with a disc that was read from the table of its own modes."""
     path.write_text(disc_table(p))
     left = {name: p.canonical[name] for name in ("N", "Omega", "r_0", "contact_force") if name in p.canonical}
-    return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=dm.read_disc(path))
+    return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=dm.Disc.from_csv(path))
 
 
 def grid_in(folder: Path, text: str) -> GridStudy:
@@ -112,7 +110,7 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
         radii=radii.tolist(), shapes=mode_shapes(plate, radii).tolist(),
     )  # fmt: skip
     (tmp_path / "disc.csv").write_text(disc_table(P.replace(disc=disc)))
-    table = P.replace(disc=dm.read_disc(tmp_path / "disc.csv"))
+    table = P.replace(disc=dm.Disc.from_csv(tmp_path / "disc.csv"))
     assert table.disc == disc
     state = dm.snapshots(plate, [0.3])
     right, found = (dm.deflection(p, state, r, theta) for p in (plate, table))
@@ -129,7 +127,7 @@ def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
     text = disc_table(P.replace(disc=disc))
     assert "shape_at_0.073_m" in text
     (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
-    assert dm.read_disc(tmp_path / "disc.csv") == disc
+    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc
 
 
 FIRST_LINES = (
@@ -164,7 +162,7 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
         comment = [f"# static_compliance_m_per_N: {draw.choice(CELLS)}"] if i % 3 == 0 else []
         path.write_bytes("\n".join([*comment, first, *rows]).encode("utf-8" if i % 5 else "utf-16"))
         with contextlib.suppress(dm.DiscModelError):
-            p = P.replace(disc=dm.read_disc(path))
+            p = P.replace(disc=dm.Disc.from_csv(path))
             discs += 1
             dm.simulate(p, 1e-3)
             dm.coupled_natural_frequencies(p)
@@ -174,7 +172,7 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])
 def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
     with pytest.raises(dm.ParameterError, match="must be a text file that can be read"):
-        dm.read_disc(path)  # type: ignore[arg-type]
+        dm.Disc.from_csv(path)  # type: ignore[arg-type]
 
 
 OWN = "study: own\nbase: {{disc: {}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"
@@ -225,36 +223,10 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
     xr.testing.assert_allclose(table, plate, rtol=1e-9, atol=1e-9)
 
 
-@needs.UNIVERSAL_FILES.mark
-def test_the_page_reads_a_universal_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pairs turned by any angle, any scale of the shapes: a table of the modes that the file was made of."""
-    import pyuff
-
-    monkeypatch.chdir(tmp_path)
-    angles, nothing = np.linspace(0, 2 * np.pi, 24, endpoint=False), np.zeros(24)
-    for i, (l, omega, amplitude) in enumerate(zip(*THREE.values(), strict=True)):
-        scale = 10.0**i
-        kind = {"model_type": 1, "analysis_type": 2, "data_ch": 2, "spec_data_type": 8, "data_type": 2, "load_case": 1}
-        kind |= {f"id{line}": "NONE" for line in range(1, 6)}
-        mode = pyuff.prepare_55(
-            **kind, r1=nothing, r2=nothing, r3=scale * amplitude * np.cos(l * (angles - 0.3)), n_data_per_node=3,
-            node_nums=list(range(1, 25)), mode_n=i + 1, freq=omega / (2 * np.pi), modal_m=scale**2,
-            modal_damp_vis=1e-3, modal_damp_his=0.0,
-        )  # fmt: skip
-        pyuff.UFF("modes.uff")._write_set(mode, "add")
-    page = (Path(__file__).parents[2] / "docs" / "own_disc.md").read_text(encoding="utf-8")
-    (code,) = (text for text in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "pyuff" in text)
-    exec(code, {})
-    found = dm.read_disc("disc.csv")
-    assert found.diameters == (0, 1, 2)
-    np.testing.assert_allclose(found.omega, THREE["omega"], rtol=1e-5)  # six digits are in the file
-    np.testing.assert_allclose(found.amplitude, THREE["amplitude"], rtol=1e-5)
-
-
 def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, command = tmp_path / "disc.csv", Command(capsys)
     path.write_text(command.out("modes", "--normalization", "orthonormal", "--csv"))
-    assert dm.read_disc(path).omega == tuple(mode_arrays(P).omega)
+    assert dm.Disc.from_csv(path).omega == tuple(mode_arrays(P).omega)
     path.write_text(disc_table(P.replace(damping_ratio=0.00375)))
     shown = command.out("modes", "--disc", str(path))
     assert "a disc of 5 modes" in shown

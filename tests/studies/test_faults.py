@@ -149,7 +149,7 @@ def test_a_wrong_argument_is_named(call: Callable[[], object], words: str) -> No
 
 def test_a_fault_of_a_table_names_its_column_and_mode(tmp_path: Path) -> None:
     (path := tmp_path / "disc.csv").write_text(BAD_TABLE)
-    assert_named(faults_of(dm.read_disc, path), "disc.csv.frequency_Hz '-1' mode 2")
+    assert_named(faults_of(dm.Disc.from_csv, path), "disc.csv.frequency_Hz '-1' mode 2")
 
 
 RUN = "run --N 385 --Omega 15.1 --t-end 1 "

@@ -84,35 +84,7 @@ def disc_of_section(
     highest_Hz: float,
     damping_ratio: float = 0.0,
 ) -> Disc:
-    """Find the modes of a solid of revolution that move under the slider.
-
-    Parameters
-    ----------
-    mesh : mesh of the section, coordinates (r, z) in m; see `section`
-    E, nu, rho : Pa, 1 and kg/m^3
-    clamped : function that says which edges around the section are held, from the coordinates (r, z) of their middles,
-        shape (2, k)
-    slider : (r, z) of the point under the slider, m; a node of the mesh
-    highest_Hz : modes up to this frequency are found
-    damping_ratio : damping ratio of every mode
-
-    Returns
-    -------
-    Disc
-        Modes ordered by frequency; ``circles`` numbers the modes of equal nodal diameters. Shapes are those at the
-        height of the slider.
-
-    Raises
-    ------
-    ParameterError
-        If a number breaks its rule, the section is in pieces or not held, the slider is not at a node, or no mode
-        moves under it.
-
-    Warns
-    -----
-    ImplausibleValue
-        If no solid has such values of E and rho.
-    """
+    """Find the modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))

@@ -1,4 +1,4 @@
-"""Discs given by a table of modes, from finite elements or modal tests: reading and writing of CSV files."""
+"""Discs given by their modes, from finite elements or modal tests: tables as CSV files, and universal files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Disc, Parameters
 
 if TYPE_CHECKING:
@@ -33,29 +33,115 @@ STATIC_COMPLIANCE = "static_compliance_m_per_N"
 
 
 def read_disc(path: str | os.PathLike[str]) -> Disc:
-    """Read a disc from a table of its modes.
-
-    Parameters
-    ----------
-    path : CSV file. Its columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``, and
-        ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, and shapes at radii, such as
-        ``shape_at_0.08_m``. Lines that begin with # are comments; one may give ``static_compliance_m_per_N: ...``
-
-    Returns
-    -------
-    Disc
-
-    Raises
-    ------
-    ParameterError
-        If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
-    """
+    """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
     lines = _text(path).splitlines()
     values: dict[str, Any] = {"static_compliance": _static_compliance(lines, path)}
     try:
         return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
     except ParameterError as error:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
+
+
+def write_disc(disc: Disc, path: str | os.PathLike[str]) -> None:
+    """Write a disc as the table that `read_disc` reads."""
+    Path(path).write_text(table_text(disc), encoding="utf-8")
+
+
+# ----------------------------------------------------------------------------------------------------
+# Universal files of modal software
+
+SAME_RADIUS = 1e-3
+"""Relative difference of the radii of nodes on one circle."""
+SAME_PAIR = 0.05
+"""Relative difference of the frequencies of the two halves of a pair."""
+
+
+def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
+    """Read mode shapes from a universal file, see `disc_model.Disc.from_uff`."""
+    try:
+        import pyuff
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError("universal files need pyuff: pip install 'disc_model[uff]'") from None
+    try:
+        sets = np.atleast_1d(pyuff.UFF(str(path)).read_sets()).tolist()
+    except Exception as error:  # pyuff raises what the text of the file happens to lead to
+        raise _fault(path, f"must be a universal file that can be read ({error})") from None
+    places = {
+        int(number): place
+        for data in sets
+        if data["type"] in (15, 2411)
+        for number, *place in zip(*(data[name] for name in ("node_nums", "x", "y", "z")), strict=True)
+    }
+    modes = [_uff_mode(data, places, r_0, path) for data in sets if data["type"] == 55]
+    pairs: list[list[dict[str, Any]]] = []
+    for mode in sorted((mode for mode in modes if mode), key=lambda mode: mode["omega"]):
+        halves = next((pair for pair in pairs if _is_half(mode, pair)), None)
+        if halves is None:
+            pairs.append([mode])
+        else:
+            halves.append(mode)
+    if not pairs:
+        raise _fault(path, "must hold a mode across the disc, as a dataset 55")
+    radii = sorted(set.intersection(*({*half["shape"]} for pair in pairs for half in pair)))
+    means = [{name: float(np.mean([half[name] for half in pair])) for name in ("omega", "damping")} for pair in pairs]
+    return Disc(
+        diameters=[pair[0]["diameters"] for pair in pairs],
+        omega=[mean["omega"] for mean in means],
+        damping_ratio=[mean["damping"] for mean in means],
+        amplitude=[float(np.mean([half["amplitude"] for half in pair])) for pair in pairs],
+        radii=radii if len(radii) > 1 else [],
+        shapes=[[float(np.mean([half["shape"][r] for half in pair])) for r in radii] for pair in pairs]
+        if len(radii) > 1
+        else [],
+    )
+
+
+def _is_half(mode: dict[str, Any], pair: list[dict[str, Any]]) -> bool:
+    """Whether a mode is the other half of a pair, of which one is known."""
+    same = mode["diameters"] == pair[0]["diameters"] > 0 and len(pair) == 1
+    return same and mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]
+
+
+def _uff_mode(data: dict[str, Any], places: dict[int, list[float]], r_0: float, path: object) -> dict[str, Any] | None:
+    """Diameters, frequency, damping, amplitude and shape of a dataset 55; None of one that moves in the plane."""
+    if data["analysis_type"] == 2:
+        omega, damping, mass = math.tau * data["freq"], data["modal_damp_vis"], data["modal_m"]
+    else:  # a complex mode: its pole, and modal a
+        pole = complex(data["eig"])
+        omega, damping = abs(pole), -pole.real / abs(pole)
+        mass = (complex(data["modal_a"]) / (2j * pole.imag)).real
+    moves = np.real(data["r3"])
+    known = [i for i, node in enumerate(data["node_nums"]) if int(node) in places]
+    x, y, _ = np.transpose([places[int(data["node_nums"][i])] for i in known] or np.zeros((0, 3)))
+    radius, angle, moves = np.hypot(x, y), np.arctan2(y, x), moves[known]
+    circle = np.abs(radius - r_0) < SAME_RADIUS * r_0
+    rule = f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
+    raise_faults(violations((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule)))
+    raise_faults(violations((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale")))
+    fits = [_harmonic_fit(angle[circle], moves[circle], l) for l in range(min(60, (int(circle.sum()) - 1) // 2) + 1)]
+    l = int(np.argmin([rest for _, rest in fits]))
+    (cosine, sine), rest = fits[l]
+    if rest > 0.5 * float(np.sum(moves[circle] ** 2)):
+        return None
+    amplitude, turn, scale = math.hypot(cosine, sine), math.atan2(sine, cosine), 1 / math.sqrt(mass)
+    shape = {}
+    for r in np.unique(np.round(radius, 6)):
+        here = np.abs(radius - r) < SAME_RADIUS * r_0
+        if here.sum() > 2 * l:
+            wave = np.cos(l * angle[here] - turn)
+            shape[float(r)] = scale * float(wave @ moves[here] / (wave @ wave))
+    return {"diameters": l, "omega": omega, "damping": float(damping), "amplitude": scale * amplitude, "shape": shape}
+
+
+def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[tuple[float, float], float]:
+    """Cosine and sine of a harmonic around the axis, and the sum of squares that it leaves."""
+    waves = np.stack([np.cos(l * angle), np.sin(l * angle)], axis=1)[:, : 1 if l == 0 else 2]
+    found = np.linalg.lstsq(waves, moves, rcond=None)[0]
+    return (float(found[0]), float(found[1]) if l else 0.0), float(np.sum((moves - waves @ found) ** 2))
+
+
+# ----------------------------------------------------------------------------------------------------
+# Tables as text
 
 
 def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -120,16 +206,26 @@ def damping_ratios(p: Parameters) -> Array:
 
 
 def disc_table(p: Parameters) -> str:
-    """Write the modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
+    """The modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
     from disc_model.disc.flexibility import residual_flexibility
 
-    modes = mode_arrays(p)
-    columns: dict[str, Any] = {"diameters": modes.diameters, "circles": modes.circles, "omega_rad_per_s": modes.omega}
-    columns |= {"amplitude_per_sqrt_kg": modes.psi, "damping_ratio": damping_ratios(p)}
-    static = residual_flexibility(p).total if p.disc is None else p.disc.static_compliance
     if p.disc is not None:
-        shapes = zip(p.disc.radii, zip(*p.disc.shapes, strict=True), strict=True)
-        columns |= {f"shape_at_{radius}_m": shape for radius, shape in shapes}
+        return table_text(p.disc)
+    modes = mode_arrays(p)
+    numbers = (modes.diameters, modes.circles, modes.omega, modes.psi, damping_ratios(p))
+    return _text_of(numbers, {}, residual_flexibility(p).total)
+
+
+def table_text(disc: Disc) -> str:
+    """A disc as a table."""
+    numbers = (disc.diameters, disc.circles, disc.omega, disc.amplitude, disc.damping_ratio)
+    shapes = zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)
+    return _text_of(numbers, {f"shape_at_{r}_m": shape for r, shape in shapes}, disc.static_compliance)
+
+
+def _text_of(numbers: tuple[Any, ...], shapes: dict[str, Any], static: float | None) -> str:
+    names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio")
+    columns = dict(zip(names, numbers, strict=True)) | shapes
     rows = [[*columns], *zip(*columns.values(), strict=True)]
     comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
