@@ -1,12 +1,13 @@
 """The sources on which results depend: what decides them is in, and what does not is left out."""
 
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from disc_model import sources
-from disc_model.sources import ASIDE, PACKAGE, source_files, source_hash
+from disc_model.sources import ASIDE, PACKAGE, git_commit, source_files, source_hash
 from disc_model.studies.quantity import quantity_names
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
@@ -125,3 +126,18 @@ def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:
     for name in ASIDE:
         assert source_files(name)
     assert all(script in source_files(script) for script in SCRIPTS.glob("*.py"))
+
+
+def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path) -> None:
+    """The package may be installed in an environment that lies in somebody's own repository."""
+    site = tmp_path / "venv" / "disc_model"
+    site.mkdir(parents=True)
+    (site / "__init__.py").write_text("")
+    identity = ("-c", "user.name=somebody", "-c", "user.email=somebody@example.org")
+    for command in (("init", "-q"), (*identity, "commit", "-q", "--allow-empty", "-m", "own work")):
+        subprocess.run(["git", *command], cwd=tmp_path, check=True)
+    assert git_commit(site) == "unknown"
+    subprocess.run(["git", "add", "."], cwd=tmp_path, check=True)
+    subprocess.run(["git", *identity, "commit", "-q", "-m", "all of it"], cwd=tmp_path, check=True)
+    git_commit.cache_clear()
+    assert len(git_commit(site)) == 40

@@ -1,5 +1,6 @@
 """Frequencies of steady sliding against another eigenproblem, those of the cycle against its return map."""
 
+import cmath
 import math
 
 import numpy as np
@@ -8,6 +9,7 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model import Parameters, coupled_natural_frequencies, plate_modes
 from disc_model.stability.campbell import frequencies
+from disc_model.stability.resonances import modes_at_rest, nearest_resonance
 
 BASE = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1)
@@ -59,3 +61,25 @@ def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters
     # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s / 2 = 33 Hz
     np.testing.assert_allclose(found.cycle_frequency[here], found.modes.frequency[here], atol=0.2)
     assert found.mac[here].min() > 0.9
+
+
+def test_modes_at_rest_are_the_frequencies_with_the_slider_attached():
+    found = modes_at_rest(BASE)
+    np.testing.assert_allclose(
+        [2 * math.pi * frequency for frequency, _, _ in found], coupled_natural_frequencies(BASE), rtol=1e-9
+    )
+    assert sum(bound for _, _, bound in found) == 5
+    assert [l for _, l, bound in found if not bound] == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(("shift", "diameters", "sign"), [(0.0, 1, 0), (1.0, 2, 1), (-1.0, 2, -1)])
+def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
+    """A mode of frequency f, seen at f + shift l Omega / 2 pi, turns the multiplier by that times the period."""
+    period = 0.0148
+    frequency = next(f for f, l, bound in modes_at_rest(BASE) if l == diameters and bound == (shift == 0))
+    seen = frequency + shift * diameters * BASE.Omega / (2 * math.pi)
+    resonance = nearest_resonance(BASE, period, cmath.exp(2j * math.pi * seen * period))
+    assert (resonance.frequency, resonance.diameters, resonance.sign) == (pytest.approx(frequency), diameters, sign)
+    assert resonance.detuning == pytest.approx(resonance.harmonic / period - seen)
+    assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")
+    assert resonance.label.endswith(f"{'+' if sign > 0 else '-'} {diameters} Ω/2π") == (sign != 0)

@@ -1,20 +1,16 @@
 """The speed of onset, and every crossing."""
 
-import math
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor.outcome import OutcomeResult
 from disc_model.studies.quantities import critical_speed
 from disc_model.studies.quantities.critical_speed import CriticalSpeed
-from disc_model.studies.quantity import STATUSES, Point
+from disc_model.studies.quantity import Point
 from tests.studies.conftest import compute
 
 
@@ -39,25 +35,6 @@ def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
     assert shorter["critical_speed"] == 14.0
     assert one["simulations"].sel(N=200) > 7
     assert flag_names(one["status"]).tolist() == ["ok", "ok"]
-
-
-@pytest.mark.parametrize(("fails_at", "lowest", "crossings"), [(None, 12.4, 1), (13.0, 12.4, 1), (12.0, math.nan, 0)])
-def test_a_run_that_breaks_off_is_no_quiet_run(
-    fails_at: float | None, lowest: float, crossings: int, fake_motions: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    whole = critical_speed.motion
-
-    def motion(p, options):
-        failed = SimpleNamespace(status=Status.PARADOX, message="why")
-        return whole(p, options) if p.Omega != fails_at else OutcomeResult(None, simulated=1.0, failed=failed)
-
-    monkeypatch.setattr(critical_speed, "motion", motion)
-    found = speeds_at(400, [1000], 12, 14, 0.5, 0.1)
-    assert found["critical_speed"][0, 0] == pytest.approx(lowest, nan_ok=True)
-    assert found["n_crossings"][0, 0] == crossings == np.isfinite(found["crossing"]).sum()
-    status = STATUSES[found["status"][0]]
-    assert status == ("ok" if fails_at is None else "paradox")
-    assert {STATUSES[i] for i in found["scan_status"][0]} == {"ok", status}
 
 
 @pytest.mark.compiled

@@ -152,18 +152,3 @@ def test_a_cycle_that_is_passed_in_the_first_seconds_is_not_the_one_that_the_sta
     assert early["growth_rate"] == pytest.approx(passed, abs=5e-4)
     assert row["growth_rate"] == pytest.approx(left, abs=5e-4)
     assert row["outcome"] == "growing"
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize(
-    ("p", "outcome", "cycle"),
-    [
-        (Parameters(N=200, Omega=0), Outcome.AT_REST, "at_rest"),
-        (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, "steady_sliding"),
-        (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATION, "nearby_only"),  # after 11 s
-        (Parameters(N=200, Omega=20, mu_k=0.4), Outcome.GROWING, "followed"),  # by half in the 15 s
-    ],
-)
-def test_a_point_is_told_with_what_its_motion_has_to_do_with_a_cycle(p: Parameters, outcome: str, cycle: str) -> None:
-    (((row, _),),) = Regions(horizon=15).compute_tile([[p]], [(0, 0)])
-    assert (row["outcome"], row["cycle"]) == (outcome, cycle)
