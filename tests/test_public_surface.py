@@ -70,7 +70,7 @@ ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")
     for function, others, right in SURFACE
     for name in inspect.signature(function).parameters
-    if name != "unnamed"
+    if name != "unnamed" and not name.startswith("_")
 ]
 
 

@@ -31,6 +31,7 @@ _NAMES = {
     "simulation.ramps": "Ramp",
     "simulation.result": "Result",
     "simulation.states": "State",
+    "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
     "stability.continuation": "continue_cycle",
     "stability.curves": "neutral_curves",
     "stability.cycle": "floquet",
@@ -70,6 +71,7 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study, sweep
 
 
 def __getattr__(name: str) -> Any:

@@ -115,13 +115,13 @@ class Result(Summarised, Pictures):
         """
         from disc_model.data.dataset import events_dataset, scalars_dataset, to_tree
 
-        scalars = scalars_dataset(self.parameters, self._scalars(), self.status.value, self.message)
+        scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         windows = {name: self[name] for name in self.samples}
         return to_tree({"": scalars, "events": events_dataset(self.events), **windows})
 
-    def _scalars(self) -> dict[str, float]:
+    def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}

@@ -1,0 +1,419 @@
+"""What studies compute, as functions: a quantity of one case, a sweep of any function, and a whole study."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import fields, is_dataclass
+from functools import cache, partial
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import SCALARS, Variable, flag_names
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
+from disc_model.mode_choice import choose_when_run
+from disc_model.parameters import RATIOS, Parameters, foreign_case
+from disc_model.progress import counting
+from disc_model.simulation.api import run_case
+from disc_model.simulation.case import Start
+from disc_model.simulation.result import Result
+from disc_model.studies.merge import merge_batches, merge_cases
+from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quantity_of
+from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
+from disc_model.studies.study import load_study, parse_study
+from disc_model.units import is_whole
+
+# ----------------------------------------------------------------------------------------------------
+# Quantities of one case
+
+
+def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
+    """The variables of a quantity for a case, flags as words; what went wrong is the attribute `message`."""
+    raise_faults(foreign_case(case))
+    quantity = quantity_of(name).model_validate(options)
+    row, message = quantity.compute_point(Point(case, Start(perturbation=dict(start or {}))))
+    coordinates = coordinates_of(quantity.COORDINATES, quantity)
+    columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
+    dataset = xr.Dataset(columns, coordinates, {"parameters": case.canonical_json, "message": message}).isel({POINT: 0})
+    for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
+        words = flag_names(dataset[flag])
+        dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
+    return dataset
+
+
+def outcome(
+    case: Parameters,
+    horizon: float | str = 1000.0,
+    *,
+    start: Mapping[str, float] | None = None,
+    evaluation_time: float = 1.0,
+    after_separation: float = 5.0,
+    early_end: bool = True,
+    tol: float = 1e-10,
+) -> xr.Dataset:
+    """What the motion comes to within a horizon: "quiet", "growing", "separation" and so on, and how it then looks.
+
+    Parameters
+    ----------
+    case : the case
+    horizon : s
+    start : perturbations of the static start by name: u (m), u_velocity (m/s), f (rad/s)
+    evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
+    after_separation : s, simulated after the first separation, so that the stretch shows the motion it leads to
+    early_end : whether the simulation ends once a stable cycle or steady sliding is shown to be reached
+    tol : as in `simulate`
+
+    Returns
+    -------
+    xarray.Dataset
+        `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> reached = dm.outcome(dm.Parameters(N=385, Omega=15.1), 100)
+    >>> print(reached["outcome"].item(), f"{reached['first_separation'].item():.1f} s")
+    separation 54.4 s
+    """
+    options = {"horizon": horizon, "evaluation_time": evaluation_time, "after_separation": after_separation}
+    return _quantity("outcome", case, start, **options, early_end=early_end, tol=tol)
+
+
+def critical_speed(
+    case: Parameters,
+    scan: tuple[float, float] = (5.0, 30.0),
+    horizon: float | Sequence[float] = 1000.0,
+    *,
+    step: float = 1.0,
+    precision: float = 0.1,
+    early_end: bool = True,
+    tol: float = 1e-10,
+) -> xr.Dataset:
+    """The lowest speed of a scan at which contact is lost within a horizon, and all at which that begins or ends.
+
+    Separation in a range of speeds narrower than `step` can be overlooked.
+
+    Parameters
+    ----------
+    case : the case; its own speed is not used
+    scan : rad/s, the lowest and the highest speed
+    horizon : s, or several, each with a critical speed of its own
+    step : rad/s, of the scan
+    precision : rad/s, to which crossings are bisected; `step` must be a multiple
+    early_end, tol : as in `outcome`
+
+    Returns
+    -------
+    xarray.Dataset
+        `critical_speed` (rad/s, nan if there is none) and crossings by horizon; first separations along the scan
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> speeds = dm.critical_speed(dm.Parameters(N=385, Omega=15), (15, 16), 100, step=0.5)
+    >>> speeds["critical_speed"].values
+    array([15.1])
+    """
+    horizons: Any = horizon if np.iterable(horizon) else (horizon,)
+    scanned = {"start": scan[0], "stop": scan[1], "step": step}
+    options: dict[str, Any] = {"horizons": tuple(horizons), "scan": scanned, "precision": precision}
+    return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
+
+
+def basins(  # noqa: PLR0913
+    case: Parameters,
+    energies: Sequence[float] = (0.0,),
+    n_starts: int = 1,
+    *,
+    start: Mapping[str, float] | None = None,
+    horizon: float | str = 200.0,
+    seed: int = 1,
+    attractor_tol: float = 0.1,
+    n_bisection_directions: int = 1,
+    tol: float = 1e-10,
+) -> xr.Dataset:
+    """Attractors of a case, the share of starts that comes to each, and the least energy that leads to separation.
+
+    Parameters
+    ----------
+    case : the case
+    energies : J, of perturbations of the start in random directions, ascending
+    n_starts : number of starts at each energy
+    start : as in `outcome`
+    horizon : s, longest simulated time of a motion
+    seed : whole number that determines the directions
+    attractor_tol : relative difference of ranges at which a motion counts as having come to a known attractor; 0 to
+        follow each to the horizon
+    n_bisection_directions : number of directions in which the critical energy is bisected
+    tol : as in `simulate`
+
+    Returns
+    -------
+    xarray.Dataset
+        `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> found = dm.basins(dm.Parameters(N=385, Omega=14), [1e-4, 0.1], 3, horizon=60)
+    >>> found["kind"].values.tolist()
+    [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
+    """
+    options = {"energies": tuple(energies), "n_starts": n_starts, "horizon": horizon, "seed": seed}
+    more = {"attractor_tol": attractor_tol, "n_bisection_directions": n_bisection_directions, "tol": tol}
+    return _quantity("basins", case, start, **options, **more)
+
+
+def hysteresis(
+    case: Parameters,
+    scan: tuple[float, float],
+    dwell: float | str,
+    *,
+    step: float = 1.0,
+    max_dwell: float | str = 480.0,
+    evaluation_time: float = 5.0,
+    tol: float = 1e-10,
+) -> xr.Dataset:
+    """Sweep the speed up and down, each speed from the last motion, and describe the motion at each.
+
+    Parameters
+    ----------
+    case : the case; its own speed is not used
+    scan : rad/s, the lowest and the highest speed
+    dwell : s at each speed; doubled until the motion has settled, up to `max_dwell`
+    step : rad/s, between speeds
+    evaluation_time : s, the last stretch of a stay, which is described
+    tol : as in `simulate`
+
+    Returns
+    -------
+    xarray.Dataset
+        `onset_speed`, `offset_speed` (rad/s), and `separation_rate` (1/s) and others by direction and speed
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> sweep = dm.hysteresis(dm.Parameters(N=385, Omega=14), (14, 16), dwell=20, max_dwell=80)
+    >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
+    (16.0, ('direction', 'sweep_Omega'))
+    """
+    options: dict[str, Any] = {
+        "scan": {"start": scan[0], "stop": scan[1], "step": step},
+        "dwell": dwell,
+        "max_dwell": max_dwell,
+    }
+    return _quantity("hysteresis", case, **options, evaluation_time=evaluation_time, tol=tol)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Sweeps
+
+
+def sweep(
+    function: Callable[..., Any], case: Parameters, *, workers: int = 1, processes: bool = False, **named: Any
+) -> xr.Dataset:
+    """Call a function for each combination of values of parameters, and gather the results.
+
+    Parameters
+    ----------
+    function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
+    case : values of all parameters that do not vary
+    workers : number of calls at a time; compiled code runs beside other threads
+    processes : whether they are processes instead of threads: the function must then be importable
+    **named : values of numbers of the case, each of which becomes a dimension; other names are passed to the function
+
+    Returns
+    -------
+    xarray.Dataset
+        Numbers, words and arrays of the results along the dimensions in their order. `status` is "ok", the result's own
+        status, or "failed" where the function raised an error of this package; `message` then says which
+
+    Raises
+    ------
+    ParameterError
+        If `case` is no case, or a name is neither a number of it nor an argument of the function.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15)
+    >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
+    >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
+    (('Omega', 'mu_k_over_mu_s'), 's-1')
+    >>> growth["status"].sel(Omega=10).values.tolist()
+    ['ok', 'ok']
+    """
+    numbers = foreign_case(case) or (
+        case.numbers.keys() | RATIOS | {"n_diameters", "n_circles", "disc", "normalization"}
+    )
+    if isinstance(numbers, list):
+        raise ParameterError(*numbers)
+    arguments = inspect.signature(function).parameters
+    takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
+    axes = {name: [*values] if np.iterable(values) and not isinstance(values, str) else [values]
+            for name, values in named.items() if name in numbers and name not in arguments}  # fmt: skip
+    options = {name: value for name, value in named.items() if name not in axes}
+    unknown = [name for name in options if name not in arguments and not takes_all]
+    rule = "is no number of the case, and no argument of the function"
+    raise_faults([Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown])
+    counted = is_whole(workers) and workers >= 1
+    raise_faults([] if counted else [Fault.of(("workers",), workers, "must be a whole number >= 1")])
+    points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
+    rows = _in_parallel(partial(_row, function, case, options), points, workers, processes)
+    sizes = {name: len(values) for name, values in axes.items()}
+    coordinates = {
+        name: (
+            name,
+            np.array([float(value) if isinstance(value, int) else value for value in values]),
+            _described(name),
+        )
+        for name, values in axes.items()
+    }
+    variables, fixed = _stacked(rows, sizes)
+    return xr.Dataset(
+        variables, fixed | coordinates, {"function": function.__name__, "parameters": case.canonical_json}
+    )
+
+
+def _described(name: str) -> dict[str, Any]:
+    return describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
+
+
+def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
+    """The results of the calls, in order; the progress of long ones is shown."""
+    with counting(len(arguments)) as tell:
+        if workers == 1:
+            return [tell(call(argument)) for argument in arguments]
+        pool: Executor = ProcessPoolExecutor(workers) if processes else ThreadPoolExecutor(workers)
+        with pool:
+            return [tell(result) for result in pool.map(call, arguments)]
+
+
+def _row(
+    function: Callable[..., Any], case: Parameters, options: dict[str, Any], point: dict[str, Any]
+) -> dict[str, xr.Variable]:
+    """The variables of one call."""
+    try:
+        result = function(case.replace(**point), **options)
+    except NUMERICAL as error:
+        return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
+    variables = _variables(result)
+    status = getattr(result, "status", "ok")
+    return {
+        "status": xr.Variable((), str(status)),
+        "message": xr.Variable((), getattr(result, "message", "")),
+    } | variables
+
+
+@cache
+def _known() -> dict[str, Variable]:
+    """Units and names of the variables of all quantities and of simulations."""
+    quantities = [quantity_of(name).COLUMNS for name in sorted(quantity_names(), key="floquet".__eq__)]
+    return {name: column for columns in (*quantities, SCALARS) for name, column in columns.items()}
+
+
+def _variables(result: Any) -> dict[str, xr.Variable]:
+    """Numbers, words and one-dimensional arrays of a result."""
+    if isinstance(result, xr.Dataset):
+        message = {"message": xr.Variable((), result.attrs["message"])} if "message" in result.attrs else {}
+        return {str(name): variable for name, variable in result.variables.items()} | message
+    if isinstance(result, Result):
+        values: Mapping[str, Any] = result.scalars()
+    elif is_dataclass(result):
+        values = {field.name: getattr(result, field.name) for field in fields(result)}
+        values |= {"stable": result.stable} if hasattr(result, "stable") else {}
+    else:
+        values = result if isinstance(result, Mapping) else {"value": result}
+    variables = {}
+    for name, value in values.items():
+        array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
+        if array.ndim <= 1 and array.dtype.kind in "biufcU":
+            column = _known().get(name)
+            attrs = {"units": column.units, "long_name": column.long_name} if column and not column.flags else {}
+            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attrs)
+    return variables
+
+
+def _stacked(
+    rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
+) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
+    """Variables along the dimensions of a sweep, and the function's own coordinates; nan or "" where one is missing."""
+    first = {name: variable for row in reversed(rows) for name, variable in row.items()}
+    fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
+    stacked = {}
+    for name, variable in first.items():
+        if name in fixed:
+            continue
+        present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
+        shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
+        kinds = {values.dtype.kind for _, values in present}
+        whole = len(present) == len(rows) and all(values.shape == tuple(shape) for _, values in present)
+        if kinds <= {"U"}:
+            array: Any = np.full((len(rows), *shape), "", dtype=object)
+        elif kinds <= {"b"} and whole:
+            array = np.zeros((len(rows), *shape), dtype=bool)
+        else:
+            array = np.full((len(rows), *shape), math.nan, dtype=complex if "c" in kinds else float)
+        for i, values in present:
+            array[(i, *map(slice, values.shape))] = values
+        array = array.astype(str) if array.dtype == object else array
+        stacked[name] = xr.Variable((*sizes, *variable.dims), array.reshape(*sizes.values(), *shape), variable.attrs)
+    return stacked, fixed
+
+
+# ----------------------------------------------------------------------------------------------------
+# Studies
+
+
+def run_study(
+    source: str | Path | Mapping[str, Any], *, workers: int = 1, processes: bool = False
+) -> xr.Dataset | xr.DataTree:
+    """Compute a study in this process, without files, and return what the workflow would merge.
+
+    Parameters
+    ----------
+    source : path of a study file, or the mapping that such a file holds
+    workers, processes : as in `sweep`, for its batches
+
+    Returns
+    -------
+    xarray.Dataset
+        The quantity over the grid, with the `status` and `message` of each point. A study of named cases gives a
+        DataTree of them, one of several grids a DataTree of their datasets.
+
+    Raises
+    ------
+    disc_model.studies.study.StudyError
+        If the study has faults; it lists all of them.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> axes = {"mu_s": [0.35, 0.4], "mu_k": [0.2]}
+    >>> study = {"study": "growth", "quantity": "floquet", "base": {"N": 385, "Omega": 12}, "axes": axes}
+    >>> dm.run_study(study)["growth_rate"].sizes
+    Frozen({'mu_s': 2, 'mu_k': 1})
+    """
+    folder = Path() if isinstance(source, Mapping) else Path(source).parent
+    study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
+    grids, names = study.grids([folder])
+    datasets: dict[str, Any] = {}
+    for name in names:
+        grid = grids[name]
+        texts = [text for _, text in sorted(grid.batches.items())]
+        batches = _in_parallel(run_batch, texts, workers, processes)
+        datasets[name] = merge_batches(batches, grid.grid, grid.attrs)
+    if study.specs:
+        run = partial(run_case, choose=choose_when_run)
+        cases = _in_parallel(run, [*study.specs.values()], workers, processes)
+        datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
+    if len(datasets) == 1:
+        (only,) = datasets.values()
+        return only
+    return xr.DataTree.from_dict(datasets)

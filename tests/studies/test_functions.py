@@ -1,0 +1,72 @@
+"""Quantities of a case, sweeps and studies as functions: the same numbers as those of the workflow's batches."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import disc_model as dm
+from disc_model.data.variables import flag_names
+from disc_model.studies.functions import run_study, sweep
+
+P = dm.Parameters(N=385, Omega=14)
+SCAN = {"start": 14, "stop": 15, "step": 1}
+SAME = [
+    ("outcome", dm.outcome, {"horizon": 20}, {"horizon": 20}),
+    (
+        "critical_speed",
+        dm.critical_speed,
+        {"scan": (14, 15), "horizon": [20, 30]},
+        {"scan": SCAN, "horizons": [20, 30]},
+    ),
+    ("basins", dm.basins, {"horizon": 20, "energies": [0.1]}, {"horizon": 20, "energies": [0.1]}),
+    ("hysteresis", dm.hysteresis, {"scan": (14, 15), "dwell": 10}, {"scan": SCAN, "dwell": 10}),
+]
+
+
+def the_study(quantity: str, options: dict[str, Any]) -> dict[str, Any]:
+    base = {"N": 385} if "scan" in options else {"N": 385, "Omega": 14}
+    return {"study": "s", "quantity": quantity, "base": base, "options": options, "axes": {"c": [0]}}
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("name", "function", "arguments", "options"), SAME, ids=[name for name, *_ in SAME])
+def test_a_function_gives_what_a_study_does(name: str, function: Any, arguments: Any, options: Any) -> None:
+    of_study = run_study(the_study(name, options)).isel(c=0)
+    of_function = function(P, **arguments)
+    assert set(of_function) == set(of_study) - {"message"}
+    for variable, values in of_function.items():
+        stored = of_study[variable]
+        stored = flag_names(stored) if "flag_meanings" in stored.attrs else stored.values
+        np.testing.assert_array_equal(values.values, stored, err_msg=variable)
+
+
+def test_a_sweep_has_a_status_for_each_point_and_the_same_numbers_with_any_workers() -> None:
+    axes = {"Omega": [10.0, 14.0], "mu_k_over_mu_s": [0.6, 1.2]}
+    swept = sweep(dm.floquet, P, **axes)
+    assert swept["status"].values.tolist() == [["ok", "failed"]] * 2
+    assert "mu_k=0.48: must be <= mu_s=0.4" in swept["message"].values[0, 1]
+    assert np.isnan(swept["growth_rate"].values[:, 1]).all()
+    for i, Omega in enumerate(axes["Omega"]):
+        cycle = dm.floquet(P.replace(Omega=Omega, mu_k_over_mu_s=0.6))
+        assert swept["growth_rate"].values[i, 0] == cycle.growth_rate
+        np.testing.assert_array_equal(swept["multipliers"].values[i, 0], cycle.multipliers)
+    xr.testing.assert_identical(sweep(dm.floquet, P, workers=2, **axes), swept)
+    xr.testing.assert_identical(sweep(dm.floquet, P, workers=2, processes=True, **axes), swept)
+
+
+def test_a_sweep_takes_any_function_and_passes_its_arguments() -> None:
+    swept = sweep(lambda case, factor: {"load": factor * case.N, "word": "x"}, P, N=[1, 2], factor=3)
+    assert swept["load"].values.tolist() == [3, 6]
+    assert swept["word"].values.tolist() == ["x", "x"]
+    assert sweep(dm.simulate, P, t_end=0.1, N=[200])["n_separations"].values.tolist() == [0]
+    with pytest.raises(dm.ParameterError, match=r"Omga=.*: is no number of the case.*did you mean Omega"):
+        sweep(dm.floquet, P, Omga=[1])
+
+
+def test_a_study_of_cases_is_a_tree() -> None:
+    case = {"title": "one", "parameters": {"N": 385, "Omega": 14}, "t_end": 0.1}
+    tree = run_study({"study": "s", "cases": {"A": case}})
+    assert json.loads(tree["A"].attrs["parameters"])["N"] == 385
