@@ -30,6 +30,7 @@ WHAT = {
     "engine": "equations, series, roots, events: numbers and arrays only",
     "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
+    "display": "objects as tables and pictures in notebooks",
     "sources": "files on which a result depends",
 }
 """A few words for each part of a layer."""
