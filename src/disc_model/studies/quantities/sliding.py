@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -23,7 +23,7 @@ class Sliding(Quantity):
     modes : room for that many, numbered by frequency at the first value
     """
 
-    parameter: Free | Literal["mu_k"] = "Omega"
+    parameter: Free = "Omega"
     scan: Annotated[Range, Unit(of="parameter")]
     modes: Annotated[Count, Field(ge=1, le=2000)] = 24
 
