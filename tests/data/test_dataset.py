@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Disc, ParameterError, Parameters, Poincare, Result, Window, simulate
+from disc_model import Disc, Parameters, Poincare, Result, Window, simulate
 from disc_model.data.dataset import UnreadableFile, WriteError, load, load_inputs, save
 from disc_model.data.variables import STATUSES, flag_names
 from disc_model.simulation.api import run_case
@@ -161,17 +161,6 @@ def test_a_changed_bit_in_an_array_is_not_read(path: Path) -> None:
     path.write_bytes(content)
     with pytest.raises(UnreadableFile, match=r"case\.nc: cannot be read"):
         load(path)
-
-
-def test_a_device_is_never_replaced(tmp_path: Path) -> None:
-    """The administrator's `save("/dev/null")` made a file of the device."""
-    pipe, link = tmp_path / "pipe", tmp_path / "link"
-    os.mkfifo(pipe)
-    link.symlink_to(pipe)
-    for path in (pipe, link):
-        with pytest.raises(ParameterError, match="must be the name of a regular file"):
-            save(TREE, path)
-    assert pipe.is_fifo()
 
 
 def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:

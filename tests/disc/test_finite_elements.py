@@ -88,24 +88,6 @@ def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> No
     assert phrase in str(error.value)
 
 
-@pytest.mark.parametrize(
-    ("rectangles", "size", "phrase"),
-    [
-        ([(0.1, 0.06, 0, 1)], 0.01, "rectangles.0"),
-        (
-            [(60, 120, 0, 10)],
-            0.01,
-            "size=0.01: must give at most 100,000 elements, not 6e+06: size and rectangles are in m",
-        ),
-        (RING, 0, "size=0: must be > 0"),
-    ],
-)
-def test_what_is_no_section_is_said(rectangles: list[tuple[float, ...]], size: object, phrase: str) -> None:
-    with pytest.raises(dm.ParameterError) as error:
-        section(rectangles, size)  # type: ignore[arg-type]
-    assert phrase in str(error.value)
-
-
 def test_units_by_a_thousand_or_more_off_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """E in GPa was searched for thousands of modes without an end."""
     monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process

@@ -1,7 +1,5 @@
 """The files of compiled kernels: found again, and never trusted when damaged."""
 
-import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -9,13 +7,11 @@ from pathlib import Path
 import numba
 import pytest
 
-import disc_model.engine
 from disc_model import Parameters, floquet, simulate
 from disc_model.engine import event_loop
 from disc_model.engine.jit import cache
 from tests.processes import python, run
 
-ENGINE = Path(disc_model.engine.__file__).parent
 KERNEL = """
 import numba
 from disc_model.engine.jit import kernel
@@ -85,25 +81,6 @@ def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Pat
     assert done.stderr.count("compiled kernels cannot be kept there") == 1
 
 
-@pytest.mark.parametrize(
-    ("change", "same"),
-    [
-        (lambda text: "# a comment\n" + text, True),
-        (lambda text: text.replace('"""', '"""Further. ', 1), True),
-        (lambda text: text.replace("TYPICAL_STEP = 3.0", "TYPICAL_STEP = 3.5"), False),
-        (lambda text: text.replace("error * longest**order <= tolerance", "error * longest**order < tolerance"), False),
-    ],
-    ids=["comment", "docstring", "constant", "operator"],
-)
-def test_only_a_change_of_code_changes_the_folder(change, same, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
-    shutil.copytree(ENGINE, tmp_path / "engine", ignore=shutil.ignore_patterns("__pycache__"))
-    changed = tmp_path / "engine" / "stepping.py"
-    text = changed.read_text()
-    assert change(text) != text
-    changed.write_text(change(text))
-    assert (cache.source_hash(tmp_path / "engine") == cache.source_hash()) == same
-
-
 # ---------------------------------------------------------------- a numba without the parts that this needs
 LACKS = {
     "cache": "import numba.core.dispatcher as d; d.NullCache.load_overload = property()\n",
@@ -119,39 +96,6 @@ def test_without_a_part_of_numba_kernels_work_and_it_is_said_once(part: str, tmp
 
 
 # ---------------------------------------------------------------- two processes that need the same kernel at once
-START_TOGETHER = """
-import time
-from pathlib import Path
-import disc_model.engine.jit
-from numba.core.compiler import CompilerBase
-compile_extra = CompilerBase.compile_extra
-CompilerBase.compile_extra = lambda *of: time.sleep(1.0) or compile_extra(*of)  # so that neither is done too early
-Path(__file__).with_name(f"ready{NUMBER}").touch()
-while len([*Path(__file__).parent.glob("ready*")]) < 2:
-    time.sleep(0.001)
-"""
-WITHOUT_LOCKS = """
-import fcntl
-def flock(*_):
-    raise OSError("No locks available")
-fcntl.flock = flock
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="files are not locked there")
-@pytest.mark.parametrize("before", ["", LACKS["merging"], WITHOUT_LOCKS], ids=["locked", "plain numba", "no locks"])
-def test_of_two_processes_one_compiles_and_the_other_waits(before: str, tmp_path: Path) -> None:
-    processes = []
-    (tmp_path / "module.py").write_text(KERNEL)
-    for i in range(2):
-        script = tmp_path / f"script{i}.py"
-        # both under one name, as numba's own cache has it
-        script.write_text(f"{before}NUMBER = {i}{START_TOGETHER}import module")
-        environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-        processes.append(subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, env=environment, text=True))
-    printed = sorted(process.communicate(timeout=300)[0].strip() for process in processes)
-    # without locks either may still find the other's file
-    assert printed == ["42 0", "42 1"] or (before == WITHOUT_LOCKS and printed == ["42 0"] * 2)
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")

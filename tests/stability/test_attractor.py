@@ -170,24 +170,6 @@ def test_what_is_judged_early_comes_true() -> None:
 
 
 @pytest.mark.compiled
-@pytest.mark.slow
-@pytest.mark.parametrize("Omega", [9.0, 10.0, 11.0, 13.0, 15.0])
-def test_what_is_judged_early_comes_true_after_a_long_time(Omega: float) -> None:
-    """What is undecided in one of the two says nothing.
-
-    At 11 rad/s disturbances die out or grow by 0.0004/s, and at 9 rad/s one motion of 24 keeps its range for 40 s and
-    continues to another vibration: of the small vibrations there contact is told, not the range.
-    """
-    found = compared(Parameters(N=385, Omega=Omega), range(8), 200.0, 800.0)
-    decided = [pair for pair in found if Outcome.UNDECIDED not in (pair[0].outcome, pair[1].outcome)]
-    assert len(decided) > len(found) / 2
-    if Omega in (9, 11):
-        assert all(early.separates == late.separates for early, late in decided)
-    else:
-        assert all(same(*pair) for pair in decided)
-
-
-@pytest.mark.compiled
 def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     """The separating motion at 14 rad/s separates once between two releases of stick, again and again."""
     quiet, separating = Basins(P14, 100.0).known

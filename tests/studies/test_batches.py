@@ -55,23 +55,6 @@ def test_changes_change_only_the_batches_they_touch() -> None:
     assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
 
 
-def growth(**axes: Any) -> dict[str, Any]:
-    """A growth map of a study that says nothing of batches."""
-    return {"study": "map", "quantity": "floquet", "axes": axes}
-
-
-def span_of(count: int) -> dict[str, float]:
-    return {"start": 10, "stop": 50, "count": count}
-
-
-def test_batches_hold_whole_values_and_about_the_same_work() -> None:
-    """Each value of all axes but the last had batches of its own: a map of 41 x 41 points made 41 or even 1681 jobs."""
-    grid = parse_grid(growth(N=span_of(9), Omega=span_of(41), k=span_of(41)))
-    room = grid.options.batch_size
-    assert [len(batch) for batch in points(grid)] == [4 * 41 * 41, 4 * 41 * 41, 41 * 41]
-    assert 4 * 41 * 41 <= room < 5 * 41 * 41
-
-
 @pytest.mark.parametrize(
     ("given", "counts"),
     [
