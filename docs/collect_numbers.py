@@ -25,6 +25,7 @@ from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import script
+from disc_model.paper.measures import CaseView
 
 ROOT = Path(__file__).parents[1]
 STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encoding="utf-8"))
@@ -179,19 +180,23 @@ class Sources:
         return float(self.case(name)["first_separation"])
 
     def verdicts(self, verdict: str) -> int:
-        """Number of the paper's statements with a verdict."""
+        """Number of the paper's statements with a verdict, without errors in print."""
         ledger = _ledger(self.results)
-        return int(((ledger["apart"] == "") & (ledger["verdict"] == verdict)).sum())
+        return int(((ledger["counts"] != "error in print") & (ledger["verdict"] == verdict)).sum())
 
-    def claims(self, apart: bool) -> int:
-        """Number of the paper's statements, or of rows of the ledger that are left out of this number."""
-        from disc_model.paper.ledger import CLAIMS
+    def claims(self, print_error: bool) -> int:
+        """Number of the paper's statements in the ledger, or of errors in print."""
+        from disc_model.paper.ledger import ROWS
 
-        return sum(bool(claim.apart) == apart for claim in CLAIMS)
+        return sum(row.print_error == print_error for row in ROWS)
+
+    def late_force(self, name: str) -> tuple[float, float]:
+        """Range of the contact force over the last 20 s of a case, N."""
+        return CaseView(name, self.case(name)).late
 
     def evidence(self, claim: str, unit: str = "") -> list[float]:
         """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
-        text = _ledger(self.results).set_index("id")["ours"][claim]
+        text = _ledger(self.results).set_index("id")["here"][claim]
         return [_numbers(number)[0] for number in re.findall(rf"{NUMBER}(?= {unit})", text)] if unit else _numbers(text)
 
     # ---- grid studies
@@ -324,13 +329,8 @@ class Sources:
         return [share for share in shares if share > 0.1]
 
     def models(self, conclusion: str, verdict: str) -> int:
-        """Number of models under which a conclusion has a verdict, or that verdict with a remark."""
-        return sum(
-            cell.strip().startswith(verdict) for cell in _row("model_sensitivity", "## At a glance", conclusion)[3:]
-        )
-
-    def verdict(self, conclusion: str, model: int) -> str:
-        return _row("model_sensitivity", "## At a glance", conclusion)[3 + model].strip()
+        """Number of models under which a conclusion has a verdict."""
+        return sum(cell.strip() == verdict for cell in _row("model_sensitivity", "## At a glance", conclusion)[3:])
 
     def ranges(self, model: str) -> np.ndarray:
         """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2)."""
@@ -338,9 +338,9 @@ class Sources:
         return np.array(re.findall(r"([\d.]+) against ([\d.]+) mm", cell), dtype=float)
 
     def energy(self) -> np.ndarray:
-        """Evidence on energy by case, mJ per cycle in columns 3 to 6: supplied with separation, without it, taken by
+        """Evidence on energy by case, mJ per cycle in columns 2 to 5: supplied with separation, without it, taken by
         damping, by impacts."""
-        return np.reshape(self.evidence("F10e"), (3, 9))
+        return np.reshape(self.evidence("F10e")[:18], (3, 6))
 
     def ratios(self) -> np.ndarray:
         """How many times smaller they are with separation, under all models."""

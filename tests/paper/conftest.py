@@ -16,7 +16,7 @@ def told() -> xr.DataTree:
 @pytest.fixture
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """Growth rates, energies and repeated simulations that fit it, without a search for cycles and a simulation."""
-    again = made_up.case("F13", made_up.AS_TOLD["F13"])
-    monkeypatch.setattr("disc_model.paper.model.simulate_again", lambda p, until: again)
+    monkeypatch.setattr(measures, "separates_within", lambda p, until: p.Omega > 15.05)
     monkeypatch.setattr(energy, "course", made_up.course_as_told)
+    monkeypatch.setattr(energy, "of_windows", made_up.windows_as_told)
     monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)

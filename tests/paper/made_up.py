@@ -105,19 +105,14 @@ def erratic(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
     return waves(t, *((f, 1.0) for f in (90.7, 131.9, 210.3, 333.1, 401.9))) + 0.03 * sum(weak)
 
 
-def driven(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
-    """As `coupled`, with as much power in the drive's own line as in the rest."""
-    return coupled(p, rate, t) + waves(t, (drive(p), 2.0))
+def clears(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
+    """Fuzz until contact is lost at 300 N, 20 rad/s."""
+    return combinations(p, rate, t) + np.where(t < 149.45, fuzz(t, 0.02), 0.0)
 
 
-def one_more(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
-    """One further frequency, 126.1 Hz, with its sums and differences with the stick-slip rate and the drive's."""
-    return waves(t, *((126.1 + n * rate + m * drive(p), 1.0) for n in (-1, 0, 1) for m in (-1, 1)))
-
-
-def split(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
-    """One further frequency, and a line 0.15 Hz beside one of its sums with the drive's."""
-    return waves(t, (rate, 0.3), (126.1, 1.0), (126.1 + drive(p) + 0.15, 0.5))
+def sweeping(p: Parameters, rate: float, t: np.ndarray) -> np.ndarray:
+    """A line that moves by 1 Hz in 5 s."""
+    return np.cos(2 * np.pi * (120 * t + 0.1 * t**2))
 
 
 def cycle_as_told(p: Parameters) -> Any:
@@ -150,6 +145,11 @@ def course_as_told(p: Parameters, until: float) -> tuple[Powers, ...]:
 def course_to_the_contrary(p: Parameters, until: float) -> tuple[Powers, ...]:
     """Impacts take the surplus."""
     return _course(p, 2.0)
+
+
+def windows_as_told(case: CaseView, prefix: str) -> Powers:
+    """Of motions that are no motions of a disc."""
+    return Powers(1e-3, 4.0, -3.0, 1.0, 0.0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -335,7 +335,7 @@ def case(name: str, story: Story) -> xr.DataTree:
 
 
 def made_up(stories: Mapping[str, Story]) -> xr.DataTree:
-    """The study's merged cases, as far as claims look at them."""
+    """The study's merged cases, as far as rows look at them."""
     return xr.DataTree.from_dict({f"/{name}": case(name, story) for name, story in stories.items()})
 
 
@@ -371,6 +371,7 @@ def scans(windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapp
     """
     texts = TEXTS["scans"]
     found = {name: grid(**texts.get(name, {}) | changes.get(name, {})) for name in texts | changes}
+    found = {name: study.assign_attrs(study=name) for name, study in found.items()}
     speeds, preloads = np.array(windows)[:, None], [50.0, 200.0, 385.0, 500.0, 510.0]
     axes = {"normalization": ["as_published"], "N": preloads[: len(windows)], "horizon": [1000.0]}
     found["critical_speed"] = grid(

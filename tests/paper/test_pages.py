@@ -10,9 +10,9 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.data.texts import write_page
-from disc_model.paper.ledger import COLUMNS, verdict_counts
+from disc_model.paper.ledger import COLUMNS, ROWS, summary
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FAILS, HOLDS, NOT_COMPUTED, REMARK
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2
 
 F_S, DRIVE = 67.63, 15.1 / (2 * np.pi)
@@ -44,21 +44,30 @@ def test_table_1_is_what_is_computed_with() -> None:
     assert set(table.index) == set(TABLE_1)
 
 
-def test_the_ledger_counts_and_escapes(tmp_path: Path) -> None:
-    verdicts = (HOLDS, HOLDS, REMARK, FAILS, f"{NOT_COMPUTED}: no case")
+def test_the_ledger_counts_links_and_escapes(tmp_path: Path) -> None:
+    verdicts = dict(zip(("F13", "F15b", "C3s", "eq17"), (TRUE, TRUE, PART, NOT_COMPUTED), strict=True))
+    here = "1 <2> 3 4 5 6 7"
     rows = [
-        {name: f"{name} <{i}>" for name in COLUMNS} | {"verdict": v, "apart": "", "robust": "stable"}
-        for i, v in enumerate(verdicts)
+        {name: f"{name} <b>" for name in COLUMNS}
+        | {"id": row.id, "verdict": verdicts.get(row.id, FALSE), "here": here, "section": row.place[:7], "counts": ""}
+        | {"figures": {"Fig. 1": "figures/fig01.png"}, "data": {}}
+        for row in ROWS
     ]
-    table = pd.DataFrame([*rows, rows[0] | {"apart": "a misprint"}])
-    counts = verdict_counts(table)
-    assert counts.startswith(f"{HOLDS}: 2, ")
-    assert counts.endswith("; not counted, for they repeat others or are misprints: 1")
-    write_page(tmp_path / "x.html", "T", ("", counts, table), template="paper/ledger")
+    table = pd.DataFrame([*rows[:-1], rows[-1] | {"counts": "error in print"}])
+    found = summary(table)
+    assert found["counts"] == {TRUE: 2, PART: 1, FALSE: len(ROWS) - 5, "ambiguous in the paper": 0, NOT_COMPUTED: 1}
+    assert found["errors"] == 1
+    assert [item["id"] for item in found["falls"]] == ["P07", "T2c", "F10e", "F05"], "eq17 is not computed"
+    assert found["stands"][0]["text"].endswith("separation at 1 s, where the paper has 2 s.")
+    for file in ("x.html", "x.md"):
+        write_page(tmp_path / file, "T", ("", found, table), template="paper/ledger")
     text = (tmp_path / "x.html").read_text()
-    assert (text.count("stable"), text.count("<tr>"), text.count('"verdict good"')) == (6, 7, 3)
-    assert "&lt;3&gt;" in text
-    assert not re.search(r"<\d|(src|href)=", text), "escaped and self-contained"
+    assert text.count('class="row"') == text.count('href="figures/fig01.png"') == len(ROWS)
+    assert "&lt;b&gt;" in text
+    assert "<b>" not in text
+    assert not re.search(r"src=|https?:", text), "self-contained"
+    page = (tmp_path / "x.md").read_text()
+    assert page.count("[Fig. 1](figures/fig01.png)") == page.count("why it matters: ") == len(ROWS)
 
 
 def test_a_page_is_the_same_as_markdown_and_as_html(tmp_path: Path) -> None:

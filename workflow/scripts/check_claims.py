@@ -1,20 +1,19 @@
-"""Check the paper's claims against the merged cases and grid studies: a table as CSV, Markdown and a page."""
+"""Judge the paper's statements by the merged cases and grid studies: the ledger as CSV, as Markdown and as a page."""
 
 from pathlib import Path
 
 from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
-from disc_model.paper.ledger import check_claims, verdict_counts
+from disc_model.paper.ledger import check_claims, summary
 from disc_model.paper.measures import views
 
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
     table = check_claims(views(load_cases([*map(Path, inputs)])))
-    counts = verdict_counts(table)
-    table.to_csv(csv, index=False)
-    named = table.rename(columns=lambda name: name.replace("_", " ").replace("ours", "computed"))
-    write_page(md, "The paper's claims", ("", f"{len(table)} claims; {counts}.", named))
-    summary = f"{len(table)} statements; {counts}."
-    write_page(html, "The paper's claims, checked", ("", summary, table), template="paper/ledger")
+    table.assign(**{name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")}).to_csv(
+        csv, index=False
+    )
+    for path in (md, html):
+        write_page(path, "The paper's statements, judged", ("", summary(table), table), template="paper/ledger")

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.disc.plate import modal_damping, mode_arrays
-from disc_model.paper.measures import Absent, Array
+from disc_model.paper.measures import Absent, Array, CaseView
 from disc_model.parameters import Parameters
 
 STAGES, LENGTH, RATE = 60, 5.0, 400.0
@@ -62,6 +62,13 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     pushes, pulls, taken = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
     gained = float(energy[-1] - energy[0]) / 2 / float(time[-1] - time[0])
     return Powers(float(np.ptp(u)), pushes, pulls, taken, gained)
+
+
+def of_windows(case: CaseView, prefix: str) -> Powers:
+    """Powers in the windows of a case that are named by a prefix and a number, one for each angle."""
+    windows = [case.samples(f"{prefix}{i}") for i in range(2 * case.parameters.n_diameters + 1)]
+    theta = np.array([window.attrs["theta"] for window in windows])
+    return powers(case.parameters, case["u_0"], theta, windows)
 
 
 def _waves(angle: Array, most: int) -> Array:

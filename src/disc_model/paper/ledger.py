@@ -1,34 +1,94 @@
-"""The ledger: a check of every claim of the paper."""
+"""The ledger: every statement of the paper with a verdict, as a table and as a page with a summary on top."""
 
+import re
 from collections.abc import Mapping
+from typing import Any
 
 import pandas as pd
 
-from disc_model.paper import disc, section41, section42, section43, section44
+from disc_model.data.texts import fill
+from disc_model.paper import conclusions, section2, section41, section42, section43, section44
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import claims, judge
+from disc_model.paper.model import NOT_COMPUTED, VERDICTS, Row, judge, read_texts, rows_of
 
-CLAIMS = claims(disc, section41, section42, section43, section44)
-"""All claims, in the order of the files."""
-COLUMNS = ["id", "location", "claim", "paper_value", "ours", "tolerance", "reason"]
-COLUMNS += ["verdict", "remark", "apart", "robust"]
+MODULES = (section2, section41, section42, section43, section44, conclusions)
+ROWS = tuple(row for module in MODULES for row in rows_of(module))
+"""All rows, in the order of the paper."""
+COLUMNS = [
+    "id",
+    "section",
+    "place",
+    "quote",
+    "verdict",
+    "here",
+    "matters",
+    "notes",
+    "rule",
+    "figures",
+    "data",
+    "counts",
+]
+
+
+def section_of(place: str) -> str:
+    """Part of the paper, as the summary counts by it."""
+    part = re.sub(r"^(Sec\. 2)\.\d.*", r"\1", place.partition(",")[0])
+    return "Conclusions" if part.startswith("Conclusion") else part
 
 
 def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Check every claim: a row per claim, of `COLUMNS`.
+    """Judge all rows: a table with `COLUMNS`.
 
-    cases : the paper's cases and the grid studies of `disc_model.paper.SCANS`; claims that need missing ones are not
+    figures and data : links from the folder of the paper's results, each with its words
+    counts : "error in print" or "after the fact" if the row does not count for or against the paper
+
+    cases : the paper's cases and the grid studies of `disc_model.paper.SCANS`; rows that need missing ones are not
         computed
     """
-    table = pd.DataFrame(claim.model_dump(include={"id", "location", "claim", "reason", "apart"}) for claim in CLAIMS)
-    table["paper_value"] = [claim.fill(claim.paper) for claim in CLAIMS]
-    table["tolerance"] = [claim.fill(claim.tolerance) for claim in CLAIMS]
-    return table.merge(judge(CLAIMS, {"": cases}), on="id")[COLUMNS]
+    table = judge(ROWS, {"": cases})
+    table["section"] = [section_of(row.place) for row in ROWS]
+    links = {"figures": [_figures(row) for row in ROWS], "data": [_data(row) for row in ROWS]}
+    table = table.assign(**{name: pd.Series(each) for name, each in links.items()})
+    table["counts"] = [
+        "error in print" if row.print_error else "after the fact" if row.after_the_fact else "" for row in ROWS
+    ]
+    for column in ("place", "quote", "matters", "rule"):
+        table[column] = [getattr(row, column) for row in ROWS]
+    return table[COLUMNS]
 
 
-def verdict_counts(table: pd.DataFrame) -> str:
-    """How many claims have each verdict, and how many are not counted, in words."""
-    counted = table["apart"] == ""
-    counts = table.loc[counted, "verdict"].str.partition(":")[0].value_counts()
-    text = ", ".join(f"{verdict}: {number}" for verdict, number in counts.items())
-    return text if counted.all() else f"{text}; not counted, for they repeat others or are misprints: {sum(~counted)}"
+def _figures(row: Row) -> dict[str, str]:
+    """Links to the pictures of a row, by their names."""
+    return {f"Fig. {name[3:].lstrip('0')}" if name.startswith("fig") else name: _link(name) for name in row.figures}
+
+
+def _link(figure: str) -> str:
+    return f"figures/{figure}.png" if figure.startswith("fig") else f"../{figure}/figures/{figure}.png"
+
+
+def _data(row: Row) -> dict[str, str]:
+    """Links to the datasets of a row."""
+    return {name: f"cases/{name}.nc" for name in row.cases} | {name: f"../{name}/{name}.nc" for name in row.scans}
+
+
+def summary(table: pd.DataFrame) -> dict[str, Any]:
+    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers."""
+    texts = read_texts("ledger.yaml")
+    counted = table[table["counts"] != "error in print"]
+    parts = pd.crosstab(counted["section"], counted["verdict"]).reindex(
+        index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0
+    )
+    here = table.set_index("id")["here"]
+    known = {row.id: numbers(here[row.id]) for row in ROWS}
+    computed = table.set_index("id")["verdict"] != NOT_COMPUTED
+    for name in ("headline", "stands", "falls"):
+        items = [(row, text) for row, text in texts[name].items() if computed[row]]
+        texts[name] = [{"id": row, "text": fill(text, n=known[row])} for row, text in items]
+    links = {name: _link(name) for name in texts["pictures"]}
+    counts = {"counts": parts.sum().to_dict(), "parts": parts, "errors": len(table) - len(counted)}
+    return {**texts, **counts, "links": links}
+
+
+def numbers(text: str) -> list[str]:
+    """The numbers in a text, in its order."""
+    return re.findall(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?", text)

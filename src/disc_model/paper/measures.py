@@ -1,9 +1,9 @@
-"""Measured numbers for the claims, from events and samples, and their texts."""
+"""Numbers that the rows of the ledger measure, from events and samples, and their words."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import CLOSES, FEWEST, Motion, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, Motion, motion_of
 from disc_model.analysis.settling import Settled, Settling, settling
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome, stated_in
+from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, stated_in, values_text
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -33,18 +33,16 @@ STEADY = 3e-4
 """1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.settling`."""
 LOW, HIGH = 20.0, 700.0
 """Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
-CHANGED = 1.001
-"""Factor by which a parameter is changed to test whether the verdict changes."""
 EARLY = (1.0, 1.0 + STRETCH)
 """The first 20 s without the first second, s."""
 
 
 class Absent(Missing):
-    """The evidence exists but lacks the feature that a claim states: the claim does not hold."""
+    """The evidence exists but lacks the feature that a row states: it is false."""
 
 
 class Range(NamedTuple):
-    """Least and greatest value; formatted as ``low..high``, or as one number."""
+    """Least and greatest value; formatted as ``low to high``, or as one number."""
 
     low: float
     high: float
@@ -54,16 +52,15 @@ class Range(NamedTuple):
         return self.high - self.low
 
     def __format__(self, spec: str) -> str:
-        return f"{self.low:{spec}}" + (f"..{self.high:{spec}}" if self.high != self.low else "")
+        return f"{self.low:{spec}}" + (f" to {self.high:{spec}}" if self.high != self.low else "")
 
 
 @dataclass(frozen=True)
 class CaseView:
-    """View of one case; ``larger``: a parameter that is taken to be larger by the factor `CHANGED`."""
+    """View of one case."""
 
     name: str
     node: xr.DataTree
-    larger: str = ""
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
@@ -75,8 +72,7 @@ class CaseView:
 
     @cached_property
     def parameters(self) -> Parameters:
-        p = Parameters.model_validate_json(self.node.attrs["parameters"])
-        return p.replace(**{self.larger: CHANGED * getattr(p, self.larger)}) if self.larger else p
+        return Parameters.model_validate_json(self.node.attrs["parameters"])
 
     @property
     def status(self) -> str:
@@ -104,8 +100,11 @@ class CaseView:
 
     @property
     def place(self) -> str:
-        """Preload and speed of the case, in words."""
-        return place(self["N"], self["Omega"])
+        """Preload and speed of the case, and what else differs from Table 1, in words."""
+        others = {
+            name: value for name, value in self.parameters if name not in ("N", "Omega") and not isinstance(value, str)
+        }
+        return ", ".join(filter(None, [place(self["N"], self["Omega"]), values_text(others)]))
 
     @property
     def drive(self) -> float:
@@ -123,15 +122,22 @@ class CaseView:
         """Class of the in-plane motion within the stored events, in words."""
         times, motion = self.intervals(), self.late_motion()
         if not motion.period:
-            test = f"spread {motion.spread:.2g}, 0-1 test {motion.chaos:.2f}"
             rate = f"{1 / times.mean():.1f} releases/s"
-            return f"{motion}: {rate}, no period of up to {motion.longest} releases, {test}"
+            return f"{motion}: {rate}, no period of up to {motion.longest} releases, 0-1 test {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
-        releases = counted(motion.period, "release")
-        after = f"{releases} = {apart} separations" if apart else releases
-        seen = f"to {motion.closure:.0e} s, in the last {times.sum():.0f} s"
-        return f"periodic: repeats after {after} = {length:.6g} s, {seen}"
+        after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
+        return f"periodic, repeats after {after} ({length:.6g} s) to within {motion.closure:.0e} s"
+
+    def period_of(self, kind: str) -> str:
+        """Number of events of a kind after which the motion repeats, in words."""
+        motion = classify_intervals(tuple(self.intervals(kind)))
+        return counted(motion.period, kind) if motion.period else str(motion)
+
+    @property
+    def sticks(self) -> bool:
+        """Whether it spends a thousandth of the time sticking, within the stored events."""
+        return self.stick > 1e-3
 
     @property
     def early(self) -> Range:
@@ -219,21 +225,12 @@ class CaseView:
         except Missing as reason:
             raise Missing(f"case {self.name} {reason}") from None
 
-    def first_separation(self, *repeats: CaseView) -> str:
-        """Time of the first separation in words: to 0.01 s, or between round numbers if repetitions differ."""
-        times = [each["first_separation"] for each in (self, *repeats)]
-        if math.isnan(times[0]):
-            return f"no separation in {self['time_reached']:g} s"
-        spread = float(np.ptp(times))
-        if math.isnan(spread):
-            found = ", ".join(f"{time:.1f}" for time in sorted(times) if not math.isnan(time))
-            return f"first separation at {found} s, or none: that depends on the tolerance"
-        if spread < 0.005:
-            return f"first separation at {times[0]:.2f} s"
-        order = math.floor(math.log10(spread))
-        digits, unit = max(0, -order), 10.0**order
-        low, high = unit * math.floor(min(times) / unit), unit * math.ceil(max(times) / unit)
-        return f"first separation at {low:.{digits}f} to {high:.{digits}f} s: that depends on the tolerance"
+    def first_separation(self) -> str:
+        """Time of the first separation in words."""
+        time = self["first_separation"]
+        return (
+            f"no separation in {self['time_reached']:g} s" if math.isnan(time) else f"first separation at {time:.2f} s"
+        )
 
     def late_range(self, name: str) -> Range:
         """Range over the last 20 s of the run."""
@@ -283,9 +280,9 @@ class CaseView:
         spent = lasting[events["phase"].values == PHASES.index(phase)]
         return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
 
-    def late_motion(self, closes: float = CLOSES) -> Motion:
-        """Class of the in-plane motion within the stored events; closes : s, see `motion_of`."""
-        return classify_intervals(tuple(self.intervals()), closes)
+    def late_motion(self) -> Motion:
+        """Class of the in-plane motion within the stored events."""
+        return classify_intervals(tuple(self.intervals()))
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> Signal:
         """A variable between two times, from the samples of a window; raises `Missing` without any."""
@@ -293,17 +290,6 @@ class CaseView:
         if found.sizes["time"] < 100:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
         return Signal(self.name, window, start, stop, found["time"].values, found[name].values)
-
-    def sections(self, first: float, end: float) -> list[Section]:
-        """Sections before a time, and in the later half of the time from there to an end."""
-        samples = self.samples("poincare")
-        time, psi, stick = samples["time"].values, samples["psi"].values, samples["phase"].values == STICK
-        stages = time < first, (time > (first + end) / 2) & (time <= end)
-        if min(int(inside.sum()) for inside in stages) < FEWEST:
-            raise Missing(
-                f"case {self.name} has no section of {FEWEST} points before or long after its first separation"
-            )
-        return [Section(float(np.ptp(psi[inside])), float(stick[inside].mean())) for inside in stages]
 
     def late_section(self, last: int) -> Array:
         """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
@@ -380,24 +366,6 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 
-def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[bool, dict[str, Any]]:
-    """Whether the lowest speed with separation, over preload, falls and rises by ``depth`` or more; where it turns.
-
-    ``again`` are later preloads, perhaps the last, to which it falls after rising up to the preload ``top``.
-    """
-    loads, speeds = study["N"].values, study["critical_speed"].values
-    infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
-    known = np.where(np.isnan(speeds), infinite, speeds)
-    dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
-    first = min(dips, default=len(speeds))
-    later = [i for i in also_last if i > first]
-    steps = np.sign(np.diff(known))
-    turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
-    texts = [f"{loads[i]:g} N: {or_none(speeds[i], '.1f')}" for i in turns]
-    top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
-    return bool(dips.size), {"speeds": texts, "top": top, "again": [f"{loads[i]:g} N" for i in later]}
-
-
 def ratio(part: float, whole: float, what: str) -> float:
     """Ratio of two numbers; raises `Missing` if the denominator, which is `what`, is zero."""
     if not whole > 0:
@@ -406,61 +374,62 @@ def ratio(part: float, whole: float, what: str) -> float:
 
 
 @lru_cache(maxsize=256)
-def classify_intervals(intervals: tuple[float, ...], closes: float = CLOSES) -> Motion:
-    """Class of a motion by its intervals, s; computed once, though claims are judged again with other thresholds."""
-    return motion_of(np.array(intervals), closes)
+def classify_intervals(intervals: tuple[float, ...]) -> Motion:
+    """Class of a motion by its intervals, s; computed once, though several rows ask."""
+    return motion_of(np.array(intervals))
 
 
-def is_kind(kind: Outcome, motion: Motion, besides: bool = True, near: Motion | None = None) -> tuple[bool | None, str]:
-    """Whether a motion is of a kind and the further condition `besides` holds; or the reason why that is undecided.
+class Falls(NamedTuple):
+    """Whether lowest speeds fall and rise with the preload; where they turn, in words.
 
-    near : the motion with a parameter changed by 0.1 %, which must agree in being of the kind or not
+    ``again`` are later preloads to which they fall after rising up to the preload ``top``.
     """
-    kinds = [motion.kind, (near or motion).kind]
-    if besides and Outcome.UNDECIDED in kinds:
-        return None, "chaos"
-    if besides and kinds.count(kind) == 1:
-        return None, "neighbour"
-    return besides and motion.kind is kind, ""
+
+    falls: bool
+    speeds: list[str]
+    top: float
+    again: list[str]
 
 
-def another_motion(cases: Collection[CaseView]) -> list[str]:
-    """Cases that stick although another start leads to a motion with the same parameters that does not; it is told."""
-    begun = {case.parameters: case for case in cases if not case.from_rest and case.separates}
-    found = []
-    for case in cases:
-        other = begun.get(case.parameters) if case.from_rest else None
-        if other is not None and stick_disappears(case.stick, other.stick):
-            motion = classify_intervals(tuple(other.intervals("separation")))
-            how = f"it repeats after {counted(motion.period, 'separation')}" if motion.period else str(motion)
-            found.append(f"at {case.place} {how}")
-    return found
+def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
+    """How the lowest speed with separation changes with the preload, by ``depth`` (rad/s) or more."""
+    loads, speeds = study["N"].values, study["critical_speed"].values
+    infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
+    known = np.where(np.isnan(speeds), infinite, speeds)
+    dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
+    first = min(dips, default=len(speeds))
+    later = [i for i in also_last if i > first]
+    steps = np.sign(np.diff(known))
+    turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
+    top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
+    texts = [f"{loads[i]:g} N: {or_none(speeds[i], '.1f')}" for i in turns]
+    return Falls(bool(dips.size), texts, top, [f"{loads[i]:g} N" for i in later])
 
 
-def elsewhere(cases: Iterable[CaseView], basins: CaseView | None) -> list[str]:
-    """Numbers of random perturbations that lead to repeated separation, in words, at places of cases without any.
-
-    basins : the grid study of this name, if there is one
-    """
-    if basins is None:
-        return []
-    quiet = {case.parameters: case.place for case in cases if case.from_rest and not case.separates}
-    study = basins.node.to_dataset()
-    base, found, energies = stated_in(study, "base"), [], study["energy"].values
-    total = study.sizes["energy"] * study.sizes["start"]
-    points = study[["separating_fraction", "separating_fraction_low"]].to_dataframe().reset_index()
-    for point in points[points["separating_fraction_low"] > 0].to_dict("records"):
-        p = Parameters(**base | {name: value for name, value in point.items() if name in Parameters.model_fields})
-        if p in quiet:
-            count = round(total * point["separating_fraction"])
-            found.append(f"{count} of {total} with {energies.min():g} to {energies.max():g} J at {quiet[p]}")
-    return found
+def kicks_that_separate(basins: xr.Dataset, Omega: float) -> tuple[int, int]:
+    """Number of random perturbations at a speed in rad/s that lead to repeated separation, and of all."""
+    total = basins.sizes["energy"] * basins.sizes["start"]
+    return round(total * float(published(basins)["separating_fraction"].sel(Omega=Omega))), total
 
 
-def nearby(motion: Motion, other: Motion) -> list[str]:
-    """Change of a periodic motion where a spring is 0.1 % stiffer; empty if its period stays."""
-    text = f"it repeats after {counted(other.period, 'release')}" if other.period else f"it is {other}"
-    return [text] if motion.period not in (0, other.period) else []
+def width_ratio(case: CaseView, bonded: CaseView) -> float:
+    """Range of the disc in the end with separation over that without."""
+    return ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
+
+
+def published(study: xr.Dataset) -> xr.Dataset:
+    """A grid study with the modes as published."""
+    return study.sel(normalization="as_published")
+
+
+def listed(values: Iterable[Any], spec: str = "", without: str = "none") -> str:
+    """Values in a format, with commas."""
+    return ", ".join(format(value, spec) for value in values) or without
+
+
+def mm(length: float) -> str:
+    """A length in m, in mm and in words."""
+    return f"{1e3 * length:.1f} mm"
 
 
 def counted(count: int, name: str) -> str:
@@ -502,17 +471,6 @@ def loudest(found: Iterable[Line], count: int) -> list[Line]:
     return sorted(found, key=lambda line: -line.amplitude)[:count]
 
 
-class Section(NamedTuple):
-    """Width of the in-plane motion's section, rad, and fraction of its points in stick."""
-
-    width: float
-    stick: float
-
-    def changed(self, then: Section, share: float) -> list[int]:
-        """Changes of both: -1 or 1 for a fall or rise by more than a fraction of the value, else 0."""
-        return [int(np.sign(b - a)) if abs(b - a) > share * a else 0 for a, b in zip(self, then, strict=True)]
-
-
 @cache
 def _search_of(p: Parameters) -> FloquetResult:
     """The search for a cycle near the static start, made once also where there is none."""
@@ -539,14 +497,12 @@ def growth_or_nan(p: Parameters) -> float:
         return math.nan
 
 
-@lru_cache(maxsize=64)
-def simulate_again(p: Parameters, until: float) -> xr.DataTree:
-    """A case from the static start until a time in s, with its window `history`."""
-    from disc_model.simulation.api import run_case
-    from disc_model.simulation.case import CaseSpec, Window
+@cache
+def separates_within(p: Parameters, until: float) -> bool:
+    """Whether the static start separates before a time in s, in a simulation of its own."""
+    from disc_model.simulation.api import simulate
 
-    history = Window(start=0.0, stop=until, rate=2000.0, envelope=1000)
-    return run_case(CaseSpec(parameters=p, t_end=until, windows=(("history", history),)))
+    return math.isfinite(simulate(p, until, stop_at="first_separation").raise_for_status().first_separation)
 
 
 @cache

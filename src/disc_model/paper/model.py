@@ -1,20 +1,16 @@
-"""Model of a claim: a text, a check, and the cases that the check examines.
+"""A row of the ledger: a quotation of the paper, and the function that judges it from cases and grid studies.
 
-The text is data, in the YAML file of its section; see `Claim` for its keys.  It names the check, a function of the
-module beside that file, or of another section's. The check receives cases and bounds. It returns an `Answer`: a
-verdict, and the numbers for the text's sentences.
+The row is data, in a YAML file; see `Row` for its keys.  It names its check, a function of the module beside that file.
 """
 
 import json
-from collections import ChainMap
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
-import jinja2
 import numpy as np
 import pandas as pd
 import yaml
@@ -23,22 +19,13 @@ from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
 from disc_model.analysis.settling import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
-from disc_model.errors import DiscModelError
-from disc_model.paper.measures import Absent, CaseView, another_motion, elsewhere, facts, simulate_again
+from disc_model.paper.measures import Absent, CaseView
 from disc_model.parameters import Parameters
 
-HOLDS = "holds"
-REMARK = "holds with a remark"
-FAILS = "does not hold"
-UNDECIDED = "undecided"
-NOT_TESTABLE = "not testable"
-NOT_COMPUTED = "not computed"
+TRUE, PART, FALSE = "true", "true in part", "false"
+AMBIGUOUS, NOT_COMPUTED = "ambiguous in the paper", "not computed"
+VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_COMPUTED)
 FOLDER = Path(__file__).parent
-PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N", "Omega")
-
-
-class ClaimError(DiscModelError):
-    """A text with a number that its check does not return."""
 
 
 def read_texts(name: str) -> Any:
@@ -59,84 +46,59 @@ class Answer:
 
     Parameters
     ----------
-    holds : whether the claim holds; None if the evidence does not decide it
-    why : in that case, the key of the text's reason for it; empty if no evidence of this kind can decide
-    values : values for the sentences beside bounds, `facts` of grid studies (each by its name) and cases (each by its
-        name, the first as ``case``, all as rows of ``cases``); a remark is added if the value of its name is true
+    verdict : one of `VERDICTS`, or whether the statement is true
+    here : what was computed, in words
+    notes : what should be known besides; empty ones do not count
     """
 
-    def __init__(self, holds: bool | np.bool_ | None, why: str = "", /, **values: Any) -> None:
-        self.holds, self.why, self.values = holds, why, values
+    def __init__(self, verdict: bool | np.bool_ | str, here: str, *notes: str) -> None:
+        self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
+        self.here, self.notes = here, [note for note in notes if note]
+
+
+def graded(holds: Iterable[bool | np.bool_]) -> str:
+    """The verdict on a statement by what becomes of its parts."""
+    each = [bool(part) for part in holds]
+    return TRUE if all(each) else PART if any(each) else FALSE
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Result of a check in words: what was found, the verdict, remarks, and what turns the verdict.
+    """A verdict, what was computed, and what should be known besides."""
 
-    robust : changes that bring another verdict, "stable" if none does, "" if nothing can be changed
-    """
-
-    ours: str
     verdict: str
-    remark: str = ""
-    robust: str = ""
-
-
-@dataclass(frozen=True)
-class _Phrase:
-    """Rows or cases in words, said only where a sentence has them: what is not said may lack evidence."""
-
-    template: str
-    rows: Sequence[dict[str, Any] | CaseView]
-    values: dict[str, Any]
-
-    def __bool__(self) -> bool:
-        return bool(self.rows)
-
-    def __str__(self) -> str:
-        rows = (row if isinstance(row, dict) else {"case": row} for row in self.rows)
-        return "; ".join(fill(self.template, **(self.values | row)) for row in rows)
+    here: str = ""
+    notes: str = ""
 
 
 Names = Literal[True] | tuple[str, ...]
-RELATIVE = frozenset({"bounded", "factor", "part", "ratio", "share"})
-"""Dimensionless bounds, which are compared with 1."""
-SHARES = frozenset({"part", "share"})
-"""Those of them that are parts of a whole."""
 
 
-class Claim(BaseModel):
-    """A statement of the paper: what a file says of it, and the function that decides it.
-
-    Sentences have placeholders for the numbers of the claim and of its `Answer`. Any of the remarks may have
-    ``elsewhere`` and ``another``, see `elsewhere` and `another_motion` in `disc_model.paper.measures`.
-    """
+class Row(BaseModel):
+    """A statement of the paper: what a file says of it, and the function that judges it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     id: str
-    check: Callable[..., Answer]  # decides it; a file has its name
-    location: str  # the place in the paper
-    claim: str  # the statement in our own words
-    paper: str = ""  # the value that the paper gives, if it does not only show it
-    tolerance: str = ""  # what counts as agreement
-    reason: str = ""  # why that much
-    bounds: dict[str, float] = {}  # thresholds of ours, for the check and for sentences
-    given: dict[str, float | list[float]] = {}  # other numbers for them
+    place: str  # in the paper
+    quote: str = ""  # literally; or, of what it does not say,
+    statement: str = ""  # the statement in words of ours
+    check: Callable[..., Answer] | None = None  # judges it; a file has its name. None for what nothing is computed for:
+    verdict: str = ""  # then the verdict
+    here: str = ""  # and what is said for it
+    matters: str = ""  # the consequence, in one sentence
+    judged: str = ""  # the rule, with the numbers below
+    note: str = ""  # what should be known in any case
+    given: dict[str, bool | float | str | list[float]] = {}  # for the check and for the rule
     cases: dict[str, float] = {}  # for the check, of config/paper.yaml: the time in s to which each must have run
     every: bool = False  # the check is given all cases instead, whatever their names
-    separates: Names = ()  # it speaks of these after separation: without one it is not testable; all that can if true
-    steady: Names = ()  # it is about the steady states of these: one that has not come to it decides nothing
-    computed: bool = False  # judged again with each parameter of the cases changed, which must not need other runs
-    simulated: bool = False  # judged again with each changed in new simulations of the cases, up to their times
+    separates: Names = ()  # it speaks of these after separation; all that can separate if true
+    steady: Names = ()  # it is about the steady states of these
     scans: tuple[str, ...] = ()  # the grid studies that the check is given besides
-    beside: tuple[str, ...] = ()  # further ones, for remarks only: None instead of one that is missing
-    ours: str  # what was found
-    remark: str = ""  # what should be known besides
-    remarks: dict[str, str] = {}  # the same where the value of that name is true
-    undecided: dict[str, str] = {}  # by name, reasons why the evidence may decide nothing
-    parts: dict[str, str] = {}  # by name of a list of rows, how a sentence says each
-    apart: str = ""  # why the tally leaves it out: it repeats another claim, is a definition, or concerns a misprint
-    also: str = ""  # the claim that says the same, of a conclusion that is judged under several models
+    beside: tuple[str, ...] = ()  # further ones, for notes: None instead of one that is missing
+    figures: tuple[str, ...] = ()  # of the paper's study, or names of grid studies with a figure of the same name
+    print_error: bool = False  # it is an error in print, counted apart
+    after_the_fact: bool = False  # the rule was chosen when the numbers were known
+    also: str = ""  # the row of the ledger that judges the same, of a conclusion that is judged under several models
 
     @field_validator("cases")
     @classmethod
@@ -146,143 +108,61 @@ class Claim(BaseModel):
         return cases
 
     @property
-    def numbers(self) -> dict[str, Any]:
-        """Numbers that the check receives besides its evidence."""
-        return self.given | self.bounds
-
-    def fill(self, sentence: str) -> str:
-        """A sentence with the claim's numbers, such as the paper's value or the tolerance."""
-        return fill(sentence, **self.numbers)
+    def rule(self) -> str:
+        """How it is judged, in words."""
+        return fill(self.judged, **self.given)
 
     def judge(self, cases: Mapping[str, CaseView]) -> Finding:
-        """Final result: undecided if a halved or doubled bound, or a parameter that it is computed with, changes it.
-
-        That other simulations change it is a remark: the paper speaks of one, with exactly its values.
-        """
-        result = self.evaluate(cases)
-        if result.verdict.startswith(NOT_COMPUTED) or not (self.bounds or self.computed or self.simulated):
-            return result
-        turned, only = self.robustness(cases, result.verdict)
-        result = replace(result, robust=_joined(turned, only) or "stable")
-        if turned and result.verdict != UNDECIDED:
-            result = replace(result, verdict=UNDECIDED, remark=_joined(f"not robust: {turned}", result.remark))
-        if only:
-            verdict = REMARK if result.verdict == HOLDS else result.verdict
-            remark = _joined(result.remark, f"only for these very values: {only}")
-            result = replace(result, verdict=verdict, remark=remark)
-        return result
-
-    def robustness(self, cases: Mapping[str, CaseView], verdict: str) -> tuple[str, str]:
-        """Other verdicts than this, with the changes that bring them: of what is computed, and of simulations."""
-        computed = {text: other.evaluate(cases).verdict for text, other in self._with_other_bounds().items()}
-        simulated = dict[str, str]()
-        if self.computed or self.simulated:
-            simulated = {name: self.evaluate(cases, name).verdict for name in PHYSICAL}
-        if self.computed:
-            computed |= {f"{name} 0.1 % larger": other for name, other in simulated.items()}
-        only = _turns(simulated, verdict) if self.simulated else ""
-        return _turns(computed, verdict), only and f"{only} (each 0.1 % larger)"
-
-    def evaluate(self, cases: Mapping[str, CaseView], changed: str = "") -> Finding:
-        """Result of the check for these cases and grid studies; the verdict names missing evidence.
-
-        changed : a parameter that is taken to be 0.1 % larger
-        """
+        """Judge it by these cases and grid studies; evidence that is missing or does not decide is named."""
+        if self.check is None:
+            return Finding(self.verdict, self.here, self.note)
         try:
-            return self._evaluate(cases, changed)
+            return self._judge(self.check, cases)
         except Absent as absent:
-            return Finding(str(absent), FAILS)
+            return Finding(FALSE, f"{absent}.")
         except Missing as missing:
-            return Finding("", f"{NOT_COMPUTED}: {missing}")
+            return Finding(NOT_COMPUTED, f"{missing}.")
 
-    def _evaluate(self, cases: Mapping[str, CaseView], changed: str) -> Finding:
+    def _judge(self, check: Callable[..., Answer], cases: Mapping[str, CaseView]) -> Finding:
         needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
         if self.every:
             needed = {name: case for name, case in cases.items() if not case.is_grid}
-        if changed:
-            needed = {name: self._changed(case, changed) for name, case in needed.items()}
         if missing := [name for name in self.scans if name not in cases]:
             raise Missing(f"study {missing[0]} is not among those of this run")
-        if quiet := [case for case in _named(needed, self.separates) if not (case.separates or case.bonded)]:
-            text = "; ".join(f"case {case.name}: no separation in {case['time_reached']:g} s" for case in quiet)
-            return Finding(text, NOT_TESTABLE)
+        for case in _named(needed, self.separates):
+            if not (case.separates or case.bonded):
+                raise Missing(f"no separation in {case['time_reached']:g} s (case {case.name})")
+        steady = _named(needed, self.steady)
+        for case in steady:
+            if (settling := case.settling()).answer is not Settled.SETTLED:
+                raise Missing(f"case {case.name} has not settled in {case['time_reached']:g} s: {settling}")
         wanted = (*self.scans, *self.beside)
-        studies = {name: cases[name].node.to_dataset() if name in cases else None for name in wanted}
-        answer = self.check(*needed.values(), *studies.values(), **self.numbers)
-        values = self.numbers | {**needed, "cases": [*needed.values()], "case": next(iter(needed.values()), None)}
-        values |= answer.values | {name: facts(study) for name, study in studies.items() if study is not None}
-        if "elsewhere" in self.remarks:
-            values["elsewhere"] = elsewhere(needed.values(), cases.get("basins"))
-        if "another" in self.remarks:
-            values["another"] = another_motion(needed.values())
-        return _of_steady_state(self._said(answer, values), _named(needed, self.steady))
-
-    def _changed(self, case: CaseView, parameter: str) -> CaseView:
-        """The case with a parameter taken to be 0.1 % larger, or simulated with it."""
-        other = replace(case, larger=parameter)
-        if not self.simulated:
-            return other
-        return CaseView(case.name, simulate_again(other.parameters, self.cases[case.name]))
-
-    def _with_other_bounds(self) -> dict[str, Self]:
-        """The claim with each bound halved and doubled, by what is changed.
-
-        Of ratios between 0.5 and 2 the distance from 1 is halved or doubled, of parts of a whole the ratio to the rest.
-        """
-        changed = {}
-        for name, bound in self.bounds.items():
-            for factor in (0.5, 2.0):
-                other = factor * bound
-                if name in RELATIVE and 0.5 < bound < 2:
-                    other = 1 + factor * (bound - 1)
-                elif name in SHARES:
-                    other /= 1 + (factor - 1) * bound
-                changed[f"{name} = {other:.4g}"] = self.model_copy(update={"bounds": self.bounds | {name: other}})
-        return changed
-
-    def _said(self, answer: Answer, values: dict[str, Any]) -> Finding:
-        """The answer in the sentences of the text."""
-        try:
-            if answer.holds is None:
-                remarks = [self.undecided[answer.why] if answer.why else self.remark]
-                verdict = UNDECIDED if answer.why else NOT_TESTABLE
-            else:
-                remarks = [*filter(None, [self.remark]), *(text for name, text in self.remarks.items() if values[name])]
-                verdict = (REMARK if remarks else HOLDS) if answer.holds else FAILS
-            said = values | {
-                name: _Phrase(part, values[name], values) for name, part in self.parts.items() if name in values
-            }
-            return Finding(fill(self.ours, **said), verdict, "; ".join(fill(remark, **said) for remark in remarks))
-        except (KeyError, jinja2.UndefinedError) as missing:
-            raise ClaimError(f"claim {self.id}: {missing} among the values of its check: {', '.join(values)}") from None
+        studies = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
+        answer = check(*needed.values(), *studies, **self.given)
+        notes = [*answer.notes, self.note, "Settled by the test." if steady else ""]
+        return Finding(answer.verdict, answer.here, " ".join(filter(None, notes)))
 
 
-def claims(*modules: ModuleType) -> tuple[Claim, ...]:
-    """The claims of these modules, in the order of the files beside them.
+def rows_of(module: ModuleType) -> tuple[Row, ...]:
+    """The rows of the file beside a module, in its order.
 
     Raises
     ------
     pydantic.ValidationError
-        With all faults of the files.
+        With all faults of the file.
     """
-    checks, common = ChainMap(*map(vars, modules)), read_texts("common.yaml")
-    texts: dict[str, dict[str, Any]] = {}
-    for module in modules:
-        file = Path(str(module.__file__)).with_suffix(".yaml")
-        for name, raw in read_texts(str(file)).items():
-            check = raw.get("check")
-            texts[f"{file.name}: {name}"] = text = raw | {"id": name, "check": checks.get(check, check)}
-            for key in {"remarks", "undecided"} & raw.keys():  # names without a text have the common one
-                text[key] = {one: sentence or common.get(one) for one, sentence in raw[key].items()}
-    return tuple(TypeAdapter(dict[str, Claim]).validate_python(texts).values())
+    file, checks = Path(str(module.__file__)).with_suffix(".yaml"), vars(module)
+    texts = {f"{file.name}: {name}": {"id": name, **raw} for name, raw in read_texts(str(file)).items()}
+    for text in texts.values():
+        if "check" in text:
+            text["check"] = checks.get(text["check"], text["check"])
+    return tuple(TypeAdapter(dict[str, Row]).validate_python(texts).values())
 
 
-def judge(claims: Iterable[Claim], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
-    """Judge claims under models, each with its own cases: a row for every claim and model, see `Finding`."""
+def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
+    """Judge rows under models, each with its own cases: a row for every statement and model, see `Finding`."""
     return pd.DataFrame(
-        {"id": claim.id, "model": model, **asdict(claim.judge(cases))}
-        for model, cases in models.items()
-        for claim in claims
+        {"id": row.id, "model": model, **asdict(row.judge(cases))} for model, cases in models.items() for row in rows
     )
 
 
@@ -290,29 +170,7 @@ def judge(claims: Iterable[Claim], models: Mapping[str, Mapping[str, CaseView]])
 # Checks of the evidence
 
 
-def _joined(*texts: str) -> str:
-    return "; ".join(filter(None, texts))
-
-
-def _turns(others: Mapping[str, str], verdict: str) -> str:
-    """The verdicts that differ from a verdict, each with the changes that bring it."""
-    kind, names = verdict.replace(REMARK, HOLDS), dict[str, list[str]]()
-    for name, other in others.items():
-        if other.replace(REMARK, HOLDS) != kind:
-            names.setdefault(other, []).append(name)
-    return "; ".join(f"{other} with {', '.join(changes)}" for other, changes in names.items())
-
-
-def _of_steady_state(found: Finding, cases: Sequence[CaseView]) -> Finding:
-    """The finding, with the time at which each case became steady, if any; undecided if one did not."""
-    ends = {f"{case.name} at {case['time_reached']:g} s": case.settling() for case in cases}
-    moving = "; ".join(f"case {end}: {found}" for end, found in ends.items() if found.answer is not Settled.SETTLED)
-    if moving:
-        return Finding(found.ours, UNDECIDED, f"not yet steady: {moving}")
-    return replace(found, ours=f"{found.ours} (steady: {', '.join(ends)})") if ends else found
-
-
-def _named(cases: Mapping[str, CaseView], names: Names) -> list[CaseView]:
+def _named(cases: Mapping[str, CaseView], names: Names) -> Sequence[CaseView]:
     """The cases of these names, all if true."""
     return [cases[name] for name in (cases if names is True else names)]
 

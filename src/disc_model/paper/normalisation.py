@@ -9,10 +9,10 @@ from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section, fill
 from disc_model.data.variables import values_text
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import disc
-from disc_model.paper.ledger import CLAIMS
+from disc_model.paper import section2
+from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, rate_text
-from disc_model.paper.model import HOLDS, NOT_COMPUTED, REMARK, judge, read_texts
+from disc_model.paper.model import NOT_COMPUTED, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
 
@@ -55,12 +55,13 @@ def _once(cases: Sequence[CaseView]) -> list[str]:
 
 
 def _modes() -> pd.DataFrame:
-    models = {", as published": disc.BASE, ", Eq. (17)": disc.BASE.replace(normalization="orthonormal")}
-    modes = plate_modes(disc.BASE)
+    models = {", as published": section2.BASE, ", Eq. (17)": section2.BASE.replace(normalization="orthonormal")}
+    modes = plate_modes(section2.BASE)
     squares = {f"psi²{which} (1/kg)": plate_modes(p)["psi"].to_numpy() ** 2 for which, p in models.items()}
     before, after = squares.values()
     shifted = {
-        f"With slider{which} (rad/s)": [f"{f:.2f}" for f in disc.shifted_frequencies(p)] for which, p in models.items()
+        f"With slider{which} (rad/s)": [f"{f:.2f}" for f in section2.shifted_frequencies(p)]
+        for which, p in models.items()
     }
     return pd.DataFrame(
         {"Nodal diameters": modes["diameters"].astype(str), "Disc alone (rad/s)": modes["omega"].map("{:.2f}".format)}
@@ -86,17 +87,16 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
 
 
 def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> pd.DataFrame:
-    table = judge(CLAIMS, {"published": published, "orthonormal": orthonormal})
+    table = judge([row for row in ROWS if row.cases], {"published": published, "orthonormal": orthonormal})
     old, new = (part.set_index("id") for _, part in table.groupby("model", sort=False))
-    kinds = [part["verdict"].replace(REMARK, HOLDS) for part in (old, new)]
-    changed = (kinds[0] != kinds[1]) & ~(kinds[0] + kinds[1]).str.contains(NOT_COMPUTED)
-    statements = pd.Series({claim.id: f"{claim.id}: {claim.claim}" for claim in CLAIMS})
-    by_model = new.index.isin([claim.also for claim in CONCLUSIONS])
+    changed = (old["verdict"] != new["verdict"]) & (old["verdict"] != NOT_COMPUTED)
+    by_model = new.index.isin([row.also for row in CONCLUSIONS])
     columns = {
-        "Statement": statements,
+        "Place": pd.Series({row.id: row.place for row in ROWS}),
+        "Statement": pd.Series({row.id: f"“{row.quote}”" for row in ROWS}),
         "As published": old["verdict"],
         "With Eq. (17)": new["verdict"].mask(by_model, "see model sensitivity"),
-        "Found with Eq. (17)": new["ours"],
+        "Found with Eq. (17)": new["here"],
     }
     return pd.DataFrame(columns).loc[changed[changed].index]
 

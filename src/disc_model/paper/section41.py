@@ -1,109 +1,169 @@
-"""Claims of Section 4.1: separation occurs, and ignoring it changes the motion."""
+"""Rows on Section 4.1: separation occurs, and ignoring it changes the motion."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import closure, irregularity
-from disc_model.analysis.poincare import distinct_points
+from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import energy, measures
-from disc_model.paper.measures import Absent, CaseView, is_kind, pairs
-from disc_model.paper.model import Answer
-
-FULL = 1.1
-"""A section is full if its last points hold at most this factor more distinct points than their last half."""
+from disc_model.paper.measures import Absent, CaseView, listed, mm, pairs
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 
 
-def force_grows_to_zero(case: CaseView, *, factor: float, fewest: float) -> Answer:
+def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
     if not case.separates:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
     late, count = case.range_of("P", before - 20, before), case["n_separations"]
-    return Answer(late.width > factor * case.early.width and count >= fewest, late=late, count=count)
-
-
-def separations_repeat(case: CaseView, *, fewest: float) -> Answer:
-    window = case.samples("zoom")
-    apart = window["phase"].values == measures.SEPARATION
-    count = int(np.sum(np.diff(apart.astype(int)) == 1))
-    force = float(np.abs(window["P"].values[apart]).max(initial=0.0))
-    span = float(window["time"][-1] - window["time"][0])
-    rate = case.rate_of("separation")
-    return Answer(count >= fewest and force == 0.0, count=count, span=span, rate=rate, force=force)
-
-
-def separations_are_short(*cases: CaseView, part: float) -> Answer:
-    found = []
-    for case in cases:
-        durations, still_open = case.separation_durations()
-        longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
-        found.append({"case": case, "lasts": longest, "period": period, "share": longest / period})
-    return Answer(max(row["share"] for row in found) < part, longest=found)
-
-
-def separations_end(*cases: CaseView, factor: float) -> Answer:
-    """Whether no separation lasts much longer than the longest one that has ended."""
-    lasting, count = [], 0
-    for case in cases:
-        durations, still_open = case.separation_durations()
-        count += durations.size
-        if still_open > factor * durations.max():
-            lasting.append({"case": case, "time": still_open})
-    return Answer(not lasting, count=count, lasting=lasting)
-
-
-def releases_regularly(case: CaseView, *, within: float) -> Answer:
-    intervals = case.intervals()
-    spread = irregularity(intervals)
-    return Answer(spread <= within, interval=intervals.mean(), rate=1 / intervals.mean(), spread=spread)
-
-
-def is_quasi_periodic(case: CaseView, _: CaseView, near: CaseView, *, shown: float, closes: float) -> Answer:
-    """Whether the in-plane motion is quasi-periodic; ``near`` has the same start and a spring 0.1 % stiffer."""
-    motion, beside = (each.late_motion(closes) for each in (case, near))
-    length = case.intervals()[: motion.period].sum() if motion.period else 0.0
     return Answer(
-        *is_kind(Outcome.QUASI_PERIODIC, motion, near=beside),
-        longer=length > shown,
-        within=0 < length <= shown,
-        irregular=motion.kind is Outcome.IRREGULAR,
-        nearby=measures.nearby(motion, beside),
+        late.width > factor * case.early.width,
+        f"The contact force is {case.early:.2f} N at first, and {late:.1f} N before the first separation at "
+        f"{before:.2f} s. "
+        f"{count:.0f} separations follow until {case['time_reached']:g} s.",
     )
 
 
-def bonded_is_steady(case: CaseView, *, share: float) -> Answer:
-    return Answer(case.stick > share, modulated=not case.late_motion().period)
+def upward(*cases: CaseView, share: float) -> Answer:
+    """Whether the disc, and with it the slider, moves upward where contact is lost, in that part of the separations."""
+    rows, parts = [], []
+    for case in cases:
+        lost = case.switches("separation")
+        velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
+        if not velocity.size:
+            raise Missing(f"case {case.name} keeps no separation")
+        parts.append(float(np.mean(velocity > 0)))
+        rows.append(
+            f"{case.place}: {100 * parts[-1]:.0f} %, at {velocity.mean():+.2f} m/s and {1e3 * height.mean():+.1f} mm"
+        )
+    return Answer(min(parts) >= share, f"Upward in {'; '.join(rows)} from equilibrium.")
 
 
-def bonded_cases_stick(*cases: CaseView, share: float) -> Answer:
-    return Answer(min(case.stick for case in cases) > share)
+def separations_are_short(*cases: CaseView, share: float) -> Answer:
+    rows, parts = [], []
+    for case in cases:
+        durations, still_open = case.separation_durations()
+        longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
+        parts.append(longest / period)
+        rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
+    return Answer(
+        max(parts) < share,
+        f"The longest take {100 * min(parts):.0f} to {100 * max(parts):.0f} % of the {1e3 * period:.2f} ms between "
+        "two: "
+        f"{', '.join(rows)}.",
+    )
+
+
+def preload_closes(case: CaseView, *, share: float) -> Answer:
+    """Whether the preload is the larger part of the force that drives the slider back while it is separated."""
+    window = case.samples("zoom")
+    apart = window["phase"].values == measures.SEPARATION
+    if not apart.any():
+        raise Missing(f"no separation in the window of case {case.name}")
+    spring = case["k"] * float(np.mean(window["u"].values[apart] - case["u_0"]))
+    part = case["N"] / (case["N"] + spring)
+    return Answer(
+        TRUE if part >= share else PART if part > 0 else FALSE,
+        f"During separation the preload pushes with {case['N']:g} N, and the spring k with {spring:.0f} N on average: "
+        f"the preload is {100 * part:.0f} % of the closing force.",
+    )
+
+
+def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
+    """Whether what bounds the disc's vibration is separation: the control is the same motion without it."""
+    also, bounds = [], []
+    for _, bonded in pairs(cases):
+        late, before = bonded.last_widths("w_point", measures.STRETCH, 2)
+        also.append(late <= factor * before)
+        bounds.append(1e3 * late)
+    return Answer(
+        PART if any(also) else TRUE,
+        f"Without separation the vibration stops growing as well, in {sum(also)} of {len(also)} cases, at a range of "
+        f"{measures.extent(bounds):.1f} mm.",
+    )
+
+
+def keeps_sticking(*evidence: Any, share: float) -> Answer:
+    *cases, study = evidence
+    sticks = [case.stick for case in cases]
+    settled = flag_names(study["settled"]) == "settled"
+    shares = study["stick_fraction"].transpose(*study["settled"].dims).values
+    least = np.min(shares[settled], initial=np.inf)
+    moving = settled.size - settled.sum()
+    rows = ", ".join(f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True))
+    return Answer(
+        min(*sticks, least) > share,
+        f"The slider sticks {rows}. On a grid of {settled.size} preloads and speeds it sticks {100 * least:.2g} % of "
+        "the time "
+        f"or more at all {settled.sum()} that have settled.",
+        f"{moving} of the grid had not settled after {measures.facts(study)['max_transient']:g} s." if moving else "",
+    )
+
+
+def releases_regularly(*cases: CaseView, within: float) -> Answer:
+    intervals = [case.intervals() for case in cases]
+    rows = [
+        f"{case.place}: one release per {1e3 * each.mean():.3f} ms, spread {irregularity(each):.0e}"
+        for case, each in zip(cases, intervals, strict=True)
+    ]
+    return Answer(graded(irregularity(each) <= within for each in intervals), f"{'; '.join(rows)}.")
+
+
+def more_frequencies(*cases: CaseView, floor: float) -> Answer:
+    rows: list[str] = []
+    more: list[bool] = []
+    too: list[bool] = []
+    for free, bonded in pairs(cases):
+        counts = []
+        for case in (free, bonded):
+            late = case.samples("late")
+            counts.append(len(spectra.lines(late["time"].values, late["w_point"].values, above=1.0, floor=floor)))
+        (more if free.from_rest else too).append(counts[0] > counts[1])
+        begun = "" if free.from_rest else ", begun in a separated motion"
+        rows.append(f"{free.place}{begun}: {counts[0]} lines with separation, {counts[1]} without")
+    verdict = graded([*more, *too]) if any(more) else FALSE
+    return Answer(verdict, f"{'; '.join(rows)}.")
+
+
+def quasi_periodic(*cases: CaseView, count: float) -> Answer:
+    """Whether the first ``count`` cases are quasi-periodic. As many follow with a spring 0.1 % stiffer, then others."""
+    number = int(count)
+    shown, stiffer, begun = cases[:number], cases[number : 2 * number], cases[2 * number :]
+    motions = [case.late_motion() for case in shown]
+    if any(motion.kind is Outcome.UNDECIDED for motion in motions):
+        return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
+    rows = [f"{case.place}: {case.motion}" for case in shown]
+    near = [f"{case.place}: {case.late_motion()}" for case in stiffer]
+    other = [f"{case.place}: {case.period_of('separation')}" for case in begun if not case.sticks]
+    return Answer(
+        graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
+        f"{'; '.join(rows)}.",
+        f"The period is no property of the system. With k 0.1 % larger: {'; '.join(near)}.",
+        "Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. The period: "
+        f"{'; '.join(other)}."
+        if other
+        else "",
+    )
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
-    """Decided by the first pairs, which the paper shows; the results of the others are a remark."""
-    rows = _ranges(cases)
-    first, others = rows[: int(shown)], rows[int(shown) :]
-    exceeds = max((row["ratio"] for row in others), default=0.0) >= ratio
-    return Answer(max(row["ratio"] for row in first) < ratio, ranges=first, others=others if exceeds else [])
+    """Decided by the first ``shown`` pairs; the results of the others are told."""
+    parts = [measures.width_ratio(*pair) for pair in pairs(cases)]
+    first, others = pairs(cases)[: int(shown)], parts[int(shown) :]
+    rows = [
+        f"{case.place}: {mm(case.disc.width)} with separation, {mm(bonded.disc.width)} without"
+        for case, bonded in first
+    ]
+    return Answer(
+        max(parts[: int(shown)]) < ratio,
+        f"{'; '.join(rows)}. The ratio is {listed(parts[: int(shown)], '.2f')}.",
+        f"In the other pairs it is {listed(others, '.2f')}." if others else "",
+    )
 
 
-def excites_while_negative(free: CaseView, bonded: CaseView) -> Answer:
-    """Whether the contact force still feeds the disc where it is negative: there separation would end it."""
-    found = []
-    for case in (bonded, free):
-        windows = [case.samples(f"field{i}") for i in range(2 * case.parameters.n_diameters + 1)]
-        theta = np.array([window.attrs["theta"] for window in windows])
-        found.append(energy.powers(case.parameters, case["u_0"], theta, windows))
-    kept, held = found
-    return Answer(kept.pulls > 0, kept=kept, held=held, takes=kept.pulls <= 0)
-
-
-def excites_less(*cases: CaseView, part: float) -> Answer:
+def excites_less(*cases: CaseView, share: float) -> Answer:
     """Whether separation withholds energy that maintained contact supplies, at the amplitude that separation allows."""
     rows, withheld = [], []
     for free, bonded in pairs(cases):
@@ -111,154 +171,19 @@ def excites_less(*cases: CaseView, part: float) -> Answer:
         kept = energy.course(bonded.parameters, bonded["time_reached"])
         there, cycle = energy.at_width(kept, held.width), float(free.intervals("separation").mean())
         withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
-        mJ = {"free": held.supplied, "kept": there.supplied, "surplus": there.gained}
-        mJ |= {"damped": held.damped, "impacts": held.impacts}
-        mJ = {name: 1e3 * power * cycle for name, power in mJ.items()}
-        rows.append({"case": free, "width": held.width, "most": kept[-1].width, **mJ})
-    return Answer(min(withheld) >= part, pairs=rows, impacts=max(withheld) < part)
-
-
-def _ranges(cases: Sequence[CaseView]) -> list[dict[str, Any]]:
-    """Pairs, and the late range of the disc with separation over that without it."""
-    rows = []
-    for case, bonded in pairs(cases):
-        ratio = measures.ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
-        rows.append({"case": case, "bonded": bonded, "ratio": ratio})
-    return rows
-
-
-def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows: list[dict[str, Any]] = []
-    for pair in pairs(cases):
-        windows = [case.samples("late") for case in pair]
-        free, bonded = (
-            len(spectra.lines(w["time"].values, w["w_point"].values, above=1.0, floor=floor)) for w in windows
+        with_, without, damped, impacts = (
+            1e3 * cycle * power for power in (held.supplied, there.supplied, held.damped, held.impacts)
         )
-        rows.append({"case": pair[0], "free": free, "bonded": bonded, "more": free > bonded})
-    published, another = _by_start(rows)
-    more, too = (all(row["more"] for row in found) for found in (published, another))
-    return Answer(more, pairs=published, another=another, otherwise=more and not too)
-
-
-def _by_start(rows: Sequence[dict[str, Any]]) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Rows of cases from the static start, and of those from another one that separate."""
-    others = [row for row in rows if not row["case"].from_rest and row["case"].separates]
-    return [row for row in rows if row["case"].from_rest], others
-
-
-def more_points(*cases: CaseView, last: float, factor: float) -> Answer:
-    """Whether the section has `factor` times as many points as one without separation that is filled."""
-    found: list[dict[str, Any]] = []
-    filling, more, points = [], [], int(last)
-    for free, bonded in pairs(cases):
-        sections = [case.late_section(points) for case in (free, bonded)]
-        larger = np.maximum(*(np.ptp(section, axis=0) for section in sections))
-        ours, full = map(distinct_points, sections)
-        common, common_full = (distinct_points(section, larger) for section in sections)
-        counts = {"points": ours, "full": full, "common": common, "common_full": common_full}
-        found.append({"case": free, **counts})
-        more += [ours >= factor * full, common >= factor * common_full] if free.from_rest else []
-        if full > FULL * distinct_points(bonded.late_section(points // 2)):
-            filling.append(bonded.name)
-    published, another = _by_start(found)
-    holds = None if filling or len({*more}) > 1 else more[0]
-    why = "filling" if filling else "scale"
-    return Answer(holds, why, pairs=published, another=another, filling=[*dict.fromkeys(filling)])
-
-
-def trajectory_changes(*cases: CaseView, share: float) -> Answer:
-    """Whether the width of the section, or the fraction of its points in stick, changes with the first separation.
-
-    The control is the case without separation over the same times. A change that occurs there too decides nothing.
-    """
-    published = [case for case in cases if case.from_rest]
-    found, changes, own = [], [], []
-    for case, bonded in pairs(published):
-        first, end = case["first_separation"], min(case["time_reached"], bonded["time_reached"])
-        before, after = case.sections(first, end)
-        _, control = bonded.sections(first, end)
-        changed, ignored = before.changed(after, share), before.changed(control, share)
-        changes.append(any(changed))
-        own.append(any(a and a != b for a, b in zip(changed, ignored, strict=True)))
-        found.append({"case": case, "before": before, "after": after, "ignored": control})
-    return Answer(None if all(changes) and not all(own) else all(own), "control", changes=found)
-
-
-def very_different(*cases: CaseView, factor: float, ways: float, part: float = 0.0) -> Answer:
-    """Whether that part of the pairs, or one, differs by a factor in so many ``ways``: range of the disc, stick."""
-    rows = _ranges([case for case in cases if case.from_rest])
-    for row in rows:
-        shares = row["case"].stick, row["bonded"].stick
-        row["ways"] = (row["ratio"] * factor <= 1) + (max(shares) >= factor * min(shares))
-    count = sum(row["ways"] >= ways for row in rows)
-    return Answer(count >= max(1, part * len(rows)), pairs=rows, count=count, of=len(rows))
-
-
-def should_be_considered(*cases: CaseView) -> Answer:
-    """Undecided: computations of one system cannot decide for many."""
-    return Answer(None, ranges=_ranges(cases))
-
-
-def bonded_orbit_closes(case: CaseView, *, within: float) -> Answer:
-    """Whether the orbit returns to itself at each release."""
-    psi = case.switches("stick_to_slip")["psi"].values
-    if psi.size < 20:
-        raise Missing(f"case {case.name} keeps fewer than 20 releases")
-    apart = min(closure(psi, n) for n in range(1, 9))
-    width = float(np.ptp(case.samples("orbit")["psi"].values))
-    apart = measures.ratio(apart, width, f"the width of the orbit of case {case.name}")
-    return Answer(apart <= within, apart=apart)
-
-
-def is_intricate(case: CaseView, _: CaseView, *near: CaseView, most: float) -> Answer:
-    """Whether the in-plane motion has no short period; ``near`` as in `is_quasi_periodic`."""
-    motion = case.late_motion()
-    nearby = [row for each in near for row in measures.nearby(motion, each.late_motion())]
-    return Answer(not 0 < motion.period <= most, periodic=motion.period > 0, nearby=nearby)
-
-
-def slip_condition(*cases: CaseView) -> Answer:
-    """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
-    true, ends = 0, 0
-    for case in cases:
-        stops = case.switches("slip_to_stick")
-        pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
-        true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
-        ends += stops.sizes["event"]
-    if not ends:
-        raise Missing("no case keeps an end of slip")
-    return Answer(not true, misprint=true, ends=ends)
-
-
-def bonded_always_sticks(study: xr.Dataset, *, share: float) -> Answer:
-    """Check a grid of preloads and speeds, not only the paper's points."""
-    points = study[["stick_fraction", "settled"]].stack(point=("N", "Omega"))
-    if np.isnan(points["stick_fraction"]).any():
-        raise Missing("study bonded has points that failed")
-    still = points["settled"].copy(data=flag_names(points["settled"]) == "settled")
-    settled, moving = (points["stick_fraction"].where(there, drop=True) for there in (still, ~still))
+        rows.append(
+            f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "
+            "mJ, "
+            f"impacts take {impacts:.2f} mJ"
+        )
+    steady = energy.of_windows(pairs(cases)[0][1], "field")
     return Answer(
-        None if moving.size else float(settled.min()) > share,
-        "moving",
-        count=points.sizes["point"],
-        settled=[{"count": settled.size, "least": _least_stick(settled)}] if settled.size else [],
-        moving=moving.size,
-        least=_least_stick(moving) if moving.size else "",
+        min(withheld) >= share,
+        f"The contact force supplies as much at equal amplitude, and impacts take the surplus. {'; '.join(rows)}. "
+        "Without "
+        f"separation, at {cases[0].place}, the force supplies {steady.pushes:.2f} W while positive and takes "
+        f"{-steady.pulls:.2f} W while negative.",
     )
-
-
-def _least_stick(shares: xr.DataArray) -> str:
-    """The least fraction of stick among some points, and its place."""
-    least = shares[int(np.argmin(shares.values))]
-    return f"{100 * least.item():.2g} % of the time or more, least at {measures.place(least.N, least.Omega)}"
-
-
-def stick_on_a_line(*cases: CaseView, within: float) -> Answer:
-    worst, count = 0.0, 0
-    for case in cases:
-        samples = case.samples("poincare")
-        stuck = samples["phase"].values == measures.STICK
-        count += int(stuck.sum())
-        deviation = np.abs(samples["psi_velocity"].values[stuck] - case["Omega"])
-        worst = max(worst, float(deviation.max(initial=0.0)))
-    return Answer(worst <= within, worst=worst, count=count)

@@ -1,211 +1,135 @@
-"""Claims of Section 4.3: effects of single parameters."""
+"""Rows on Section 4.3: effects of single parameters."""
 
 import math
-from collections.abc import Sequence
-from functools import cache
 from itertools import groupby, product
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from scipy.stats import spearmanr
 
 from disc_model.analysis.classify import irregularity, separation_location, stick_disappears
 from disc_model.analysis.poincare import distinct_points
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import measures
-from disc_model.paper.disc import BASE, moving_load_speed
-from disc_model.paper.measures import STRETCH, Array, CaseView, growth_or_nan, is_kind, rate_text, sliding_growth
-from disc_model.paper.model import Answer
+from disc_model.paper.measures import (
+    STRETCH,
+    CaseView,
+    extent,
+    facts,
+    growth_or_nan,
+    listed,
+    mm,
+    published,
+    rate_text,
+)
+from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper.section2 import moving_load
+from disc_model.paper.section41 import upward
 from disc_model.parameters import Parameters
 
+__all__ = ["moving_load", "upward"]  # which the texts name as well
 STIFFENED = {
-    "E": (1e9, "GPa", (100, 150, 200)),
     "k": (1e3, "kN/m", (20, 30, 50, 60, 70, 80, 90, 100, 110, 130, 148, 200)),
     "k_p": (1e3, "kN/m", (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)),
 }
-"""Parameters of disc and springs with units and values: those of the paper, and others between them."""
-SPEEDS = (7.5, 8.75, 10, 12.6, 15, 20, 30, 50)
-"""Speeds at which twice the disc's damping is tested, rad/s."""
+"""Stiffnesses of the springs with units and values: those of the paper, and others between them."""
 GREW = 1.02
 """Least factor by which a grown range is wider: sampling causes far less."""
 
 
-def no_preload(case: CaseView, *, step: float, share: float) -> Answer:
-    onset = _sliding_onset(case.parameters, step)
-    holds = not case.separates and case.stick_in_all < share and onset > case["Omega"]
-    at_load = abs(onset - moving_load_speed(case.parameters)) <= step
-    return Answer(holds, stable_to=onset - step, true_speed=at_load)
-
-
-@cache
-def _sliding_onset(p: Parameters, step: float) -> float:
-    """The first speed, tried at a step in rad/s, at which steady sliding is unstable, or has no equilibrium."""
-    speeds = map(float, np.arange(p.Omega, 1000.0, step))
-    return next((speed for speed in speeds if not sliding_growth(p.replace(Omega=speed)) < 1e-6), math.inf)
-
-
-def huge_preload(stuck: CaseView, large: CaseView, *, share: float) -> Answer:
-    p, times = large.parameters, large.events["time"].values
-    if not times.size:
-        raise Missing(f"case {large.name} keeps no event")
-    released, needed = float(times[0]), p.r_0 * p.k_p * p.Omega / p.mu_s
-    expected = p.N / needed
-    holds = stuck["time_slip"] == 0 and abs(released / expected - 1) < share
-    return Answer(holds, released=released, expected=expected, needed=needed)
-
-
-def stable_while_it_sticks(stuck: CaseView, large: CaseView) -> Answer:
-    """Whether the case only sticks, which is damped; and whether the largest preload with releases is not stable."""
-    stable = _stays_calm(large) and large.growth_rate < 0
-    return Answer(stuck["time_slip"] == 0 and not stuck.separates, released=not stable)
-
-
-def stick_longer(*cases: CaseView) -> Answer:
-    small, large = (measures.cycle_of(case.parameters).stick_fraction for case in cases)
-    return Answer(large > small, small=small, large=large)
-
-
-def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float, wait: float) -> Answer:
-    scan = {case["Omega"]: case["first_separation"] for case in cases}
-    horizon = known["first_separation"]
-    apart = {speed: time for speed, time in scan.items() if not math.isnan(time)}
-    slower = {speed: time for speed, time in apart.items() if speed < printed - within}
-    lower = [speed for speed, time in slower.items() if time <= horizon]
-    first = min(slower.values(), default=math.inf)  # at shorter horizons no clearly lower speed separates
-    some = scan[printed] < first < math.inf
-    holds = scan[printed] <= horizon and not lower
-    return Answer(
-        None if some and not holds else holds,
-        "wait",
-        speeds=[f"{speed:g}: {measures.or_none(scan[speed], '.0f', ' s')}" for speed in sorted(scan)],
-        latest=min(apart, default=math.nan),
-        lower=[{"horizon": horizon, "least": min(lower)}] if lower else [],
-        exactly=[{"low": scan[printed], "high": first}] if some else [],
-    )
-
-
-def damping_stabilises(case: CaseView, **damper: float) -> Answer:
-    """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
-    ((name, value),) = damper.items()
-    effects = [_effect_of(case, name, little, little + value) for little in (0.0, value)]
-    growing, lowered = (sum(effect[key] for effect in effects) for key in ("growing", "lowered_growing"))
-    raised = [place for effect in effects for place in effect["places"]]
-    return Answer(growing == lowered > 0, growing=growing, lowered=lowered, raised=raised)
-
-
-def _stays_calm(case: CaseView, factor: float = GREW) -> bool:
+def stays_calm(case: CaseView) -> bool:
     """Whether contact is kept, and the contact force has no wider range at the end than at first."""
-    return not case.separates and not factor * case.early.width < case.late.width
+    return not case.separates and not GREW * case.early.width < case.late.width
 
 
-def stays_small(case: CaseView, *_: CaseView, part: float, within: float) -> Answer:
+def outcome_of(case: CaseView) -> str:
+    """Whether and when it separates, and how disturbances of its cycle grow, in words."""
+    return f"{case.first_separation()}, {case.growth}"
+
+
+def stays_small(case: CaseView, *_: CaseView, share: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
     intervals = case.intervals()
     spread = irregularity(intervals)
-    small = _stays_calm(case) and case.late.width < part * case["N"]
-    return Answer(small and spread <= within, rate=1 / intervals.mean(), spread=spread)
+    return Answer(
+        stays_calm(case) and case.late.width < share * case["N"] and spread <= within,
+        f"{outcome_of(case).capitalize()}. P within {case.late:.2f} N in the end; {1 / intervals.mean():.3f} "
+        "releases/s with a "
+        f"spread of {spread:.0e}.",
+    )
 
 
-def only_between(
-    small: CaseView, middle: CaseView, large: CaseView, largest: CaseView, *again: CaseView, factor: float
-) -> Answer:
-    """Whether only the middle preload is unstable; undecided if preloads larger than those of the paper are as well."""
-    *stable, largest_stable = [_stays_calm(case, factor) for case in (small, middle, large, largest)]
-    first = again[0].first_separation(*again[1:])
-    beyond = [{"case": again[0], "first": first}, {"case": largest, "first": largest.first_separation()}]
-    holds, decides = stable == [True, False, True], largest_stable and not again[0].separates
-    return Answer(None if holds and not decides else holds, "beyond", loads=[small, middle, large], beyond=beyond)
+def becomes_unstable(case: CaseView) -> Answer:
+    return Answer(case.separates, f"{outcome_of(case).capitalize()}.")
 
 
-def undamped_separates_lower(*cases: CaseView, wait: float) -> Answer:
-    undamped, damped, slow = cases[0], cases[1:4], cases[4:]
-    runs = [slow, [undamped], *([case] for case in damped)]
-    lowest = [
-        min((case["Omega"] for case in group if case["first_separation"] <= wait), default=math.inf)
-        for group in ((undamped, slow[0]), damped)
+def only_between(*cases: CaseView, largest: float) -> Answer:
+    """Whether preloads up to ``largest``, in N, are unstable between stable ones, and larger ones are stable."""
+    shown = [stays_calm(case) for case in cases if case["N"] <= largest]
+    # a case may have no ranges, because it stops at its first separation
+    stable = [
+        stays_calm(case) if "history" in case.node else not case.separates for case in cases if case["N"] > largest
     ]
-    found = [{"case": case, "first": case.first_separation(*again)} for case, *again in runs]
-    return Answer(lowest[0] < lowest[1], runs=found)
-
-
-def disc_damping(*cases: CaseView, factor: float) -> Answer:
-    rates = {speed: growth_or_nan(cases[1].parameters.replace(Omega=float(speed))) for speed in SPEEDS}
-    texts = [f"{speed:g}: {rate_text(rate)}" for speed, rate in rates.items()]
-    stable = [_stays_calm(case, factor) for case in cases]
-    holds = all(stable) if len({*stable}) == 1 else None
-    return Answer(holds, "speed", rates=texts)
-
-
-def inplane_damping(without: CaseView, case: CaseView, *, closes: float) -> Answer:
-    periodic = case.late_motion(closes).period > 0
-    return Answer(not without.separates and case.separates and periodic, **_effect_of(case, "c_p", 0.0, case["c_p"]))
-
-
-def disc_repeats(case: CaseView, *, within: float, factor: float) -> Answer:
-    """Whether the disc's motion repeats and, as an unstable one would, departs from itself at a growing rate."""
-    motion, released = case.late_motion(), case.switches("stick_to_slip")
-    period = max(motion.period, 1)
-    units = {"u": abs(case["u_0"]), "u_velocity": abs(case["u_0"]) * case["Omega"]}
-    scaled = np.array([released[name] / unit for name, unit in units.items()])
-    early, late = (float(part.max()) for part in np.array_split(np.abs(scaled[:, period:] - scaled[:, :-period]), 2, 1))
-    apart = max(early, late)
-    holds = motion.period > 0 and apart <= within
+    holds = shown == [True, False, True]
     return Answer(
-        None if holds and late <= factor * early else holds,
-        "attracts",
-        text=case.motion.removeprefix("periodic: "),
-        apart=apart,
-        points=distinct_points(case.late_section(150)),
+        PART if holds and not all(stable) else holds,
+        "; ".join(f"{case['N']:g} N: {outcome_of(case)}" for case in cases) + ".",
+        f"Only up to {largest:g} N, the largest preload of a figure but Fig. 15." if holds and not all(stable) else "",
     )
 
 
-def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
-    count = int(case["time_reached"] / (4 * STRETCH))
-    widths = case.last_widths("P", STRETCH, 2 * count)
-    last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
-    grown = last > factor * case.early.width
-    return Answer(not case.separates and grown and last < bounded * before, last=last, before=before, most=max(widths))
-
-
-def seems_quasi_periodic(case: CaseView, *, closes: float) -> Answer:
-    motion = case.late_motion(closes)
-    irregular = motion.kind is Outcome.IRREGULAR
-    return Answer(None, "irregular") if irregular else Answer(*is_kind(Outcome.QUASI_PERIODIC, motion))
-
-
-def normal_stiffness(*evidence: Any) -> Answer:
-    """Whether softer springs separate sooner; undecided if on the map, at other speeds, some do not at all."""
-    *cases, study = evidence
-    times = [case["first_separation"] for case in cases]
-    holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    speed, _, apart = _map(study, "Omega", "k")
-    returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
-    return Answer(None if holds and returns else holds, "speed", returns=returns)
-
-
-def stiff_enough(case: CaseView) -> Answer:
-    """Whether the stiffness of a case makes motion stable at all points of a grid; undecided if at some of them."""
-    points = _grid(case.parameters)
-    others = [p for p in points if not _growth(p) < 0]
-    calm = _stays_calm(case)
+def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
+    """Whether the printed speed is the lowest that separates in the time that the paper's own case takes."""
+    times = {case["Omega"]: case["first_separation"] for case in cases}
+    horizon = known["first_separation"]
+    lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
+    rows = "; ".join(f"{speed:g} rad/s: {measures.or_none(times[speed], '.0f', ' s')}" for speed in sorted(times))
+    apart = times[printed] <= horizon
     return Answer(
-        None if calm and 0 < len(others) < len(points) else calm and not others,
-        "some",
-        stable=len(points) - len(others),
-        points=len(points),
-        others=[
-            f"{N:g} N and {', '.join(f'{p.Omega:g}' for p in group)} rad/s"
-            for N, group in groupby(others, lambda p: p.N)
-        ],
+        PART if apart and lower else apart,
+        f"First separation: {rows}.",
+        f"Within the {horizon:.0f} s that the paper's Fig. 17 takes, {min(lower):g} rad/s separates too: the two "
+        "numbers exclude "
+        "one another."
+        if lower
+        else "",
     )
 
 
-def _growth(p: Parameters) -> float:
-    """Largest growth rate of the stick-slip cycle, or of steady sliding where there is none, 1/s."""
-    rate = growth_or_nan(p)
-    return sliding_growth(p) if math.isnan(rate) else rate
+def undamped_separates_lower(*cases: CaseView) -> Answer:
+    undamped, damped = ([case for case in cases if (case["D_star"] == 0) == free] for free in (True, False))
+    lowest = [min((case["Omega"] for case in each if case.separates), default=math.inf) for each in (undamped, damped)]
+    rows = [f"D* = {case['D_star']:g}, {case['Omega']:g} rad/s: {case.first_separation()}" for case in cases]
+    return Answer(lowest[0] < lowest[1], f"{'; '.join(rows)}.")
+
+
+def twice_the_damping(*cases: CaseView) -> Answer:
+    stable = [stays_calm(case) for case in cases]
+    rows = [f"{case['Omega']:g} rad/s: {outcome_of(case)}" for case in cases]
+    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, f"{'; '.join(rows)}.")
+
+
+def inplane_damping(without: CaseView, case: CaseView) -> Answer:
+    rows = [f"c_p = {each['c_p']:g} N s/m: {each.first_separation()}" for each in (without, case)]
+    return Answer(not without.separates and case.separates, f"{'; '.join(rows)}. Then {case.motion}.")
+
+
+def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
+    """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
+    growing = lowered = 0
+    raised: list[str] = []
+    for little in (0.0, value):
+        before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
+        grows = (before > 0) & np.isfinite(after)
+        growing, lowered = growing + int(grows.sum()), lowered + int((grows & (after < before)).sum())
+        raised += [_place(case.parameters, int(i)) for i in np.flatnonzero(after > before)]
+    return Answer(
+        growing == lowered > 0,
+        f"From {name} = 0 to {value:g}, and as much again: growth is lower at {lowered} of {growing} growing cycles.",
+        f"It is higher at {', '.join(raised)}." if raised else "",
+    )
 
 
 def _grid(p: Parameters) -> list[Parameters]:
@@ -214,246 +138,205 @@ def _grid(p: Parameters) -> list[Parameters]:
     return [p.replace(N=N, Omega=speed) for N, speed in grid]
 
 
-def soft_inplane(case: CaseView, near: CaseView, *, closes: float) -> Answer:
-    motion, beside = (each.late_motion(closes) for each in (case, near))
-    repeats, nearby = motion.period > 0, measures.nearby(motion, beside)
-    return Answer(*is_kind(Outcome.IRREGULAR, motion, case.separates, beside), repeats=repeats, nearby=nearby)
+def _growths(p: Parameters, name: str, value: float) -> measures.Array:
+    """Growth rates of the cycles on the grid with a parameter of this value, 1/s; nan without a cycle."""
+    return np.array([growth_or_nan(each.replace(**{name: value})) for each in _grid(p)])
 
 
-def inplane_stiffness(soft: CaseView, base: CaseView, stiff: CaseView) -> Answer:
+def _place(p: Parameters, i: int) -> str:
+    return measures.place(_grid(p)[i].N, _grid(p)[i].Omega)
+
+
+def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
+    """Whether growth falls with a parameter, on a map over it and the speed."""
+    growth = published(study)["growth_rate"].transpose("Omega", name)
+    ranks, falls = [], []
+    for row in growth.values:
+        known = row[np.isfinite(row)]
+        if known.size > 2:
+            ranks.append(spearmanr(np.arange(known.size), known)[0])
+            falls += [*(np.diff(known) < 0)]
+    if not ranks:
+        raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
+    rank, part = float(np.median(ranks)), float(np.mean(falls))
+    return Answer(
+        TRUE if part == 1 else PART if rank <= -trend else FALSE,
+        f"On the map at {facts(study)['N']:g} N, growth falls in {100 * part:.0f} % of the steps of {name}; the "
+        "median rank "
+        f"correlation of growth with {name} is {rank:.2f}.",
+    )
+
+
+def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
+    count = int(case["time_reached"] / (4 * STRETCH))
+    widths = case.last_widths("P", STRETCH, 2 * count)
+    last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
+    return Answer(
+        not case.separates and last > factor * case.early.width and last < bounded * before,
+        f"{outcome_of(case).capitalize()}. The range of P is {case.early.width:.1f} N at first, {before:.1f} and "
+        f"{last:.1f} N in the "
+        f"last quarters, {max(widths):.0f} N at most.",
+    )
+
+
+def is_kind(case: CaseView, *, kind: str) -> Answer:
+    motion = case.late_motion()
+    if motion.kind is Outcome.UNDECIDED:
+        return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
+    return Answer(motion.kind == kind, f"The releases are {case.motion}.")
+
+
+def softer_separates_sooner(*evidence: Any) -> Answer:
+    """Whether softer springs separate sooner; true in part if on the map, at some speeds, a softer one does not."""
+    *cases, study = evidence
+    times = [case["first_separation"] for case in cases]
+    speed, _, apart = _map(study, "Omega", "k")
+    returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
+    holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
+    stated = facts(study)
+    return Answer(
+        PART if holds and returns else holds,
+        f"At {cases[0].place}: "
+        + "; ".join(f"k = {1e-3 * case['k']:g} kN/m: {case.first_separation()}" for case in cases)
+        + ".",
+        f"On the map at {stated['N']:g} N, a spring separates within {stated['horizon']:g} s and a softer one does "
+        "not at "
+        f"{listed(returns, '.4g')} rad/s."
+        if returns
+        else "",
+    )
+
+
+def stiff_enough(case: CaseView) -> Answer:
+    """Whether the stiffness of a case makes motion stable on a grid, be it a cycle or steady sliding."""
+    points = _grid(case.parameters)
+    unstable = [p for p in points if not _growth(p) < 0]
+    calm = stays_calm(case)
+    stable = len(points) - len(unstable)
+    groups = groupby(unstable, lambda p: p.N)
+    others = [f"{N:g} N and {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
+    return Answer(
+        PART if calm and stable and unstable else calm and not unstable,
+        f"At {case.place}: {outcome_of(case)}. Stable at {stable} of {len(points)} loads and speeds.",
+        f"Not at {'; '.join(others)}." if others else "",
+    )
+
+
+def _growth(p: Parameters) -> float:
+    """Largest growth rate of the stick-slip cycle, or of steady sliding where there is none, 1/s."""
+    rate = growth_or_nan(p)
+    return measures.sliding_growth(p) if math.isnan(rate) else rate
+
+
+def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
+    """Whether points of the disc's section differ, and the slider's releases do not repeat."""
+    motion, points = case.late_motion(), distinct_points(case.late_section(int(last)))
+    return Answer(
+        graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
+        f"{case.first_separation().capitalize()}. {points} of the last {last:g} points of the disc's section differ. "
+        "The "
+        f"slider's releases are {case.motion}.",
+        f"With k 0.1 % larger they are {near.late_motion()}.",
+    )
+
+
+def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
+    rows = [f"k_p = {1e-3 * case['k_p']:g} kN/m: {outcome_of(case)}" for case in (soft, base)]
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    faster = base.growth_rate > soft.growth_rate
-    (found,) = _stiffened(base.parameters, "k_p", base.parameters.Omega)
-    changes = np.count_nonzero(np.diff(np.sign(found["growth"])))
-    return Answer(sooner and faster and _stays_calm(stiff), between=changes > 1 and changes)
+    return Answer(graded([sooner, base.growth_rate > soft.growth_rate]), f"{'; '.join(rows)}.")
 
 
-def lowest_position(case: CaseView, *, bound: float) -> Answer:
+def lowest_position(case: CaseView, *, share: float) -> Answer:
     window = case.samples("zoom")
     time, height = window["time"].values, window["u"].values - case["u_0"]
     starts = np.flatnonzero(np.diff((window["phase"].values == measures.SEPARATION).astype(int)) == 1) + 1
-    if not starts.size:
-        raise Missing("no separation in the window of case F23")
-    found = separation_location(time, height, starts, bound)
-    # by its events: samples come late, and the velocity of a light slider changes fast
     lost = case.switches("separation")
-    if not lost.sizes["event"]:
-        raise Missing("case F23 keeps no separation")
+    if not starts.size or not lost.sizes["event"]:
+        raise Missing(f"no separation in the window of case {case.name}")
+    found = separation_location(time, height, starts, share)
+    # by its events: samples come late, and the velocity of a light slider changes fast
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     return Answer(
-        found.kind == "at the lowest position" and above <= bound,
-        found=found,
-        height=where - case["u_0"],
-        speed=speed,
-        falling=speed < 0,
-        seldom=starts.size < 0.9 * swings,
-        count=starts.size,
-        swings=swings,
-        above=above,
-        lowest=height.min(),
+        found.kind == "at the lowest position" and above <= share,
+        f"Contact is lost at {1e3 * (where - case['u_0']):.1f} mm, {100 * found.height:.0f} % of the swing above its "
+        "lowest point, "
+        f"at {speed:+.2f} m/s. The lowest point of all is at {1e3 * height.min():.1f} mm.",
+        f"In {starts.size} of {swings} swings only." if starts.size < 0.9 * swings else "",
     )
 
 
-def always_upward(*cases: CaseView, share: float) -> Answer:
-    """Whether the disc, and with it the slider, moves upward where contact is lost, in that part of the separations."""
-    found: list[dict[str, Any]] = []
-    for case in cases:
-        lost = case.switches("separation")
-        velocity, height = lost["u_velocity"].values, lost["u"].values - case["u_0"]
-        if case.separates and not velocity.size:
-            raise Missing(f"case {case.name} keeps no separation")
-        if velocity.size:
-            means = {"velocity": velocity.mean(), "height": height.mean()}
-            found.append({"case": case, "upward": float(np.mean(velocity > 0)), "count": velocity.size, **means})
-    return Answer(min((row["upward"] for row in found), default=0.0) >= share, shares=found)
-
-
-def damping_at_large_preloads(study: xr.Dataset, *, c_p: float, largest: float, few: float) -> Answer:
-    """Whether, from some preload on, all separate with any damper that do not without it: the largest decide.
-
-    If one of them separates with none, there is no such preload. Undecided if each does with some, or if the
-    largest preload of the paper does with the damper ``c_p``.
-    """
-    loads, damping, apart = _map(study, "N", "c_p")
-    quiet, dampers = ~apart[:, damping == 0][:, 0], damping[damping > 0]
-    newly, compared = apart[quiet][:, damping > 0], loads[quiet][-int(few) :]
-    decisive, shown = newly[-int(few) :], newly[loads[quiet] == largest][:, dampers == c_p]
-    rows = [
-        {"N": N, "count": row.sum(), "of": row.size, "c_p": dampers[row].min()}
-        for N, row in zip(compared, decisive, strict=True)
-        if row.any()
-    ]
-    each = decisive.any(axis=1).all()
+def seen_in_section(case: CaseView, *, share: float) -> Answer:
+    """Whether the section of the disc does not tell where contact is lost: its points in separation are spread."""
+    samples = case.samples("poincare")
+    late = samples.isel(time=samples["time"].values > case["first_separation"])
+    w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION
+    if not apart.any():
+        raise Missing(f"case {case.name} has no point of the section in separation")
+    lost, every = extent(1e3 * w[apart]), extent(1e3 * w)
     return Answer(
-        True if decisive.all() else None if each or shown.any() else False,
-        "some" if each else "beyond",
-        compared=compared,
-        newly=loads[quiet][newly[:, dampers == c_p].any(axis=1)],
-        some=rows,
-        partly=[] if each else rows,
-    )
-
-
-def _map(study: xr.Dataset, *names: str) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Values of two parameters, ascending, and whether the static start separates: (first, second)."""
-    outcome = _published(study, "outcome", *names)
-    words = flag_names(outcome)
-    if np.any(words == "failed"):
-        raise Missing(f"study {study.attrs['study']} has points that failed")
-    one, other = (outcome[name].values for name in names)
-    return one, other, words == "separation"
-
-
-def _published(study: xr.Dataset, variable: str, *names: str) -> xr.DataArray:
-    """A variable of a map with the published modes, by ascending values of the map's parameters."""
-    return study[variable].sel(normalization="as_published").sortby(list(names)).transpose(*names)
-
-
-def not_monotonous(*evidence: Any) -> Answer:
-    """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
-    *cases, study = evidence
-    loads, damping, apart = _map(study, "N", "c_p")
-    growth = _published(study, "growth_rate", "N", "c_p").values
-    newly = (apart & ~apart[:, :1]).any(axis=1)
-    growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
-    lowered = growing & (growth[:, -1] < growth[:, 0])
-    (stiffened,) = _stiffened(cases[0].parameters.replace(N=300), "k_p", 50)
-    signs = {*np.sign(np.diff(stiffened["growth"]))}
-    by_preload = [case.separates for case in cases] == [False, True, False]
-    return Answer(
-        by_preload and newly.any() and lowered.any() and {-1, 1} <= signs,
-        loads=cases,
-        rates=stiffened["text"],
-        newly=loads[newly],
-        most=damping[-1],
-        lowered=lowered.sum(),
-        growing=growing.sum(),
-    )
-
-
-def inplane_damping_alone(*cases: CaseView) -> Answer:
-    without, shown, weak, strong, small = cases
-    damped = [case.separates for case in (weak, shown, strong)]
-    return Answer(
-        not without.separates and any(damped) and not small.separates,
-        large=[without, weak, shown, strong],
-        not_all=not all(damped),
-        **_effect_of(shown, "c_p", 0.0, shown["c_p"]),
-    )
-
-
-def stiffer(case: CaseView, *_: CaseView, **speeds: Sequence[float]) -> Answer:
-    """Whether growth falls with each of the stiffnesses, at which there must be cycles, at some speeds in rad/s."""
-    ((name, those),) = speeds.items()
-    found = _stiffened(case.parameters, name, *those)
-    every = all(row["growth"].size == len(STIFFENED[name][2]) for row in found)
-    return Answer(every and all(np.all(np.diff(row["growth"]) < 0) for row in found), rates=found)
-
-
-def stiffer_inplane(case: CaseView) -> Answer:
-    found = _stiffened(case.parameters, "k_p", 20, 50)
-    rising = [row["growth"][: np.argmax(row["growth"]) + 1] for row in found]
-    return Answer(all(np.all(np.diff(rates) > 0) for rates in rising), rates=found)
-
-
-def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
-    E, Omega, apart = _map(study, "E", "Omega")
-    E, at = E / 1e9, Omega == slow
-    some = apart.any(axis=1)
-    quiet = int(np.argmin(some))  # the softest disc without separation, if some separate
-    mixed = some.any() and not some.all()
-    softer = [f"{E[i]:.4g} GPa from {Omega[apart[i]].min():.3g} rad/s up" for i in range(quiet)] if mixed else []
-    return Answer(
-        mixed if some.any() and not softer else None,
-        "enough" if softer else "nowhere",
-        E=measures.extent(E),
-        quiet=[*E[~some]] if mixed else [],
-        every=some.any(),
-        base_too=at.any() and not apart[E <= BASE.E / 1e9][:, at].any(),
-        softer=softer,
-    )
-
-
-def quasi_periodic_at_first(case: CaseView, *, within: float, floor: float) -> Answer:
-    """Whether the in-plane motion has a second frequency long before separation, and whether it persists."""
-    cycle = measures.cycle_of(case.parameters)
-    leading = cycle.multipliers[0]
-    start, stop = (float(case.samples("early")["time"][i]) for i in (0, -1))
-    found = case.signal("early", start, stop, "psi").lines(above=1.0, below=200.0, floor=floor)
-    (strongest,) = measures.loudest(found, 1)
-    turn = abs(float(np.angle(leading))) / (2 * np.pi)
-    expected = np.array([turn, 1 - turn, 1 + turn]) * strongest.frequency
-    off, second = min((float(np.min(np.abs(expected - line.frequency))), line) for line in found)
-    brings = abs(leading.imag) > 0 and second is not strongest and off <= within
-    return Answer(
-        brings and cycle.growth_rate > 0,
-        real=leading.real,
-        imag=abs(leading.imag),
-        start=start,
-        stop=stop,
-        strongest=strongest,
-        second=second,
-        relative=second.amplitude / strongest.amplitude,
-        rate=cycle.growth_rate,
-        early=start / 4,
-        widths=[case.range_of("P", time, time + 20).width for time in (start / 4, stop)],
+        lost.width > share * every.width,
+        f"In the section of Fig. 5, the points in separation lie at {lost:.2f} mm only, of {every:.2f} mm.",
     )
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
-    """Whether no range grows on after separation; where none does without separation either, that is told."""
-    widths = {case.name: case.last_quarters("w_point") for case in cases if not case.bonded}
-    ignored = [case.last_widths("w_point", STRETCH, 2) for case in cases if case.bonded]
-    texts = [f"{name}: {1e3 * late:.1f} mm" for name, (late, _) in widths.items()]
-    free, bonded = (all(late <= factor * before for late, before in found) for found in (widths.values(), ignored))
-    return Answer(free, ranges=texts, too=bonded)
+    """Whether no range grows on after separation."""
+    widths = [case.last_quarters("w_point") for case in cases]
+    rows = [f"{case.place}: {mm(late)}" for case, (late, _) in zip(cases, widths, strict=True)]
+    most = max(late for late, _ in widths) / cases[0]["h"]
+    return Answer(
+        graded(late <= factor * before for late, before in widths),
+        f"Range of the disc: {'; '.join(rows)}. That is up to {most:.0f} times its thickness.",
+    )
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    begun = [case for case in cases if case.from_rest]
-    vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in begun)
-    return Answer(vanishes, shares=begun)
+    vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
+    begun = {True: "", False: ", begun in a separated motion"}
+    rows = [f"{case.place}{begun[case.from_rest]}: {100 * case.stick:.1f} %" for case in cases]
+    return Answer(vanishes, f"Share of time in stick, long after the first separation: {'; '.join(rows)}.")
 
 
-def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
-    """Whether some cases separate for which sliding without friction is stable."""
-    smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
-    found = [{"case": case, "rate": rate_text(rate, "/s")} for case, rate in zip(cases, smooth, strict=True)]
-    stable = [rate < growth for rate in smooth]
-    return Answer(any(case.separates and calm for case, calm in zip(cases, stable, strict=True)), smooth=found)
-
-
-def _effect_of(case: CaseView, damper: str, little: float, much: float) -> dict[str, Any]:
-    """Number of loads and speeds at which more of a damper lowers growth, raises it, or ends a stable cycle.
-
-    Without a stick-slip cycle near the start, the motion is steady sliding. Its growth is compared if the damper is the
-    in-plane one. ``growing`` counts cycles that grow with little of it and exist with much.
-    """
-    points = _grid(case.parameters)
-    without, damped = (
-        np.array([growth_or_nan(p.replace(**{damper: value})) for p in points]) for value in (little, much)
+def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
+    """Whether, from some preload on, all that do not separate without the damper do with it."""
+    loads, damping, apart = _map(study, "N", "c_p")
+    quiet = ~apart[:, 0]
+    newly = loads[quiet & apart[:, damping == c_p][:, 0]]
+    never = loads[quiet & ~apart[:, 1:].any(axis=1)]
+    return Answer(
+        bool(newly.size) and not (never > newly[-1]).any(),
+        f"At {facts(study)['Omega']:g} rad/s, within {facts(study)['horizon']:g} s, c_p = {c_p:g} N s/m brings "
+        "separation at "
+        f"{listed(newly, '.0f', 'none')} N, of {extent(loads):g} N. No damper of up to {damping[-1]:g} N s/m does "
+        f"at {listed(never[never > 300], '.0f')} N above 300 N.",
     )
-    gone = np.isnan(damped)
-    rate = np.array([_growth(p.replace(c_p=much)) for p in points]) if damper == "c_p" else damped
-    grows, lower, higher = without > 0, rate < without, ~gone & (rate > without)
-    counts = {"lowered": lower, "growing": grows & ~gone, "lowered_growing": grows & (damped < without)}
-    counts |= {"slides": gone & lower, "ended": gone & (without < 0) & ~lower, "raised": higher}
-    places = [
-        f"{measures.place(points[i].N, points[i].Omega)}: {without[i]:+.4f} to {rate[i]:+.4f}/s"
-        for i in np.flatnonzero(higher)
+
+
+def _map(study: xr.Dataset, *names: str) -> tuple[measures.Array, measures.Array, np.ndarray]:
+    """Values of two parameters, ascending, and whether the static start separates: (first, second)."""
+    outcome = published(study)["outcome"].sortby(list(names)).transpose(*names)
+    words = flag_names(outcome)
+    if np.any(words == "failed"):
+        raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
+    one, other = (outcome[name].values for name in names)
+    return one, other, words == "separation"
+
+
+def stiffened(p: Parameters, name: str, *speeds: float) -> dict[float, measures.Array]:
+    """Growth rates of cycles with the values of `STIFFENED`, 1/s, nan without one, at speeds in rad/s."""
+    unit, _, values = STIFFENED[name]
+    return {
+        speed: np.array([growth_or_nan(p.replace(**{name: unit * value, "Omega": speed})) for value in values])
+        for speed in speeds
+    }
+
+
+def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
+    """The same in words."""
+    _, symbol, values = STIFFENED[name]
+    rows = [
+        f"at {speed:g} rad/s {', '.join(map(rate_text, rates))}" for speed, rates in stiffened(p, name, *speeds).items()
     ]
-    numbers = {name: int(at.sum()) for name, at in counts.items()}
-    return {**numbers, "points": len(points), "value": much, "places": places}
-
-
-def _stiffened(p: Parameters, name: str, *speeds: float) -> list[dict[str, Any]]:
-    """Growth rates for the values of `STIFFENED` at some speeds in rad/s: those of cycles, 1/s; and all, in words."""
-    unit, symbol, values = STIFFENED[name]
-    rows = []
-    for speed in speeds:
-        rates = np.array([growth_or_nan(p.replace(**{name: unit * value, "Omega": speed})) for value in values])
-        text = f"{', '.join(map(rate_text, rates))} per second for {', '.join(map(str, values))} {symbol}"
-        rows.append({"Omega": speed, "growth": rates[np.isfinite(rates)], "text": text})
-    return rows
+    return f"{'; '.join(rows)} per second for {name} = {', '.join(map(str, values))} {symbol}"

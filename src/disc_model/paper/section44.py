@@ -1,24 +1,52 @@
-"""Claims of Section 4.4: frequencies of the disc and of the slider, and how they change with time."""
-
-import math
-from itertools import combinations
-from typing import Any
+"""Rows on Section 4.4: frequencies of the disc and of the slider, and how they change with time."""
 
 import numpy as np
 
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import Outcome
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, CaseView, is_kind
-from disc_model.paper.model import Answer
+from disc_model.paper.measures import HIGH, LOW, CaseView, listed
+from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
+from disc_model.paper.section2 import attached_frequencies
+from disc_model.paper.section43 import soft_disc
 
+__all__ = ["attached_frequencies", "soft_disc"]  # which the texts name as well
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
 """Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""
-STILL = 3e-4
-"""Greatest growth rate of a motion that counts as steady, 1/s, see `disc_model.paper.measures.STRETCH`."""
+
+
+def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
+    return Answer(
+        abs(case["first_separation"] - printed) <= within,
+        f"{case.first_separation().capitalize()}. The paper has {printed:g} s.",
+    )
+
+
+def rest_late(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
+    """Whether lines still move long after separation, so that a spectrum of a long record would smear."""
+    moved = [_drift(each) for each in (case, bonded)]
+    return Answer(
+        PART if moved[0] <= within else TRUE,
+        f"While the vibration grows lines move. From 100 to 110 s the lines of {case.place} move by {moved[0]:.0e} Hz "
+        "at most, "
+        "so that the usual spectrum is sharp.",
+    )
+
+
+def _drift(case: CaseView) -> float:
+    """How far lines move between the halves of the last stretch, at most, Hz."""
+    halves = ((100.0, 105.0), (105.0, 110.0))
+    first, second = (case.signal("spectrum_d", *half).lines(above=LOW, floor=1e-2) for half in halves)
+    return max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
+
+
+def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
+    """Whether lines come to rest, and not without separation."""
+    here, there = _drift(case), _drift(bonded)
+    text = f"From 100 to 110 s lines move by {here:.0e} Hz at most with separation, and by {there:.0e} Hz without."
+    return Answer(FALSE if here > within else PART if there <= within else TRUE, text)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
@@ -27,205 +55,127 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     chance = max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in found)
     floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
     others = [
-        line.frequency
+        f"{line.frequency:.2f}"
         for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
-    named = int((table["ours_is"] != UNNAMED).sum())
+    named = (table["ours_is"] != UNNAMED).sum()
+    rows = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
     return Answer(
         off.max() <= bound and chance * len(found) <= 1e-3,
-        lines=[f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples()],
-        rate=stick_slip_rate(case),
-        chance=max(chance, 1e-99),
-        named=named,
-        count=len(found),
-        others=others,
+        f"{rows} Hz, with f_s = {stick_slip_rate(case):.2f} Hz: {off.max():.2f} Hz away at most. {named} of "
+        f"{len(found)} are "
+        "combinations of the stick-slip rate and the drive's frequency.",
+        f"As strong as the weakest of them, but not in the table: {listed(others)} Hz." if others else "",
     )
-
-
-def drive(case: CaseView, *, level: float) -> Answer:
-    signal, orders = case.signal(*EARLY), (1, 2, 3)
-    (every,) = measures.loudest(signal.lines(above=0.5 * case.drive), 1)
-    found = [signal.strongest(n * case.drive, 0.4 * case.drive) for n in orders]
-    near = all(abs(line.frequency - n * case.drive) < 0.05 for n, line in zip(orders, found, strict=True))
-    strongest = every.amplitude <= found[0].amplitude * (1 + 1e-9)
-    loud = min(line.amplitude for line in found) > level * found[0].amplitude
-    levels = [20 * np.log10(line.amplitude / found[0].amplitude) for line in found]
-    texts = [f"{line.frequency:.2f} Hz at {level:.0f} dB" for line, level in zip(found, levels, strict=True)]
-    return Answer(near and strongest and loud, lines=texts)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
-    rows, off, away, near = [], [], [], []
+    rows, off, away = [], [], []
     for case in cases:
         found = sorted(measures.loudest(case.signal(*EARLY).lines(above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in found]
-        away += [_from_natural(case, line) for line in found]
-        near += [_from_natural(case, line) <= 4 * case.drive for line in found]
-        rows.append({"case": case, "rate": rate, "lines": [line.frequency for line in found]})
+        away += [_from_natural(case, line) / case.drive for line in found]
+        found_text = ", ".join(f"{line.frequency:.1f}" for line in found)
+        rows.append(
+            f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s, f_s = {rate:.2f} Hz: {found_text} Hz"
+        )
     combined = [each <= within for each in off]
     return Answer(
-        all(near) and not any(combined),
-        tried=rows,
-        combined=sum(combined),
-        count=len(combined),
-        worst=max(off),
-        near=sum(near),
-        farthest=max(away),
+        max(away) <= 4 and not any(combined),
+        f"The lines follow the stick-slip rate: {sum(combined)} of {len(combined)} are n f_s + m f_Ω, to "
+        f"{max(off):.2f} Hz, when the "
+        "in-plane spring or the speed is changed. Natural frequencies do not change, and are up to "
+        f"{max(away) * cases[0].drive:.0f} Hz away.",
+        f"{'; '.join(rows)}.",
     )
-
-
-def inplane_pair(case: CaseView, *, within: float) -> Answer:
-    rate = stick_slip_rate(case)
-    found = measures.loudest(case.signal(*EARLY).lines(above=40, below=100, apart=1.0), 2)
-    pair, split = sorted(line.frequency for line in found), [rate - case.drive, rate + case.drive]
-    return Answer(len(pair) == 2 and np.allclose(pair, split, atol=within, rtol=0), rate=rate, pair=pair, split=split)
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
     rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
+    slower = f"It is the rate of stick and slip. Sticking makes it slower than the spring's own {free:.2f} Hz."
     holds = abs(rate - printed) <= within
-    return Answer(holds, rate=rate, free=free, slower=not holds)
+    return Answer(holds, f"The slider vibrates at {rate:.2f} Hz.", "" if holds else slower)
 
 
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
-    natural, found = _natural(case), table_2(case)["ours_Hz"].to_numpy()[3:]
+    natural, found = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in found])
-    off = np.abs(nearest - found)
-    far = off[off > within]
+    far = np.abs(nearest - found) > within
+    rows = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(found, nearest, strict=True))
     return Answer(
-        not far.size,
-        lines=[f"{f:.1f} ({n:.1f})" for f, n in zip(found, nearest, strict=True)],
-        far=far.size,
-        count=off.size,
-        least=far.min(initial=np.inf),
-        most=far.max(initial=0.0),
-        others=0 < far.size < off.size,
-        double=2 * stick_slip_rate(case),
-        lowest=natural[0],
+        graded(~far) if not far.any() else FALSE,
+        f"{rows} Hz, in brackets the nearest natural frequency: {far.sum()} of {far.size} are more than {within:g} Hz "
+        "away.",
+        f"Twice the stick-slip rate is {2 * stick_slip_rate(case):.2f} Hz, near the coupled mode at {natural[0]:.2f} "
+        "Hz."
+        if 0 < far.sum() < far.size
+        else "",
     )
 
 
-def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    """Whether the rate of separations rises with a stiffer spring as the frequency of slider and spring alone does.
+def higher(
+    case: CaseView, bonded: CaseView, *, factor: float, floor: float, window: str, low: float, high: float
+) -> Answer:
+    """Whether power above the natural frequencies rises with the first separation, and not without separation.
 
-    Undecided if it rises as that of the mode in which they move with the disc.
+    low, high : s, where what is compared begins before it and ends after it
     """
-    found, alone = [], []
-    for pair in zip(cases[::2], cases[1::2], strict=True):
-        rates = [1 / float(case.intervals("separation").mean()) for case in pair]
-        modes = [_natural(case)[0] for case in pair]
-        rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
-        found.append({"case": pair[0], "rate": rates[0], "mode": modes[0], "follows": rise / of_mode})
-        spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
-        alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
-    p = cases[0].parameters
-    free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
-    holds = all(abs(follows - 1) <= within for follows in alone)
+    first = case["first_separation"]
+    spans = ((low, first), (first, high))
+    (before, after), (ignored, control) = (
+        [each.signal(window, *span).high for span in spans] for each in (case, bonded)
+    )
+    here, there = after > max(factor * before, floor), control > max(factor * ignored, floor)
     return Answer(
-        None if all(abs(row["follows"] - 1) <= within for row in found) else holds,
-        "branch",
-        pairs=found,
-        without=free,
-        level=max(_level(case, free) for case in cases[::2]),
-        spring=spring,
+        TRUE if here and not there else PART if here else FALSE,
+        f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after; without "
+        "separation "
+        f"{control:.1e} then.",
     )
 
 
-def _level(case: CaseView, frequency: float) -> float:
-    """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    signal = case.signal("late", 0.0, np.inf)
-    found, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
-    near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
-    return measures.ratio(near, every, f"the spectrum of case {case.name}")
+def fuzz_goes(*pair: CaseView, share: float) -> Answer:
+    """Whether lines fill less of the spectrum of the disc later; the control without separation is told."""
+    filled = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
+    (before, after), (ignored, control) = filled
+    return Answer(
+        after < share * before,
+        f"Lines fill {100 * before:.1f} % of 20 to 300 Hz from 38 to 48 s, and {100 * after:.1f} % from 100 to 110 s. "
+        "Without "
+        f"separation they fill {100 * ignored:.1f} % and {100 * control:.1f} %.",
+    )
 
 
-def inplane_contribution(case: CaseView, *, share: float) -> Answer:
-    rate = stick_slip_rate(case)
-    found = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
-    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, found))
-    return Answer(theirs / power > share, part=theirs / power, made=len(made), count=len(found), rate=rate)
-
-
-def three_kinds(case: CaseView, *, factor: float) -> Answer:
-    spans = [case.signal(*span) for span in (EARLY, LATER, LATE)]
-    rates = [case.slope("P", max(span.start, 1), span.stop) for span in spans]
-    rows = [{"span": span, "rate": rate} for span, rate in zip(spans, rates, strict=True)]
-    kinds = [(span.width, span.filled, max(rate, STILL)) for span, rate in zip(spans, rates, strict=True)]
-    differ = [any(max(pair) >= factor * min(pair) for pair in zip(*two, strict=True)) for two in combinations(kinds, 2)]
-    return Answer(all(differ), spans=rows)
-
-
-def new_lines(case: CaseView, *, factor: float, floor: float) -> Answer:
-    """Whether lines appear that, unlike all main ones, do not combine the stick-slip frequency and the drive's."""
-    rate = stick_slip_rate(case)
-    found = [case.signal(*span).lines(above=LOW, below=300.0, floor=floor) for span in (EARLY, LATER)]
-    early, later = (sum(_from_combination(case, line, rate) > COMBINED for line in each) for each in found)
-    return Answer(later > factor * max(early, 1), early=early, later=later)
-
-
-def higher(case: CaseView, bonded: CaseView, *, factor: float, floor: float) -> Answer:
-    first = case["first_separation"]
-    spans = (("spectrum_c", 50, first), ("spectrum_c", first, 60), LATE)
-    (before, after, late), ignored = ([each.signal(*span).high for span in spans] for each in (case, bonded))
-    here, there = (b > max(factor * a, floor) for a, b in ((before, after), ignored[:2]))
-    return Answer(*_beside(here, there), before=before, after=after, late=late, ignored=ignored)
-
-
-def _beside(here: bool, there: bool) -> tuple[bool | None, str]:
-    """Whether something changes with separation; undecided if it changes without separation as well."""
-    return None if here and there else here, "control"
-
-
-def steady_lines(*pair: CaseView, part: float, within: float) -> Answer:
-    rows, found = [], []
-    for case in pair:
-        before, after = (case.signal(*span).filled for span in (LATER, LATE))
-        first, second = (
-            case.signal("spectrum_d", *span).lines(above=LOW, floor=1e-2) for span in ((100, 105), (105, 110))
-        )
-        drift = max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
-        found.append(after < part * before and drift < within)
-        rows.append({"case": case, "before": before, "after": after, "drift": drift})
-    return Answer(*_beside(*found), stretches=rows)
-
-
-def slider_settles(*pair: CaseView, part: float) -> Answer:
+def explained_by_slider(*pair: CaseView, share: float) -> Answer:
+    """Whether what clears the slider's spectrum, and with it the disc's, is separation: not if it clears without."""
     first = pair[0]["first_separation"]
-    length, begins = first - 50, (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
-    filled = [[case.signal(window, at, at + length, "psi").filled for window, at in begins] for case in pair]
-    rows = [{"case": case, "before": each[0], "after": each[1]} for case, each in zip(pair, filled, strict=True)]
-    (before, after, _), (ignored, control, late) = filled
-    found = _beside(after < part * before, control < part * ignored)
-    return Answer(*found, stretches=rows, later=late < part * ignored and late)
-
-
-def multiples(case: CaseView, *, bound: float) -> Answer:
-    first = case["first_separation"]
-    late, before, after = (
-        case.signal(*span).lines(above=LOW, below=HIGH, floor=1e-2)
-        for span in ((*LATE, "psi"), ("spectrum_c", 50.0, first, "psi"), ("spectrum_c", first, 60.0, "psi"))
+    length = first - 50
+    begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
+    (before, after, _), (ignored, control, late) = (
+        [case.signal(window, at, at + length, "psi").filled for window, at in begins] for case in pair
     )
-    rate = late[0].frequency
-    off, early = (
-        [abs(line.frequency - max(round(line.frequency / rate), 1) * rate) for line in lines]
-        for lines in ([*after, *late], before)
-    )
+    cleared, alike = after < share * before, min(control, late) < share * ignored
     return Answer(
-        max(off) <= bound,
-        rate=rate,
-        count=len(off),
-        worst=max(off),
-        others=sum(each > bound for each in early),
-        before=len(early),
-        releases=case.rate_of("stick_to_slip") / rate,
+        PART if cleared and alike else cleared,
+        f"Lines of ψ fill {100 * before:.1f} % of 20 to 300 Hz before the first separation and {100 * after:.1f} % "
+        "after it. "
+        f"Without separation they fill {100 * ignored:.1f} and {100 * control:.1f} % then, and {100 * late:.1f} % "
+        "from 100 s on.",
     )
 
 
-def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: float, rest: float) -> Answer:
+def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
+    return Answer(
+        case.late_motion().period > 0,
+        f"The motion is {case.motion}.",
+        f"Without separation it is {bonded.motion}." if bonded.late_motion().period else "",
+    )
+
+
+def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
     first, end = case["first_separation"], case["time_reached"]
     if not 20 <= first <= end - 20:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
@@ -234,81 +184,56 @@ def growth_stages(case: CaseView, bonded: CaseView, *, factor: float, least: flo
     peak = int(np.argmax(rates))
     slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
     last = case.slope("w_point", first - 3, first)
-    after, ignored = (each.slope("w_point", each["time_reached"] - 20, np.inf) for each in (case, bonded))
-    here, there = (abs(rate) < rest * sharp for rate in (after, ignored))
-    stages = sharp > max(factor * slow, least) and last < sharp
-    numbers = {"slow": slow, "sharp": sharp, "at": starts[peak] + 2.5, "last": last, "after": after}
-    return Answer(*_beside(stages and here, stages and there), **numbers)
+    return Answer(
+        sharp > max(factor * slow, least) and last < sharp,
+        f"Growth of the range: {slow:.4f}/s over the first half, {sharp:.3f}/s at {starts[peak] + 2.5:.0f} s, "
+        f"{last:.3f}/s just "
+        f"before separation, {case.slope('w_point', end - 20, np.inf):z.4f}/s in the end.",
+    )
 
 
-def natural_lines(case: CaseView, *, share: float, near: float) -> Answer:
-    span = ("spectrum_d", 143.0, 153.0)
-    signal, rate = case.signal(*span), stick_slip_rate(case, *span)
-    found, every = (measures.loudest(signal.lines(above=above, floor=1e-3), 4) for above in (LOW, 0.5 * case.drive))
-    ours, counted = (_natural_share(case, lines, rate, near) for lines in (found, every))
-    holds = None if counted <= share < ours else ours > share
-    lines, lowest = [line.frequency for line in found], _natural(case)[0]
-    return Answer(holds, "drive", lines=lines, ours=ours, lowest=lowest, rate=rate, counted=counted)
-
-
-def fuzz_stays(*pair: CaseView, part: float, factor: float, floor: float) -> Answer:
+def fuzz_stays(*pair: CaseView, share: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
-    rows, found = [], []
-    for case in pair:
-        before, after = (case.signal(*span) for span in spans)
-        stays, rises = after.filled > before.filled / part, after.high > max(factor * before.high, floor)
-        found.append(stays and rises)
-        rows.append({"case": case, "before": before, "after": after})
-    return Answer(*_beside(*found), stretches=rows)
+    (before, after), (ignored, control) = ([case.signal(*span).filled for span in spans] for case in pair)
+    return Answer(
+        after >= share * before,
+        f"Lines fill {100 * before:.0f} % of 20 to 300 Hz before the first separation and {100 * after:.0f} % after "
+        "it; without "
+        f"separation {100 * ignored:.0f} and {100 * control:.0f} %.",
+    )
 
 
-def no_high_line(case: CaseView, *, share: float) -> Answer:
-    p = case.parameters
-    omega, base = (float(plate_modes(each)["omega"].max()) for each in (p, p.replace(E=150e9)))
+def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
+    omega = float(plate_modes(case.parameters)["omega"].max())
     spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
     first, last = (case.signal(*span).power_above(omega / (2 * np.pi)) for span in spans)
-    return Answer(max(first, last) < share, omega=omega, first=first, last=last, base=base)
-
-
-def lines_shift(case: CaseView, *, part: float, floor: float, apart: float) -> Answer:
-    """Whether weak lines of one stretch are missing in the next."""
-    first, second = (
-        case.signal("spectrum_d", *span).lines(above=LOW, below=600, floor=floor) for span in ((465, 470), (470, 475))
-    )
-    weak = [line for line in first if line.amplitude < 0.1 * max(each.amplitude for each in first)]
-    moved = [line for line in weak if min(abs(line.frequency - other.frequency) for other in second) > apart]
-    return Answer(len(moved) > part * len(weak), moved=len(moved), count=len(weak))
-
-
-def erratic(case: CaseView, *, several: float, part: float, apart: float) -> Answer:
-    """Whether the spectrum is erratic; undecided if the number of frequencies depends on the resolution of lines."""
-    rate = stick_slip_rate(case, "spectrum_d", 465, 475)
-    found = case.signal("spectrum_d", 465, 475).lines(above=LOW, below=600, floor=1e-2)
-    strongest = max(line.amplitude for line in found)
-    every, coarse = (_further(found, rate, case.drive, width) for width in (apart, 2 * apart))
-    further, fewer = ([line for line in lines if line.amplitude >= part * strongest] for lines in (every, coarse))
-    second = further[1].amplitude / further[0].amplitude if len(further) > 1 else 1.0
-    holds, why = is_kind(Outcome.IRREGULAR, case.late_motion(), len(further) >= several)
-    depends = holds and len(fewer) < several
+    quiet = max(first, last) < share
+    right = abs(omega - printed) <= 0.01
     return Answer(
-        None if depends else holds,
-        "width" if depends else why,
-        fewer=len(fewer),
-        double=2 * apart,
-        count=len(found),
-        rate=rate,
-        further=len(further),
-        seen=[f"{line.frequency:.2f} Hz ({line.amplitude / strongest:.2g})" for line in further],
-        weak=len(every) - len(further),
-        mainly=second < 0.5,
-        second=second,
+        TRUE if quiet and right else PART if quiet else FALSE,
+        f"Power above the highest natural frequency, of that above {LOW:g} Hz: {first:.0e} from 465 to 475 s, "
+        f"{last:.0e} from 1490 to "
+        f"1500 s. That frequency is {omega:.1f} rad/s for this disc; {printed:g} rad/s belongs to 150 GPa.",
     )
 
 
-def _natural(case: CaseView) -> Any:
+def inplane_contribution(case: CaseView, *, share: float) -> Answer:
+    rate = stick_slip_rate(case)
+    found = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
+    made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
+    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, found))
+    return Answer(
+        theirs / power > share,
+        f"{case.place}, 0 to 10 s: {len(made)} of {len(found)} lines above {LOW:g} Hz, with "
+        f"{100 * theirs / power:.0f} % of their "
+        f"power, are n f_s + m f_Ω with f_s = {rate:.2f} Hz.",
+    )
+
+
+def natural_frequencies(case: CaseView) -> measures.Array:
     """Natural frequencies with the slider attached, Hz."""
-    return coupled_natural_frequencies(case.parameters) / (2 * np.pi)
+    return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
 
 
 def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
@@ -318,26 +243,4 @@ def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
 
 def _from_natural(case: CaseView, line: spectra.Line) -> float:
     """Distance of a line from the nearest natural frequency with the slider attached, Hz."""
-    return float(np.min(np.abs(_natural(case) - line.frequency)))
-
-
-def _natural_share(case: CaseView, lines: list[spectra.Line], rate: float, near: float) -> float:
-    """Fraction of the lines' power in lines beside a natural frequency that are not near any n f_s + m f_Omega."""
-    within = 4 * case.drive
-    own = [line for line in lines if _from_natural(case, line) <= within and _from_combination(case, line, rate) > near]
-    return sum(line.amplitude**2 for line in own) / sum(line.amplitude**2 for line in lines)
-
-
-def _further(lines: list[spectra.Line], rate: float, drive: float, apart: float) -> list[spectra.Line]:
-    """Further frequencies: lines, the strongest first, not made of f_s, f_Omega and the lines before them.
-
-    A line is made of them if it is p f + n f_s + m f_Omega to ``apart`` Hz, for one earlier f and abs(p) <= 2.
-    """
-    sums = np.add.outer(rate * np.arange(-12, 13), drive * np.arange(-3, 4)).ravel()
-    further: list[spectra.Line] = []
-    known = sums
-    for line in measures.loudest(lines, len(lines)):
-        if np.min(np.abs(known - line.frequency)) > apart:
-            further.append(line)
-            known = np.concatenate([known, *(sums + p * line.frequency for p in (-2, -1, 1, 2))])
-    return further
+    return float(np.min(np.abs(natural_frequencies(case) - line.frequency)))

@@ -1,7 +1,7 @@
 """Model sensitivity: the paper's main conclusions, each judged under four models of disc and contact.
 
 Each model changes one more thing, so that the last has all changes. All conclusions are judged from the merged cases
-and grids of config/survival.yaml: undecided if the evidence does not decide, not computed if it is missing.
+and grids of config/survival.yaml, by rows as the ledger's.
 """
 
 import math
@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.classify import FEWEST, stick_disappears
 from disc_model.data.dataset import Missing
-from disc_model.data.texts import Section, fill
+from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
-from disc_model.paper import measures, section42
-from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, rate_text
-from disc_model.paper.model import Answer, claims, judge, read_texts
+from disc_model.paper import measures
+from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge, read_texts, rows_of
+from disc_model.paper.section2 import moving_load_speed
 
 MODELS = {
     "as published": ("as_published", False, "vertical"),
@@ -58,46 +59,43 @@ SLOW = 1e-3
 
 
 def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: float) -> Answer:
-    outcome, growth = _beside(points, rates)
+    try:
+        growth = rates["growth_rate"].sel(N=points["N"], Omega=points["Omega"]).transpose("N", "Omega").values
+    except KeyError as error:
+        raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
+    outcome = flag_names(points["outcome"].transpose("N", "Omega"))
     if (outcome == "failed").any():
         raise Missing("study survival_outcome has points that failed")
-    apart = outcome == "separation"
-    cycles = {"stable": growth < -SLOW, "unstable": growth > SLOW, "without": np.isnan(growth)}
-    counts = {kind: int((apart & where).sum()) for kind, where in cycles.items()}
-    stable = cycles["stable"]
+    apart, stable = outcome == "separation", growth < -SLOW
+    unstable, without = (int((apart & kind).sum()) for kind in (growth > SLOW, np.isnan(growth)))
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
     soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(curves, load)) for load, speed in early)
-    compared = counts["unstable"] > 0 and bool(stable.any())
+    compared = unstable > 0 and bool(stable.any())
     return Answer(
-        soon if compared or not soon else None,
-        "nothing",
-        apart=int(apart.sum()),
-        count=apart.size,
-        quiet=int((stable & ~apart).sum()),
-        early=[measures.place(*at) for at in early] if soon else [],
-        **counts,
+        soon if compared or not soon else NOT_COMPUTED,
+        f"{apart.sum()} of {apart.size} points separate: {unstable} from an unstable cycle, {without} where none is "
+        "found, "
+        f"{len(early)} from a stable one; {(stable & ~apart).sum()} with a stable cycle do not.",
+        "Shortly before the stable cycle ends at a fold it separates, too: "
+        f"{'; '.join(measures.place(*point) for point in early)}."
+        if early and soon
+        else "",
     )
-
-
-def _beside(outcome: xr.Dataset, growth: xr.Dataset) -> tuple[NDArray[np.str_], Array]:
-    """Outcomes, and growth rates at the same points, 1/s: both (N, Omega)."""
-    try:
-        rates = growth["growth_rate"].sel(N=outcome["N"], Omega=outcome["Omega"])
-    except KeyError as error:
-        raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
-    return flag_names(outcome["outcome"].transpose("N", "Omega")), rates.transpose("N", "Omega").values
 
 
 def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(curves, load)))
-    highs, width = _beginnings(speed, load)
-    speeds = {"folds": folds, "begins": highs}
+    one = speed.sel(N=load).isel(horizon=0)
+    _require_ok(one, "survival_speed")
+    highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
+    width = float(stated_in(speed, "options")["precision"])
+    told = f"Folds beside a stable cycle: {listed(folds, '.3f')}; separation begins: {listed(highs, '.1f')} (rad/s)"
     if not highs.size:
-        return Answer(None, "no_speed", growth=[], **speeds)
+        return Answer(NOT_COMPUTED, f"{told}.")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
     if min(off) <= within:
-        return Answer(True, growth=[], **speeds)
+        return Answer(TRUE, f"{told}.")
     # at the map's nearest speeds below and above each interval; nan without a cycle
     at_load = rates["growth_rate"].sel(N=load)
     try:
@@ -110,7 +108,11 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(curves["n_continuation_failures"])
     goes_on = all(rate > SLOW for pair in beside for rate in pair)
-    return Answer(None if missed and not goes_on else False, "missed", missed=missed, growth=growth, **speeds)
+    return Answer(
+        NOT_COMPUTED if missed and not goes_on else FALSE,
+        f"{told}; growth there {listed(growth)}.",
+        f"{missed} curves could not be followed." if missed and not goes_on else "",
+    )
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -139,8 +141,10 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
 
 
 def below_critical(*cases: CaseView, share: float) -> Answer:
-    apart = _separating(cases)
-    return section42.far_below(*apart, share=share) if apart else Answer(None, "none", lower=[], critical=math.nan)
+    critical = moving_load_speed(cases[0].parameters) if cases else math.nan
+    lower = [case for case in _separating(cases) if case["Omega"] < share * critical]
+    rows = [f"{case.place}: {100 * case['Omega'] / critical:.1f} %" for case in lower]
+    return Answer(bool(lower) or NOT_COMPUTED, f"{'; '.join(rows) or 'No case separates'} of {critical:.2f} rad/s.")
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
@@ -154,37 +158,47 @@ def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
 def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
     study = speed.isel(horizon=0)
     _require_ok(study, "survival_speed")
-    falls, values = measures.lowest_speeds(study, depth)
+    found = measures.lowest_speeds(study, depth)
     few = np.isfinite(study["critical_speed"].values).sum() < 3
-    return Answer(None if few or values["again"] else falls, "few" if few else "again", **values)
+    return Answer(
+        NOT_COMPUTED if few else PART if found.falls and found.again else found.falls,
+        f"{'; '.join(found.speeds)} (rad/s, where it turns).",
+        f"It rises up to {found.top:g} N, then falls again, to {listed(found.again)}." if found.again else "",
+    )
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
     smaller: list[bool | None] = []
     rows = []
-    for free, bonded in measures.pairs([*_separating(cases), *(case for case in cases if case.bonded)]):
+    for free, bonded in pairs([*_separating(cases), *(case for case in cases if case.bonded)]):
         fourth, third = free.last_quarters("w_point")
         other = bonded.last_widths("w_point", STRETCH, STRETCHES)
-        settled = fourth <= (1 + wider) * third
-        below = settled and max(third, fourth) < min(other)
+        below = fourth <= (1 + wider) * third and max(third, fourth) < min(other)
         above = min(third, fourth) >= max(other)
         smaller.append(False if above else True if below else None)
-        rows.append({"case": free, "free": 1e3 * max(third, fourth), "bonded": 1e3 * min(other)})
-    return Answer(*_all_cases(smaller), cases=rows)
+        rows.append(f"{free.place}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
+    return Answer(_all_cases(smaller), f"{'; '.join(rows) or 'No case separates'}.")
 
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
-    return Answer(len(stays) < len(apart) if apart else None, "none", cases=apart, stays=stays)
+    rows = "; ".join(f"{case.place}: {100 * case.stick:.2g} %" for case in apart)
+    return Answer(
+        len(stays) < len(apart) if apart else NOT_COMPUTED,
+        f"{rows or 'No case separates'}.",
+        f"Not at {'; '.join(stays)}." if len(stays) < len(apart) and stays else "",
+    )
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
     without, with_damper, _ = _damped(study, "c")
     compared = (without > SLOW) & np.isfinite(with_damper)
-    lower, stable = compared & (with_damper < without), compared & (with_damper < 0)
-    lowered, count = int(lower.sum()), int(compared.sum())
-    return Answer(lowered == count if count else None, "none", lower=lowered, count=count, stable=int(stable.sum()))
+    lowered, stable = int((compared & (with_damper < without)).sum()), int((compared & (with_damper < 0)).sum())
+    return Answer(
+        lowered == compared.sum() if compared.any() else NOT_COMPUTED,
+        f"Lower at {lowered} of {compared.sum()} points with a growing cycle, stable at {stable}.",
+    )
 
 
 def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
@@ -193,15 +207,14 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     both = np.isfinite(without) & np.isfinite(damped)
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
-    above, below = ({"higher": int((higher & at).sum()), "of": int((both & at).sum())} for at in (heavy, ~heavy))
-    destabilises = above["higher"] + ended > 0
+    (above, of), (below, of_below) = ((int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy))
+    destabilises = above + ended > 0
     return Answer(
-        destabilises if destabilises or above["of"] >= fewest else None,
-        "few",
-        above=above,
-        ended=measures.counted(ended, "stable cycle"),
-        below=below,
-        few=0 < 10 * (above["higher"] + ended) <= above["of"],
+        destabilises if destabilises or of >= fewest else NOT_COMPUTED,
+        f"At {large:g} N or more higher at {above} of {of} points, and {measures.counted(ended, 'stable cycle')} "
+        "ended; "
+        f"below, higher at {below} of {of_below}.",
+        "At few points only; elsewhere it lowers growth or leaves it." if 0 < 10 * (above + ended) <= of else "",
     )
 
 
@@ -217,14 +230,13 @@ def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_
 
 
 def not_periodic(*cases: CaseView) -> Answer:
-    apart = _separating(cases)
-    repeats = [_repeats(case) for case in apart]
-    rows = [{"case": case, "motion": told} for case, (_, told) in zip(apart, repeats, strict=True)]
+    repeats = {case.place: _repeats(case) for case in _separating(cases)}
     holds = [
         None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-        for kind, _ in repeats
+        for kind, _ in repeats.values()
     ]
-    return Answer(*_all_cases(holds), cases=rows)
+    rows = [f"{place}: {words}" for place, (_, words) in repeats.items()]
+    return Answer(_all_cases(holds), f"{'; '.join(rows) or 'No case separates'}.")
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -240,15 +252,12 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
     return Outcome.UNDECIDED, "too few switches"
 
 
-def _all_cases(holds: Sequence[bool | None]) -> tuple[bool | None, str]:
+def _all_cases(holds: Sequence[bool | None]) -> bool | str:
     """The verdict on a statement about every case: one counterexample refutes it, an open case (None) keeps it open."""
-    if False in holds:
-        return False, ""
-    return (None, "open" if holds else "none") if None in holds or not holds else (True, "")
+    return False if False in holds else NOT_COMPUTED if None in holds or not holds else True
 
 
-CONCLUSIONS = claims(sys.modules[__name__])
-
+CONCLUSIONS = rows_of(sys.modules[__name__])
 TEXTS: dict[str, str] = read_texts("pages.yaml")["survival"]
 
 
@@ -256,14 +265,13 @@ def page_of(cases: Mapping[str, CaseView]) -> list[Section]:
     """Every conclusion under every model, as sections of a page: all verdicts at a glance, then their evidence."""
     table = judge(CONCLUSIONS, by_model(cases))
     verdicts = table.pivot(index="id", columns="model", values="verdict")
-    rows = [(one.claim, one.location, *verdicts.loc[one.id, [*MODELS]]) for one in CONCLUSIONS]
+    rows = [(row.statement, row.place, *verdicts.loc[row.id, [*MODELS]]) for row in CONCLUSIONS]
     names = [name[0].upper() + name[1:] for name in MODELS]
     sections = [("At a glance", TEXTS["introduction"], pd.DataFrame(rows, columns=["Conclusion", "Place", *names]))]
-    columns = {"model": "Model", "verdict": "Verdict", "ours": "Found", "remark": "Remark"}
-    for one in CONCLUSIONS:
-        evidence = table.loc[table["id"] == one.id, [*columns]].rename(columns=columns)
+    columns = {"model": "Model", "verdict": "Verdict", "here": "Found", "notes": "Remark"}
+    for row in CONCLUSIONS:
+        evidence = table.loc[table["id"] == row.id, [*columns]].rename(columns=columns)
         if not evidence["Remark"].any():
             evidence = evidence.drop(columns="Remark")
-        rule = fill(TEXTS["rule"], text=one.claim, tolerance=one.fill(one.tolerance), reason=one.reason)
-        sections.append((one.id, rule, evidence))
+        sections.append((row.id, f"{row.statement} Rule: {row.rule}", evidence))
     return sections

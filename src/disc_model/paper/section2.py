@@ -1,0 +1,170 @@
+"""Rows on the abstract and Sections 2 to 4: the scale of the modes, disc and slider at rest, the number of modes."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.integrate import fixed_quad
+
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import flag_names, stated_in
+from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
+from disc_model.paper.measures import CaseView, listed, or_none, pairs, width_ratio
+from disc_model.paper.model import FALSE, PART, TRUE, Answer
+from disc_model.parameters import Parameters
+
+Array = NDArray[np.float64]
+BASE = Parameters(N=200, Omega=20)
+SEPARATING = {
+    "Fig. 2": ("map_N", {"N": 200.0, "Omega": 20.0}),
+    "Fig. 7": ("map_N", {"N": 300.0, "Omega": 20.0}),
+    "Fig. 9": ("map_N", {"N": 200.0, "Omega": 50.0}),
+    "Fig. 13": ("map_N", {"N": 385.0, "Omega": 15.1}),
+    "Fig. 17": ("map_N", {"N": 200.0, "Omega": 15.0}),
+    "Fig. 18": ("map_D_star", {"D_star": 0.0, "Omega": 10.0}),
+    "Fig. 19": ("map_c_p", {"N": 385.0, "c_p": 0.5}),
+    "Fig. 22": ("map_k_p", {"k_p": 2e3, "Omega": 50.0}),
+    "Fig. 23": ("map_m", {"m": 0.01, "Omega": 20.0}),
+}
+"""The figures of the paper that show separation, each with a map and its point."""
+
+
+def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for each normalization."""
+    rows = {}
+    for figure, (name, values) in SEPARATING.items():
+        point = maps[name].sel(values, method="nearest")
+        if not all(np.isclose(point[axis], value) for axis, value in values.items()):
+            raise Missing(f"study {name} has no point of {figure}")
+        if np.any(flag_names(point["outcome"]) == "failed"):
+            raise Missing(f"study {name} failed at {figure}")
+        rows[figure] = point["first_separation"].to_series()
+    return pd.DataFrame(rows).T
+
+
+def survive(*maps: xr.Dataset) -> Answer:
+    times = first_separations({study.attrs["study"]: study for study in maps})
+    published, lost = times["as_published"].notna(), times["orthonormal"].isna()
+    words = times.map(lambda time: or_none(time, ".0f", " s"))
+    apart = (flag_names(maps[0]["outcome"]) == "separation").sum(maps[0]["outcome"].get_axis_num(["N", "Omega"]))
+    counts = dict(zip(maps[0]["normalization"].values, apart, strict=True))
+    horizon = stated_in(maps[0], "options")["horizon"]
+    return Answer(
+        PART if 0 < lost.sum() < lost.size else not lost.any() and published.all(),
+        f"With the modes behind the published numbers, {published.sum()} of {len(times)} cases separate within "
+        f"{horizon:g} s. With modes by Eq. (17), {lost.sum()} of them do not: {', '.join(times.index[lost])}. "
+        + "; ".join(f"{figure}: {was} becomes {now}" for figure, was, now in words.itertuples())
+        + ".",
+        f"On the map of speed and preload, separation covers {counts['as_published']} points as published and "
+        f"{counts['orthonormal']} with Eq. (17), of {maps[0].sizes['N'] * maps[0].sizes['Omega']}.",
+    )
+
+
+def norms(p: Parameters) -> Array:
+    """Left side of the first relation of Eq. (17), which should be 1, for the modes of 0, 1, ... nodal diameters."""
+    # plate_modes has one amplitude for the two modes of a pair
+    pairs = np.where(plate_modes(p)["diameters"] > 0, 2.0, 1.0)
+    square, _ = fixed_quad(lambda r: mode_shapes(p, r) ** 2 * r, p.a, p.b, n=40)
+    return np.asarray(2 * np.pi * p.rho * p.h * square / pairs)
+
+
+def normalised(*, within: float) -> Answer:
+    found = norms(BASE)
+    squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
+    return Answer(
+        np.max(np.abs(found - 1)) <= within,
+        f"The left side is {listed(found, '.2f')} for the modes of 0 to 4 nodal diameters that give "
+        "the paper's frequencies with the slider attached. With one nodal diameter the squared amplitude under the "
+        "slider "
+        f"is {squares[0]:.2f} instead of {squares[1]:.2f} 1/kg.",
+    )
+
+
+def second_relation(*, within: float) -> Answer:
+    p = BASE.replace(normalization="orthonormal")
+    second = norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D  # of the biharmonic: rho h omega^2/D
+    text = f"With modes that satisfy the first relation, the second one has {listed(second, '.3g')} 1/(kg m²)."
+    return Answer(np.max(np.abs(second - 1)) <= within, text)
+
+
+def slip_condition(*cases: CaseView) -> Answer:
+    """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
+    true, ends = 0, 0
+    for case in cases:
+        stops = case.switches("slip_to_stick")
+        pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
+        true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
+        ends += stops.sizes["event"]
+    if not ends:
+        raise Missing("no case keeps an end of slip")
+    return Answer(
+        not true, f"The relation as printed is true at {true} of {ends} ends of slip, where the slider sticks."
+    )
+
+
+def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
+    """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two circles."""
+    first = [case["first_separation"] for case in evidence]
+    soon, all_soon = np.ptp(first[:4]) <= seconds, np.ptp(first) <= seconds  # nan if one does not separate
+    followed = (evidence[0], *evidence[3:])
+    nine, *others = (
+        (case.rate_of("separation"), case.phase_share("separation"), case.phase_share("stick")) for case in followed
+    )
+    more, *circles = [bool(np.allclose(found, nine, rtol=share)) for found in others]
+    names = ("nine modes", "8 nodal diameters", "one nodal circle", "two nodal circles")
+    rows = [
+        f"{name}: {rate:.0f} separations/s, separated {100 * apart:.1f} % and sticking {100 * stick:.1f} % of the time"
+        for name, (rate, apart, stick) in zip(names, (nine, *others), strict=True)
+    ]
+    times = ", ".join(f"{time:.2f}" for time in first)
+    return Answer(
+        TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE,
+        f"After the first separation at 385 N, 15.1 rad/s: {'; '.join(rows)}.",
+        f"First separation at {times} s with up to 4, 5, 6 and 8 nodal diameters, and with one and two nodal circles.",
+    )
+
+
+def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
+    ours = coupled_natural_frequencies(BASE)
+    other = shifted_frequencies(BASE.replace(normalization="orthonormal"))
+    return Answer(
+        np.all(np.abs(ours - np.sort(printed)) <= within),
+        f"{listed(ours, '.2f')} rad/s.",
+        f"Modes by Eq. (17) would give {listed(other, '.2f')} rad/s for the shifted ones.",
+    )
+
+
+def shifted_frequencies(p: Parameters) -> list[float]:
+    """Frequencies with the slider attached that are none of the disc alone, rad/s."""
+    alone = plate_modes(p)["omega"].to_numpy()
+    return [f for f in coupled_natural_frequencies(p) if np.min(np.abs(f - alone)) > 1e-6 * f]
+
+
+def moving_load(*, printed: float, within: float) -> Answer:
+    ours, modes = moving_load_speed(BASE), plate_modes(BASE)
+    shifted = float(np.min(modes["omega"] / (modes["diameters"] + 1)))
+    wrong = f"The printed value is the least ω_l/(l + 1), {shifted:.2f} rad/s: an index shifted by one."
+    holds = abs(ours - printed) <= within
+    return Answer(holds, f"The least ω_l/l is {ours:.2f} rad/s.", "" if holds else wrong)
+
+
+def moving_load_speed(p: Parameters) -> float:
+    """Critical speed of a load that moves around the disc: the least omega_l/l, rad/s."""
+    modes = plate_modes(p).query("diameters > 0")
+    return float(np.min(modes["omega"] / modes["diameters"]))
+
+
+def often(*cases: CaseView, factor: float, share: float) -> Answer:
+    rows, differ = [], []
+    for case, bonded in pairs(cases):
+        sticks, ratio = (case.stick, bonded.stick), width_ratio(case, bonded)
+        differ.append(ratio * factor <= 1 or max(sticks) >= factor * min(sticks))
+        rows.append(
+            f"{case.place}: disc {ratio:.2f} as far, stick {100 * sticks[0]:.1f} instead of {100 * sticks[1]:.1f} %"
+        )
+    return Answer(
+        sum(differ) >= share * len(differ),
+        f"With separation, in {sum(differ)} of {len(differ)} pairs: {'; '.join(rows)}.",
+    )
