@@ -1,5 +1,6 @@
 """Make the gallery of docs/ from finished figures: small pictures and the page that shows them."""
 
+import re
 from pathlib import Path
 
 import xarray as xr
@@ -37,10 +38,9 @@ OF_BENCHMARK = {
     "the second with separations.",
 }
 """Figures of the benchmark, and their captions."""
-FILM = (
-    "The 35 ms of Fig. 2b, slowed down about 170 times. Left: deflection of the disc from above, colours as "
-    "in Fig. B1. Right: the disc along the circle of radius r_0, and the slider. It is vermilion during separation."
-)
+FILM = "Disc and slider in the 35 ms of Fig. 2b, slowed down about 170 times"
+COLUMNS = 3
+"""Pictures in a row of the page."""
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
 PAGE = 2161
@@ -86,6 +86,17 @@ def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
         animation.save(path, writer=PillowWriter(fps=12), dpi=100)
 
 
+def page_of(shown: list[tuple[str, str]]) -> str:
+    """The page: small pictures with their titles, each a link to the picture itself."""
+    lines = ["# Gallery", "", "Figures of `make reproduce`; a click shows one in full.", ""]
+    for i in range(0, len(shown), COLUMNS):
+        row = shown[i : i + COLUMNS] + [("", "")] * (i + COLUMNS - len(shown))
+        titles = " | ".join(title for _, title in row)
+        pictures = " | ".join(f"[![{title}](gallery/{name})](gallery/{name})" if name else "" for name, title in row)
+        lines += [f"| {pictures} |", "| " + " | ".join(["---"] * COLUMNS) + " |", f"| {titles} |", ""]
+    return "\n".join(lines)
+
+
 @script
 def main() -> None:
     results, docs = Path("results"), Path("docs")
@@ -93,15 +104,14 @@ def main() -> None:
     axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
-    lines = ["# Gallery", "", "Made by `make gallery` from the figures of `make reproduce`.", ""]
+    shown: list[tuple[str, str]] = []  # picture and title
     for name in SHOWN:
         _, entry = entries[name]
         small = shrink(results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png")
-        number, _, title = " ".join(entry.title.split()).partition(": ")
-        lines += [f"![{number}](gallery/{small.name})", "", f"**{number}. {title}.** {entry.caption}", ""]
+        shown.append((small.name, " ".join(entry.title.split())))
     (case,) = load_cases([results / "paper" / "cases" / "F02.nc"]).values()
     film(case, docs / "gallery" / "film.webp")
-    lines += ["![Disc and slider in motion](gallery/film.webp)", "", f"**Disc and slider in motion.** {FILM}", ""]
+    shown.append(("film.webp", FILM))
     texts = {name: (entries[name][0], entries[name][1].plot.caption) for name in OF_GRIDS}
     texts |= {name: ("bench", text) for name, text in OF_BENCHMARK.items()}
     for name, (study, text) in texts.items():
@@ -109,5 +119,5 @@ def main() -> None:
         if source.is_file():
             shrink(source, small)
         if small.is_file():
-            lines += [f"![{text.partition('. ')[0]}](gallery/{small.name})", "", text, ""]
-    (docs / "gallery.md").write_text("\n".join(lines), encoding="utf-8")
+            shown.append((small.name, re.split(r"[.:] ", text)[0].rstrip(".")))
+    (docs / "gallery.md").write_text(page_of(shown), encoding="utf-8")

@@ -144,7 +144,7 @@ class Study:
         keys = document.model_fields_set
         if self.name in ("compiled", "bench"):  # folders beside those of studies
             faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
-        if document.options is not None:
+        if document.quantity is not None:
             try:
                 plots = {name: plot for name, plot in self._grid_plots if plot.study in ("", self.name)}
                 self.grid = GridStudy(document, plots)
@@ -159,7 +159,7 @@ class Study:
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
                 faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
-            elif isinstance(plot, Plot) and not plot.study and document.options is None:
+            elif isinstance(plot, Plot) and not plot.study and document.quantity is None:
                 rule = "shows a grid: this study has none, and no other one is named as its study"
                 faults.append(Fault.of(("figures", name, "kind"), plot.kind, rule))
         raise_faults(faults)
@@ -256,6 +256,7 @@ class Study:
             "is another file's study": path.stem in grids,
             "is the name of another folder of results": study.name == self.name and self.grid is None,
             "must be a grid alone": study.grid is None or study.cases or study.studies,
+            "must have no figures of other studies": any(p.study not in ("", study.name) for _, p in study._grid_plots),
         }
         faults += [f"{path}: study = {study.name!r}: {rule}" for rule, broken in wrong.items() if broken]
         if study.grid is not None:
