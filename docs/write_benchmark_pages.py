@@ -18,9 +18,8 @@ import pandas as pd
 import xarray as xr
 from docs.make_gallery import shrink
 
-from disc_model.benchmarks.answers import in_words
+from disc_model.benchmarks.answers import QUESTIONS, in_words
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.questions import QUESTIONS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.benchmarks.truncation import CONTACTS
 from disc_model.benchmarks.work_precision import DEFAULT, at_default, cost_at, headline, measured_points

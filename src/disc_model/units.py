@@ -222,7 +222,7 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
 class Strict(BaseModel):
     """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI.
 
-    Every way to make one raises a single `ParameterError` that lists all faults of its values, those of parts included.
+    The constructor and `model_validate` raise a single `ParameterError` that lists all faults, those of parts included.
     Rules between values are checked where each value by itself is right.
     """
 

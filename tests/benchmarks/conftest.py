@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from disc_model.benchmarks import answers, figures, scenes, work_precision
+from disc_model.benchmarks.answers import AnswerStatus, Reply
 from disc_model.benchmarks.methods import METHODS, SCENES, Method
 from disc_model.benchmarks.methods.base import MethodResult, RunStatus
-from disc_model.benchmarks.questions import AnswerStatus, Reply
 from disc_model.benchmarks.scenes import answer
 
 SET_UP = 1e-4
@@ -101,7 +101,7 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     def growth_rate(p, tol):
         return Reply(math.nan, 1e-4 / tol**0.1, AnswerStatus.NONE, "no cycle")
 
-    for name, function in (("ask", ask), ("onset", onset), ("growth_rate", growth_rate)):
+    for name, function in (("ask_model", ask), ("cycle_onset", onset), ("cycle_growth_rate", growth_rate)):
         monkeypatch.setattr(answers, name, function)
     monkeypatch.setattr(answers, "_richest", lambda: dict(ask({"n_diameters": 8})))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, figures, maps, questions, study
+from disc_model.benchmarks import answers, figures, maps, study
+from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
-from disc_model.benchmarks.questions import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.scenes import Verdict, errors
 from disc_model.benchmarks.truncation import truncation_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
@@ -128,22 +128,22 @@ def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
 @pytest.mark.compiled
 def test_the_engine_gives_the_right_answers() -> None:
     """By methods that share no code with it; 1e-9 s and 1e-6 1/s leave room for rounding that grows and for the fit."""
-    solve = questions.setting_of(METHODS["series"], 1e-12)
-    replies = questions.first_separation(solve, 10.0) | questions.after_separation(solve, 6.0)
-    replies |= questions.growth_rate(solve, 6.0)
+    solve = answers.setting_of(METHODS["series"], 1e-12)
+    replies = answers.first_separation(solve, 10.0) | answers.after_separation(solve, 6.0)
+    replies |= answers.growth_rate(solve, 6.0)
     tolerances = {"first_separation": 1e-9, "separation_rate": 1e-9, "period": 0, "growth_rate": 1e-6}
     for name, tolerance in tolerances.items():
-        assert replies[name].value == pytest.approx(questions.reference(name).value, abs=tolerance)
+        assert replies[name].value == pytest.approx(answers.reference(name).value, abs=tolerance)
     # sampled 20,000 times a second
-    assert replies["disc_range"].value == pytest.approx(questions.reference("disc_range").value, rel=2e-4)
+    assert replies["disc_range"].value == pytest.approx(answers.reference("disc_range").value, rel=2e-4)
     # what a deviation of finite size adds to the rate at which an infinitesimal one grows
-    rate = answers.growth_rate(questions.GROWING, 1e-12).value
-    assert rate == pytest.approx(questions.reference("growth_rate").value, abs=2e-5)
-    assert answers.onset(questions.SEPARATING, 1e-12).value == pytest.approx(15.0949, abs=5e-5)
-    no_cycle = answers.onset(questions.SEPARATING.replace(n_diameters=0), 1e-10)
+    rate = answers.cycle_growth_rate(answers.GROWING, 1e-12).value
+    assert rate == pytest.approx(answers.reference("growth_rate").value, abs=2e-5)
+    assert answers.cycle_onset(answers.SEPARATING, 1e-12).value == pytest.approx(15.0949, abs=5e-5)
+    no_cycle = answers.cycle_onset(answers.SEPARATING.replace(n_diameters=0), 1e-10)
     assert no_cycle[2:4] == (AnswerStatus.NONE, "no fold from 14.5 to 16 rad/s")
     # the rule broke off at a tolerance that the search for a cycle refuses
-    assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in (*answers.TOLERANCES, answers.DEFAULT))
+    assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in (*answers.CYCLE_SETTINGS, answers.DEFAULT))
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -157,7 +157,7 @@ def column(dataset: xr.Dataset, line: str, name: str) -> list:
 def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_the_stored(priced: xr.Dataset) -> None:
     np.testing.assert_allclose(column(priced, "rigid", "error"), [math.nan, 0.05, 0.0], atol=1e-12)
     assert column(priced, "rigid", "verdict") == [WRONG, RIGHT, RIGHT]
-    exact = questions.reference("first_separation").value
+    exact = answers.reference("first_separation").value
     np.testing.assert_allclose(
         column(priced, "late", "error"), [math.nan, 54.7 - exact, exact - 54.41, exact - 54.4001, math.nan], atol=1e-9
     )

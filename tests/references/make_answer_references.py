@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks import questions
+from disc_model.benchmarks import answers
+from disc_model.benchmarks.answers import Reply, Solve
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.questions import Reply, Solve
 from disc_model.benchmarks.scenes import stored
 from disc_model.errors import script
 from disc_model.parameters import Parameters
@@ -62,11 +62,11 @@ def first_separation() -> dict[str, Any]:
 
 def after_separation() -> dict[str, dict[str, Any]]:
     """Rate and period by heyoka; the range by two methods of short steps."""
-    start = questions.start_of("settled")
-    watched = Problem(questions.SETTLED, start, start.time + questions.SETTLED_SPAN, watched=True)
+    start = answers.start_of("settled")
+    watched = Problem(answers.SETTLED, start, start.time + answers.SETTLED_SPAN, watched=True)
     steps = [METHODS[name].solve(watched, setting).heights for name, setting in (("RK4", 2e-5), ("RK4", 1e-5))]
     coarse, fine = (high - low for low, high in steps)
-    return {name: twice(questions.after_separation, name) for name in ("separation_rate", "period")} | {
+    return {name: twice(answers.after_separation, name) for name in ("separation_rate", "period")} | {
         "disc_range": {"value": fine, "error": abs(fine - coarse), "by": "fixed steps of 2e-5 and 1e-5 s (RK4)"}
     }
 
@@ -77,16 +77,16 @@ def region() -> tuple[list[str], dict[str, Any]]:
     for tol in (TIGHT, TIGHTER):
         solve = by_heyoka(tol)
         maps.append(
-            [questions.cell(solve, questions.cell_parameters(index), np.inf)[0] for index in range(questions.SIDE**2)]
+            [answers.cell(solve, answers.cell_parameters(index), np.inf)[0] for index in range(answers.SIDE**2)]
         )
-    rows = np.array(maps[1]).reshape(questions.SIDE, questions.SIDE)
+    rows = np.array(maps[1]).reshape(answers.SIDE, answers.SIDE)
     unlike = float(np.mean(np.array(maps[0]) != np.array(maps[1])))
     return ["".join("01"[int(x)] for x in row) for row in rows], {"value": 0.0, "error": unlike, "by": HEYOKA}
 
 
 def fold() -> dict[str, Any]:
     speeds = [
-        float(continue_cycle(questions.SEPARATING.replace(Omega=14.8), "Omega", (14.5, 16.0), tol=tol).folds[0, 0])
+        float(continue_cycle(answers.SEPARATING.replace(Omega=14.8), "Omega", (14.5, 16.0), tol=tol).folds[0, 0])
         for tol in (1e-12, ENGINE)
     ]
     return {"value": speeds[1], "error": max(abs(speeds[1] - speeds[0]), 1e-12),
@@ -97,8 +97,8 @@ def fold() -> dict[str, Any]:
 def main(output: str) -> None:
     data: dict[str, Any] = {
         "starts": {
-            "settled": state_at(questions.SETTLED, questions.SETTLED_AT),
-            "growing": state_at(questions.GROWING, questions.GROWING_AT),
+            "settled": state_at(answers.SETTLED, answers.SETTLED_AT),
+            "growing": state_at(answers.GROWING, answers.GROWING_AT),
         },
         "references": {},
     }
@@ -110,10 +110,10 @@ def main(output: str) -> None:
     keep()
     data["references"]["first_separation"] = first_separation()
     data["references"] |= after_separation()
-    data["references"]["growth_rate"] = twice(questions.growth_rate, "growth_rate")
+    data["references"]["growth_rate"] = twice(answers.growth_rate, "growth_rate")
     keep()
     data["references"]["fold"] = fold()
-    onset = [questions.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)]
+    onset = [answers.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)]
     data["references"]["onset"] = entry(onset[1], max(0.5 * (o.high - o.low) for o in onset), HEYOKA)
     keep()
     data["region"], data["references"]["region"] = region()

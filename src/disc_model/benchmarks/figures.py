@@ -1,7 +1,4 @@
-"""Figures of the benchmark: speed against accuracy, failures of methods, and the effect of truncation.
-
-All are pure functions of the datasets of `disc_model.benchmarks`.
-"""
+"""Figures of the benchmark, from its datasets: speed against accuracy, failures of methods, effect of truncation."""
 
 import json
 import math
@@ -71,10 +68,7 @@ def _panels(
 
 
 def _cost_panel(ax: Axes, scene: xr.Dataset) -> dict[str, list[Line2D]]:
-    """Draw lines of all methods: correct results filled, wrong events hollow at the right edge.
-
-    Dotted lines leave out the time in Python between compiled phases, where it was measured. Returns legend entries.
-    """
+    """Draw lines of all methods, dotted ones without the time in Python; wrong events are hollow at the right edge."""
     handles: dict[str, list[Line2D]] = {}
     ax.set(xscale="log", yscale="log")
     wrong_at = 25.0
@@ -233,10 +227,7 @@ def answer_maps(*maps: xr.Dataset) -> Figure:
 def _map_panels(
     maps: Sequence[xr.Dataset], verdicts: Mapping[str, tuple[str, str]], borders: Mapping[Any, str], **size: float
 ) -> Figure:
-    """Panels with the shades of verdicts, and a legend of those that occur and of the borders by line style.
-
-    Fine settings, which cost more, are on the right.
-    """
+    """Panels with the shades of verdicts, fine settings on the right, and a legend of what occurs and of borders."""
     figure, axes = _panels(len(maps), "Real modes", columns=4, **size)
     shades = np.array([to_rgb(shade) for _, shade in verdicts.values()])
     for ax, dataset_of_map, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
@@ -368,12 +359,7 @@ def _lines(part: xr.Dataset, by: str, marked: str) -> list[Line]:
 def _against_modes(
     lines: Sequence[Line], name: str, ticks: Sequence[int], labels: Sequence[str], further: Line2D
 ) -> tuple[Figure, dict[str, Axes]]:
-    """Create eight panels over the number of real modes, by variable, and their legend.
-
-    name : of the list of panels in the texts
-    ticks : numbers of modes with a label
-    labels, further : names of the colours, and the last entry of the legend
-    """
+    """Create eight panels over the number of real modes, by variable, and a legend of labels that ends in `further`."""
     figure, shown = panels(PAGE, 3.9, 2, 4, sharex=True)
     axes = {panel[0]: ax for panel, ax in zip(_TEXTS[name], shown, strict=True)}
     marks = dict(zip(dict.fromkeys(mark for *_, mark in lines), _MARKS, strict=False))

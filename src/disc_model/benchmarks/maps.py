@@ -14,10 +14,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
-from disc_model.benchmarks.questions import (
+from disc_model.benchmarks.answers import (
     AnswerStatus,
     AnswerVerdict,
     Reply,
@@ -26,6 +23,9 @@ from disc_model.benchmarks.questions import (
     setting_of,
     verdict,
 )
+from disc_model.benchmarks.methods import METHODS, Method
+from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
 from disc_model.disc.plate import mode_arrays

@@ -1,7 +1,4 @@
-"""The runner of all studies of the benchmark: it measures points on one core and makes a dataset of the results.
-
-The variables of the datasets are in ``variables.toml``.
-"""
+"""The runner of all studies of the benchmark: it measures points on one core and makes a dataset of the results."""
 
 import enum
 import logging
@@ -47,8 +44,6 @@ def run(
 ) -> xr.Dataset:
     """Measure points on one core, and log what comes out.
 
-    Parameters
-    ----------
     table : of the variables in ``variables.toml``
     points : coordinates and settings by name
     measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point

@@ -1,10 +1,6 @@
-"""Effect of truncation on the results of a study, against nodal diameters and circles.
+"""Effect of truncation on the results of a study, against nodal diameters and circles: docs/truncation.md.
 
-`truncation_study` measures, for both normalisations, coupled frequencies, the growth rate of the stick-slip cycle and
-the first separation. It adds the range of the contact force, the effect of a plastic impact, and the cost.
-`contact_study` measures the effect of residual flexibility on these, and the motion after the separation.
-
-The results are in docs/truncation.md.
+`truncation_study` compares normalisations; `contact_study` measures the effect of residual flexibility.
 """
 
 import json

@@ -44,15 +44,10 @@ Settings = Mapping[str, Mapping[str, Sequence[float]]]
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
     """Measure all points; a method that gives up at a coarse setting is not tried at finer ones.
 
-    Parameters
-    ----------
     settings : those of all methods if not given
     rounds : number of measurements of quick points
 
-    Returns
-    -------
-    Dataset along (scene, solver, point), unused points nan; along (scene, solver) the fitted ``order_event`` and
-    ``order_state``, see `fitted_order`.
+    The dataset is along (scene, solver, point), unused points nan; along (scene, solver) are orders by `fitted_order`.
     """
     if settings is None:
         settings = {
@@ -124,10 +119,7 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
 
 
 def _whole_call() -> float:
-    """Processor time (s) of one call of `simulate` at its default for the scene ``stick_slip``, everything included.
-
-    It is the median of several calls: the first ones find caches filled by other methods.
-    """
+    """Processor time (s) of one whole call of `simulate` at its default for ``stick_slip``: the median of several."""
     problem, seconds = scenes.problem("stick_slip"), []
     for _ in range(21):
         began = clock.thread_time()
@@ -177,11 +169,7 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
-    """One row for each measured point, with its values and a derived column:
-
-    further : cost of a further simulated second without setting up; where it was not measured, that of the whole run,
-        which was so long that setting up is negligible
-    """
+    """One row for each measured point; ``further`` is the cost of a further second, or of a second of a long run."""
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
     frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
     return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
@@ -192,8 +180,6 @@ def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
 
     Costs are those of a further second, at that error by `cost_at`.  If the series engine's own error is larger, all
     methods are allowed that error.
-
-    points : `measured_points`
     """
     ratios: dict[str, dict[str, float]] = {}
     for scene in JUDGED:

@@ -32,12 +32,7 @@ class MergeError(DiscModelError):
 def merge_batches(
     batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
 ) -> xr.Dataset:
-    """Merge batches; raises `MergeError` if their dimensions disagree, or if they do not match the grid.
-
-    batches : as `disc_model.studies.run.run_batch` makes them
-    grid : dimensions, as from `disc_model.studies.grid.GridStudy.grid`
-    attrs : further attributes, such as the title
-    """
+    """Merge batches; raises `MergeError` if they disagree, or if they do not match `grid`, as of `GridStudy.grid`."""
     try:
         flat = xr.concat(
             batches, POINT, join="exact", combine_attrs="override", data_vars="all", coords="minimal", compat="equals"
@@ -144,18 +139,12 @@ def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
 
 
 def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:
-    """Put cases into one tree.
-
-    The root is a table with one row per case along the coordinate `case`: parameters, status, first separation and
-    statistics, each a variable with units. Below it every case has a group of its own, laid out as in its file: the
-    recorded variables and their lengths differ between cases:
+    """Put cases into one tree: a table of scalars along `case`, and below it a group for each, laid out as in its file.
 
         table = xarray.open_dataset("cases.nc")                                  # first_separation by case
         history = xarray.open_dataset("cases.nc", group="F13/history")           # one window of one case
-        tree = xarray.open_datatree("cases.nc")                                  # everything
 
-    cases : by id, the dataset of each case's file; failed cases have scalars only
-    labels : by id, texts that become variables of the table, such as title and reference
+    labels : by case, texts that become variables of the table, such as title and reference
     """
     rows = [tree.to_dataset() for tree in cases.values()]
     table = xr.concat(rows, dim="case", join="exact", combine_attrs="override", data_vars="all", coords="minimal")

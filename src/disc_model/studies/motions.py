@@ -63,10 +63,7 @@ def run_motions(text: str) -> xr.Dataset:
 
 
 def cycle_length(p: Parameters, state: State) -> float:
-    """Mean time between the releases of 0.5 s after a state (time 0), s; at least the in-plane free period.
-
-    The free period is returned where the slider no longer sticks.
-    """
+    """Mean time between the releases of 0.5 s after a state, s; at least, or without releases, the free period."""
     free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
     events = simulate(p, 0.5, initial_state=state).events
     released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()

@@ -188,8 +188,7 @@ class Tile:
     def _follow(self, index: Index) -> NearCycle | None:
         """The cycle that the static start follows at a point, if that is known.
 
-        This is the point's own cycle as long as the motion departs from it. The later motion is known at simulated
-        points only, which would then differ from their neighbours.
+        As long as the motion departs from the point's own cycle it is that one: the later is known at few points.
         """
         cycle, result = self._own(index), self.results.get(index)
         if not isinstance(result, OutcomeResult):

@@ -380,11 +380,9 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
-    """Raise DiscModelError if other study files of this name have made the results, which these would overwrite.
+    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results.
 
     The same files with further ones laid over them, or without these, are the same study in other detail.
-
-    owner : file that lists the study files of the last run
     """
     former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
     shorter = min(len(files), len(former))

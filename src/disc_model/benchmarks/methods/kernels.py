@@ -214,10 +214,7 @@ def smooth_rate(modes, c, law, y, dy):
 
 @_part
 def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
-    """One step of the classical fourth-order method from ``y``, whose rate is ``first``, to ``out``.
-
-    ``k`` (3, size) and ``z`` (size,) are work.
-    """
+    """One step of the classical fourth-order method from ``y``, whose rate is ``first``, to ``out``."""
     size = len(y)
     for j in range(size):
         z[j] = y[j] + 0.5 * h * first[j]

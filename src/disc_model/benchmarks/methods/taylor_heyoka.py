@@ -3,9 +3,7 @@
 The equations are arranged for the least work in heyoka.  Constants are merged into one coefficient per state.  The
 products of f with the modal states are shared by equations and contact force.  The force has one division, and the
 direction of slip is a parameter.  Loss of contact in stick needs no event: stick ends before.
-
-Options were compared at 1e-8 and 1e-10. Compact mode takes twice as long and ``slp_vectorize`` a tenth more;
-``force_avx512`` and fewer events in stick change nothing.
+Compact mode takes twice as long and ``slp_vectorize`` a tenth more; ``force_avx512`` changes nothing.
 """
 
 from __future__ import annotations
