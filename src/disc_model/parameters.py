@@ -476,9 +476,13 @@ class Parameters(Checked):
         """All numbers of the case that may change continuously, by name: parameters, ratios and `Disc.numbers`."""
         unused = {"D_star"} if self.damping_ratio is not None else {*PLATE} if self.disc is not None else set()
         unused |= {"contact_compliance"} if self.contact_compliance == 0 else set()  # a model of its own
-        own = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
-        ratios = {name: own[one] / own[two] for name, (one, two) in RATIOS.items() if one in own and own.get(two)}
-        return own | ratios | ({} if self.disc is None else self.disc.numbers)
+        numbers = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
+        ratios = {
+            name: numbers[upper] / numbers[two]
+            for name, (upper, two) in RATIOS.items()
+            if upper in numbers and numbers.get(two)
+        }
+        return numbers | ratios | ({} if self.disc is None else self.disc.numbers)
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""

@@ -95,12 +95,12 @@ def command(options: type[Any], **placeholders: str) -> Callable[[Callable[..., 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(function)
         def wrapped(**values: Any) -> None:
-            given = {name: value for name, value in values.items() if value not in (None, [])}
-            case = {option.name: given.pop(option.name) for option in case_options if option.name in given}
+            texts = {name: value for name, value in values.items() if value not in (None, [])}
+            case = {option.name: texts.pop(option.name) for option in case_options if option.name in texts}
             faults: list[str] = []
             p, choice = parameters_of(case, faults)
             try:
-                model = options(**given)
+                model = options(**texts)
             except ParameterError as error:
                 faults += error.faults
             raise_faults(faults)
@@ -123,6 +123,8 @@ def parameters_of(case: Given, faults: list[str]) -> tuple[Parameters, ModeChoic
         faults += (Fault.of(("disc",), case["disc"], str(fault)) for fault in inner)
     try:
         p, request = read_asked(values)
+        if faults:
+            return p, None
         warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
         choice = None if request is None else chosen_modes(p, request)
     except ParameterError as error:

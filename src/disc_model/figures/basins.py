@@ -50,14 +50,14 @@ class BasinShares(Plot):
             shares = study["basin_fraction_by_energy"].sel(energy=energy, attractor_class=classes)
             low = shares.cumsum("attractor_class") - shares.fillna(0)
             for class_ in classes:
-                one = {"attractor_class": class_}
+                selected = {"attractor_class": class_}
                 bars = {
                     "edgecolor": BLACK,
                     "linewidth": 0.4,
                     "facecolor": LOOKS[class_].face,
                     "hatch": LOOKS[class_].hatch,
                 }
-                ax.bar(along, shares.sel(one), width, low.sel(one), **bars)
+                ax.bar(along, shares.sel(selected), width, low.sel(selected), **bars)
             ax.set(ylim=(0, 1))
         axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
         _attractors(axes[-2], study, along)
@@ -96,13 +96,15 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     for i, energy in enumerate(study["energy"].values):
         label = "energies sampled" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
-    sample, found = study["critical_energy_sampled"].values, study["critical_energy"].values
+    sample, bound = study["critical_energy_sampled"].values, study["critical_energy"].values
     ax.plot(along, sample, "_", color=BLACK, markersize=6, label="lowest sampled")
-    ax.plot(along, np.where(found > 0, found, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
+    ax.plot(along, np.where(bound > 0, bound, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
     ax.set(ylabel="Critical energy (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
-        for place in along[found == 0]:
-            drawing.say(ax, "0", (place, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7)
+        for coordinate in along[bound == 0]:
+            drawing.say(
+                ax, "0", (coordinate, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7
+            )
     drawing.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)

@@ -64,15 +64,15 @@ class Bifurcation(Plot):
             dots.append(
                 (names.get(name, name), settled & (phase == code), DOT | {"color": color} | MARKS.get(name, {}))
             )
-        for label, there, look in dots:
-            if there.any():
-                ax.plot(position[there], values[there], linestyle="", label=label, **look)
+        for label, mask, look in dots:
+            if mask.any():
+                ax.plot(position[mask], values[mask], linestyle="", label=label, **look)
         drawing.mark_failed(ax, along[lost])
         moving = (phase >= 0).any(axis=1)
         slides = flag_names(study["kind"]) == "steady_sliding"
         at_edge: dict[str, Any] = {"color": GREY, "markersize": 4, "transform": ax.get_xaxis_transform()}
-        for label, marker, here in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
-            if (idle := along[here & ~moving & ~lost]).size:
+        for label, marker, mask in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
+            if (idle := along[mask & ~moving & ~lost]).size:
                 ax.plot(idle, np.full(idle.size, 0.02), marker, label=label, **at_edge)
         axes[-1].set_xlabel(xlabel)
         ax.set_ylabel(ylabel)
@@ -80,8 +80,8 @@ class Bifurcation(Plot):
         if "lyapunov" in overlays:
             _exponents(axes[2], overlays["lyapunov"], self.x)
         drawing.letters(axes)
-        for one in axes:
-            one.margins(x=0.01)  # no dot is cut at the edge
+        for panel in axes:
+            panel.margins(x=0.01)  # no dot is cut at the edge
         drawing.mark_cases(axes, {case: value * factor for case, value in self.paper_cases.items()})
         for handle in drawing.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
             if isinstance(handle, Line2D):

@@ -46,9 +46,11 @@ class Branches(Plot):
         figure, [ax] = panels(PAGE, 3.6)
         ax.set_yscale("log")
         for i in range(int(study["n_branches"])):
-            one = study.isel(branch=i)
-            height, color = 1e3 * one["range"].values, SEPARATED if one["separations"] > 0 else BLACK
-            draw_branch(ax, one["value"].values * factor, height, one["growth_rate"].values < 0, color, BENDS)
+            branch_data = study.isel(branch=i)
+            height, color = 1e3 * branch_data["range"].values, SEPARATED if branch_data["separations"] > 0 else BLACK
+            draw_branch(
+                ax, branch_data["value"].values * factor, height, branch_data["growth_rate"].values < 0, color, BENDS
+            )
         along = study["sweep_value"].values * factor
         for way, mark in enumerate("^v"):
             heights, separates = 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0
@@ -85,8 +87,8 @@ class Branches(Plot):
 
 def draw_branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, color: str, factor: float = np.inf) -> None:
     """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by more than a factor."""
-    there = np.isfinite(x)
-    x, y, stable = x[there], y[there], stable[there]
+    known = np.isfinite(x)
+    x, y, stable = x[known], y[known], stable[known]
     along, height = (x, y) if factor == np.inf else drawing.broken(x, np.log(y), np.log(factor))
     ax.plot(along, height if factor == np.inf else np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
@@ -97,8 +99,8 @@ def draw_branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, colo
 def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settled: np.ndarray, mark: str) -> None:
     """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
     shown = np.maximum(y, LOWEST)
-    for there, color in ((settled & ~separates, BLACK), (settled & separates, SEPARATED), (~settled, UNSETTLED)):
-        ax.plot(x[there], shown[there], mark, color=color, clip_on=False, **MARK)
+    for mask, color in ((settled & ~separates, BLACK), (settled & separates, SEPARATED), (~settled, UNSETTLED)):
+        ax.plot(x[mask], shown[mask], mark, color=color, clip_on=False, **MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
     for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(10)):

@@ -41,7 +41,7 @@ class Campbell(Plot):
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         """Allow several normalizations if the file chooses one."""
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
-        known = [str(one) for (one,) in values.get(NORM, ())]
+        known = [str(word) for (word,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
             yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
 
@@ -57,14 +57,14 @@ class Campbell(Plot):
             ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
             for low, high, _ in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
-            for one in met:
-                ax.axvline(one.Omega, color=GREY, linewidth=0.4, zorder=0)
+            for note in met:
+                ax.axvline(note.Omega, color=GREY, linewidth=0.4, zorder=0)
         _crossings(top, study, met)
         bottom.set_xlabel(drawing.axis_of("Omega")[0])
         below.set_axis_off()
         heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
         nothing = "the cycle's growth rate has no peak at a crossing"
-        phrase = "\n".join([heading if met else nothing, *(f"{i}  {one.phrase}" for i, one in enumerate(met, 1))])
+        phrase = "\n".join([heading if met else nothing, *(f"{i}  {note.phrase}" for i, note in enumerate(met, 1))])
         below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
         figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
         return figure
@@ -91,32 +91,40 @@ def noted(study: xr.Dataset) -> list[Noted]:
     rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))
     peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
     for first, after in drawing.stretches(np.nan_to_num(rate) > HIGH):
-        at = first + int(np.argmax(rate[first:after]))
-        beside = speeds[max(at - 1, 0)], speeds[min(at + 1, len(speeds) - 1)]
-        there = np.flatnonzero((beside[0] <= crossed) & (crossed <= beside[1]))
-        peaks.append((float(rate[at]), there.tolist()))
+        index = first + int(np.argmax(rate[first:after]))
+        beside = speeds[max(index - 1, 0)], speeds[min(index + 1, len(speeds) - 1)]
+        crossings_beside = np.flatnonzero((beside[0] <= crossed) & (crossed <= beside[1]))
+        peaks.append((float(rate[index]), crossings_beside.tolist()))
     places: dict[tuple[int, int], list[int]] = {}
     for height, crossings in peaks:
-        at = int(np.nanargmin(np.abs(rate - height)))
-        places.setdefault((at, int(np.nanargmax(by_mode[at]))), []).extend(crossings)
+        index = int(np.nanargmin(np.abs(rate - height)))
+        places.setdefault((index, int(np.nanargmax(by_mode[index]))), []).extend(crossings)
     least = LEAST * (1 - 1e-9)
-    found = [_rise(study, *place, sorted({*own})) for place, own in places.items() if by_mode[place] >= least]
+    notes = [
+        _rise(study, *peak, sorted({*crossing_indices}))
+        for peak, crossing_indices in places.items()
+        if by_mode[peak] >= least
+    ]
     # at fewer speeds, Newton's method may have failed
     wide = [(low, high) for low, high, count in gaps(study) if count >= 3]
-    found += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
-    return sorted(found)
+    notes += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
+    return sorted(notes)
 
 
-def _rise(study: xr.Dataset, at: int, mode: int, crossings: list[int]) -> Noted:
+def _rise(study: xr.Dataset, index: int, mode: int, crossings: list[int]) -> Noted:
     """A peak at a speed, described by the mode that leads there, which need not be that of a crossing."""
-    peak = study.isel(Omega=at, mode=mode)
+    peak = study.isel(Omega=index, mode=mode)
     texts = [f"{float(peak['Omega']):.2f} rad/s"]
     for i in crossings:
-        one = study.isel(crossing=i)
-        line = "$f_s$" if flag_names(one["crossing_line"]) == "stick_slip" else _TURN
-        texts.append(f"{float(one['crossing_multiple']):g} {line} = {float(one['crossing_frequency']):.0f} Hz")
-    own, rate = float(peak["sliding_frequency"]), float(peak["cycle_growth_rate"])
-    return Noted(float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {own:.0f} Hz mode, {rate:.2g}/s")
+        crossing = study.isel(crossing=i)
+        line = "$f_s$" if flag_names(crossing["crossing_line"]) == "stick_slip" else _TURN
+        texts.append(
+            f"{float(crossing['crossing_multiple']):g} {line} = {float(crossing['crossing_frequency']):.0f} Hz"
+        )
+    sliding_frequency, rate = float(peak["sliding_frequency"]), float(peak["cycle_growth_rate"])
+    return Noted(
+        float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {sliding_frequency:.0f} Hz mode, {rate:.2g}/s"
+    )
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
@@ -138,13 +146,13 @@ def colour_of(l: int) -> str:
 def _parts(study: xr.Dataset, name: str) -> list[tuple[int, np.ndarray]]:
     """A variable by mode, cut where the nodal diameters of its number change: diameters and values, nan elsewhere."""
     kinds, diameters = flag_names(study["mode_kind"]), study["diameters"].values
-    found = []
+    lines = []
     for i in range(study.sizes["mode"]):
-        own = np.where(kinds[:, i] == "disc", diameters[:, i], -1)
-        there = kinds[:, i] != "none"
-        for l in np.unique(own[there]):
-            found.append((int(l), np.where(there & (own == l), study[name].values[:, i], np.nan)))
-    return found
+        of_disc = np.where(kinds[:, i] == "disc", diameters[:, i], -1)
+        present = kinds[:, i] != "none"
+        for l in np.unique(of_disc[present]):
+            lines.append((int(l), np.where(present & (of_disc == l), study[name].values[:, i], np.nan)))
+    return lines
 
 
 def _frequencies(ax: Axes, study: xr.Dataset) -> None:
@@ -209,13 +217,13 @@ def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
 def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
     """Draw small open circles at all crossings, and full ones at those with a number above the panel."""
     ax.plot(study["crossing_Omega"], study["crossing_frequency"], "o", **RING)
-    numbered = study.isel(crossing=[i for one in met for i in one.crossings])
+    numbered = study.isel(crossing=[i for note in met for i in note.crossings])
     ax.plot(numbered["crossing_Omega"], numbered["crossing_frequency"], "o", **DOT)
     low, high = ax.get_xlim()
-    places = spread([one.Omega for one in met], 0.055 * (high - low), low, high)
-    for i, (one, place) in enumerate(zip(met, places, strict=True), 1):
+    places = spread([note.Omega for note in met], 0.055 * (high - low), low, high)
+    for i, (note, x) in enumerate(zip(met, places, strict=True), 1):
         ax.annotate(
-            str(i), (one.Omega, 1), xycoords=("data", "axes fraction"), xytext=(place, 1.03),
+            str(i), (note.Omega, 1), xycoords=("data", "axes fraction"), xytext=(x, 1.03),
             textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=7,
             arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": GREY, "shrinkA": 0, "shrinkB": 0},
         )  # fmt: skip

@@ -62,7 +62,7 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
     """Cells between two that have one other word: single ones, and strips that are one cell wide."""
     around = np.pad(words, 1)
     pairs = ((around[:-2, 1:-1], around[2:, 1:-1]), (around[1:-1, :-2], around[1:-1, 2:]))
-    return np.asarray(np.any([(one == other) & (one != words) & (one != "") for one, other in pairs], axis=0))
+    return np.asarray(np.any([(word == other) & (word != words) & (word != "") for word, other in pairs], axis=0))
 
 
 def scale_of(name: str, values: Array) -> str:
@@ -77,12 +77,12 @@ def scale_of(name: str, values: Array) -> str:
 
 def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of) -> Edges:
     """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
-    found = []
+    sides = []
     for name in map(str, plane.dims):
         values = plane[name].values * label_of(plane[name])[1]
         log = scale(name, values) == "log"
-        found.append(np.exp(edges(np.log(values))) if log else edges(values))
-    return found[1], found[0]
+        sides.append(np.exp(edges(np.log(values))) if log else edges(values))
+    return sides[1], sides[0]
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
@@ -105,18 +105,18 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
         light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
     dark = light < DARK
     for word, look in looks.items():
-        for ink, there in ((BLACK, ~dark), ("white", dark)):
-            here = there & (words == word)
-            if look.hatch and here.any():
-                ax.add_patch(PathPatch(_outline(sides, here), fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
+        for ink, ground in ((BLACK, ~dark), ("white", dark)):
+            mask = ground & (words == word)
+            if look.hatch and mask.any():
+                ax.add_patch(PathPatch(_outline(sides, mask), fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
 
 
-def _outline(sides: Edges, there: NDArray[np.bool_]) -> Outline:
+def _outline(sides: Edges, mask: NDArray[np.bool_]) -> Outline:
     """The outlines of all these cells as one path: a hatch of each cell would take a hundred times as long."""
     from matplotlib.path import Path
 
-    (low, left), (x, y) = np.nonzero(there), sides
-    corners = [(x[left + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    (low, leftmost), (x, y) = np.nonzero(mask), sides
+    corners = [(x[leftmost + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
     return Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
 
 
@@ -166,7 +166,7 @@ def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Data
     """
     from cmcrameri import cm
 
-    norm = growth_norm(np.concatenate([one["growth_rate"].values.ravel() for one in panels]))
+    norm = growth_norm(np.concatenate([panel["growth_rate"].values.ravel() for panel in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):
         sides, without = edges_of(data["growth_rate"]), cycles_of(data)
@@ -215,9 +215,9 @@ def cycles_of(data: xr.Dataset) -> Names:
 
 def alone(rate: Array) -> NDArray[np.bool_]:
     """Cells whose growth rate differs from that of the eight around them: of another cycle, or a narrow resonance."""
-    place = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
-    padded = np.pad(place, 1, constant_values=np.nan)
+    share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
+    padded = np.pad(share, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = np.abs(place[..., None, None] - around) < 0.1  # of the colour scale
+    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale
     # each cell equals itself
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)

@@ -130,13 +130,15 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
 
     Onsets include the lowest speed of the scan if it separates already.
     """
-    one = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
-    there = (flag_names(one["crossing_kind"]) == kind) & np.isfinite(one["crossing"].values)
-    found = [speeds[here] for speeds, here in zip(one["crossing"].values, there, strict=True)]
+    of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
+    mask = (flag_names(of_horizon["crossing_kind"]) == kind) & np.isfinite(of_horizon["crossing"].values)
+    speeds_of_loads = [speeds[row] for speeds, row in zip(of_horizon["crossing"].values, mask, strict=True)]
     if kind == "begins":
-        lowest = one["critical_speed"].values[:, None]
-        found = [np.union1d(speeds, low[np.isfinite(low)]) for speeds, low in zip(found, lowest, strict=True)]
-    return found
+        lowest = of_horizon["critical_speed"].values[:, None]
+        speeds_of_loads = [
+            np.union1d(speeds, low[np.isfinite(low)]) for speeds, low in zip(speeds_of_loads, lowest, strict=True)
+        ]
+    return speeds_of_loads
 
 
 def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
@@ -145,12 +147,12 @@ def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
     The two are nearest to each other; a crossing without such a partner ends a branch.
     """
     links = []
-    for i, (here, ahead) in enumerate(pairwise(speeds)):
-        if here.size and ahead.size:
-            apart = np.abs(here[:, None] - ahead[None, :])
+    for i, (current, ahead) in enumerate(pairwise(speeds)):
+        if current.size and ahead.size:
+            apart = np.abs(current[:, None] - ahead[None, :])
             # speeds are rounded, so that two may be as near
             nearest = np.isclose(apart, apart.min(0), rtol=1e-9) & np.isclose(apart, apart.min(1)[:, None], rtol=1e-9)
-            links += [(i, float(here[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
+            links += [(i, float(current[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
     return links
 
 
@@ -158,10 +160,10 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
     loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
     # a greater change with the load, in rad/s per N, leads to another range of speeds
-    links = [(i, one, two) for i, one, two in branches(speeds) if abs(one - two) < 0.2 * (loads[i + 1] - loads[i])]
+    links = [(i, a, b) for i, a, b in branches(speeds) if abs(a - b) < 0.2 * (loads[i + 1] - loads[i])]
     # a gap after each pair
-    pairs = [[(one, loads[i]), (two, loads[i + 1]), (np.nan, np.nan)] for i, one, two in links]
-    alone = [[(speed, load), (np.nan, np.nan)] for load, found in zip(loads, speeds, strict=True) for speed in found]
+    pairs = [[(a, loads[i]), (b, loads[i + 1]), (np.nan, np.nan)] for i, a, b in links]
+    alone = [[(speed, load), (np.nan, np.nan)] for load, row in zip(loads, speeds, strict=True) for speed in row]
     ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
 
 
@@ -175,14 +177,16 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
             _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
         elif later := [
             (speed, load)
-            for load, found, known in zip(study["N"].values, speeds_of(study, horizon, "begins"), longest, strict=True)
-            for speed in found
+            for load, first_speeds, known in zip(
+                study["N"].values, speeds_of(study, horizon, "begins"), longest, strict=True
+            )
+            for speed in first_speeds
             if not np.isclose(known, speed).any()
         ]:
             ax.plot(*np.transpose(later), linestyle="", label=f"at another speed within {horizon:g} s", **look)
     ends = speeds_of(study, horizons[0], "ends")
     if sum(map(len, ends)):
-        loads = np.repeat(study["N"].values, [found.size for found in ends])
+        loads = np.repeat(study["N"].values, [row.size for row in ends])
         ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=3, label="end of separation")
 
 
@@ -234,9 +238,9 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     rate = cycle["growth_rate"]
     speeds, loads = rate["Omega"].values, rate["N"].values
     lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)
-    there = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
+    stable = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
     look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
-    ax.pcolormesh(speeds, loads, np.ma.masked_where(~there, there), cmap=ListedColormap([ORANGE]), **look)
+    ax.pcolormesh(speeds, loads, np.ma.masked_where(~stable, stable), cmap=ListedColormap([ORANGE]), **look)
     ax.fill_between(
         [], [], [], color=ORANGE, alpha=0.25, label="the cycle is stable where the\nsweep down still separates"
     )

@@ -47,8 +47,8 @@ class Motion(NamedTuple):
         """The motion through states such as those of `disc_model.snapshots`."""
         time, psi, u = (np.array([getattr(state, name) for state in states]) for name in ("time", "psi", "u"))
         slider = p.Omega * time - psi
-        own = np.transpose([state.a + 1j * state.b for state in states])
-        turned = own * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
+        shapes = np.transpose([state.a + 1j * state.b for state in states])
+        turned = shapes * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
         return cls(p, time, turned, slider, u, np.array([state.phase for state in states]))
 
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
@@ -100,8 +100,8 @@ def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> QuadMesh:
     r, theta = np.linspace(inner, outer, RADII), np.linspace(0, 2 * np.pi, ANGLES)
     mesh = _draw_plane(ax, p, 1e3 * motion.deflection(i, r, theta), scale, r, theta)
     angle = motion.slider[i]
-    place = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
-    ax.plot(*place, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
+    point = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
+    ax.plot(*point, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
     # a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged
     edge, middle = 1e3 * outer, 0.6 * 1e3 * inner
     ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)

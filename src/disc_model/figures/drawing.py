@@ -189,20 +189,20 @@ def flags_of(variable: xr.DataArray) -> list[str]:
     return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
 
 
-def picked(study: xr.Dataset, at: Mapping[str, float | str]) -> xr.Dataset:
+def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
     """A grid study at values of some dimensions; dimensions of one value are dropped."""
-    for dim, value in at.items():
+    for dim, value in values.items():
         study = study.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
     return study.squeeze()
 
 
-def gaps(study: xr.Dataset, found: xr.DataArray) -> dict[str, xr.DataArray]:
+def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the word of their status; without those that a rule excludes."""
-    words, gone = statuses(study), found.isnull()
+    words, gone = statuses(study), variable.isnull()
     names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
     names.pop(EXCLUDED, None)
     each = {name: gone & words.isin([word for word in names if names[word] == name]) for name in names.values()}
-    return {name: there for name, there in each.items() if there.any()}
+    return {name: mask for name, mask in each.items() if mask.any()}
 
 
 def what_case(values: Mapping[str, Any]) -> str:
@@ -214,26 +214,26 @@ def what_case(values: Mapping[str, Any]) -> str:
     return ", ".join(filter(None, [numbers, *words]))
 
 
-def slices(found: Values, by: str | None) -> list[tuple[str, Values]]:
+def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
     """Label and values of each slice along a dimension; one slice without a dimension.
 
     A slice of a zip is labelled by its parameters.  Words are ordered as in `WORDS`, not alphabetically as in datasets.
     """
     if by is None:
-        return [("", found)]
-    along = [str(name) for name, values in found.coords.items() if values.dims == (by,)]
+        return [("", variable)]
+    along = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
     ranks = {word: i for i, word in enumerate(WORDS)}  # words that are not among them keep their order
-    each = [found.isel({by: i}) for i in range(found.sizes[by])]
-    each.sort(key=lambda one: [ranks.get(x, 0) if isinstance(x, str) else x for x in (one[n].item() for n in along)])
-    return [(", ".join(coordinate_text(one, name) for name in along), one) for one in each]
+    each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
+    each.sort(key=lambda part: [ranks.get(x, 0) if isinstance(x, str) else x for x in (part[n].item() for n in along)])
+    return [(", ".join(coordinate_text(part, name) for name in along), part) for part in each]
 
 
-def coordinate_text(one: xr.DataArray | xr.Dataset, by: str) -> str:
+def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     """Label of a panel or a line."""
-    value = one[by].item()
+    value = data[by].item()
     if isinstance(value, str):
         return WORDS.get(value, value)
-    label, factor = label_of(one[by])
+    label, factor = label_of(data[by])
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
     name, _, unit = label.rpartition(" (")
@@ -245,16 +245,16 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
 
     The label of the disc's fixed point states its angle.
     """
-    at = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
-    label, factor = axis_of(name, rf", $\theta$ = {at}" if name.startswith("w_point") else "")
+    angles = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
+    label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
 
 
 def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
     """Draw the range of a variable against time, as a band that stays visible where it is thin."""
-    time, (_, factor, own) = ranges["time"].values, sampled(name)
+    time, (_, factor, usual_color) = ranges["time"].values, sampled(name)
     low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
-    ax.fill_between(time, low, high, color=color or own, linewidth=0.5, label=label)
+    ax.fill_between(time, low, high, color=color or usual_color, linewidth=0.5, label=label)
     ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
 
 
@@ -287,19 +287,19 @@ def edges(values: np.ndarray) -> np.ndarray:
     return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
 
 
-def stretches(there: np.ndarray) -> list[tuple[int, int]]:
+def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
     """Runs of True: index of the first element, and the index after the last."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], there, [0]])))
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask, [0]])))
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:
     """Mark the paper's cases by lines, named in the first panel: left of the first line, right of the next."""
-    for i, (case, place) in enumerate(places.items()):
+    for i, (case, x) in enumerate(places.items()):
         for ax in axes:
-            ax.axvline(place, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
+            ax.axvline(x, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = 2 * (-1) ** (i + 1)
-        say(axes[0], case, (place, height), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
+        say(axes[0], case, (x, height), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
@@ -312,11 +312,11 @@ def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **
             say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
 
 
-def say(ax: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
+def say(ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
     """Write a few words beside a point, on the side to which an offset in points leads."""
     across, up = np.sign(offset)
     ha, va = {-1: "right", 0: "center", 1: "left"}[across], {-1: "top", 0: "center", 1: "bottom"}[up]
-    ax.annotate(text, at, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+    ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
 def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
@@ -378,10 +378,10 @@ def mark_failed(
     if not values.size:
         return
     low = np.full(values.shape, 0.02)
-    place, transform = (
+    anchor, transform = (
         ((values, low), ax.get_xaxis_transform()) if on == "x" else ((low, values), ax.get_yaxis_transform())
     )
-    ax.plot(*place, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
+    ax.plot(*anchor, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -402,10 +402,12 @@ def by_itself(draw: Callable[..., Axes | np.ndarray]) -> Callable[..., Any]:
 def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> list[Axes]:
     """The axes that are given, as many as there are panels; or those of a new figure, which pyplot shows."""
     if ax is not None:
-        given = list(np.ravel(ax))
-        if len(given) != rows * columns:
-            raise ParameterError(Fault(("ax",), f"{len(given)} axes", f"must be {rows * columns}, one for each panel"))
-        return given
+        panels_given = list(np.ravel(ax))
+        if len(panels_given) != rows * columns:
+            raise ParameterError(
+                Fault(("ax",), f"{len(panels_given)} axes", f"must be {rows * columns}, one for each panel")
+            )
+        return panels_given
     from matplotlib import pyplot
 
     figure = pyplot.figure(figsize=(width, height), layout="constrained")

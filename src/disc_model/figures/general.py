@@ -71,42 +71,42 @@ class General(Plot):
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
-        own = {name: dims[name] for name in variables[self.variable] if name in dims}
+        dims_of_variable = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
-        for place, name in places.items():
-            yield from self._wrong_place(place, name, own)
+        for role, name in places.items():
+            yield from self._wrong_place(role, name, dims_of_variable)
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
-            place = "y" if self.axes.get("y") == name else "by"
-            yield Fault.of((place,), name, "must differ from the other dimensions shown")
-        left = {name: values for name, values in own.items() if name not in used}
+            role = "y" if self.axes.get("y") == name else "by"
+            yield Fault.of((role,), name, "must differ from the other dimensions shown")
+        free_dims = {name: values for name, values in dims_of_variable.items() if name not in used}
         for name, value in self.at.items():
-            if name not in left:
-                rule = f"is no dimension that remains (known: {', '.join(left) or 'none'})"
+            if name not in free_dims:
+                rule = f"is no dimension that remains (known: {', '.join(free_dims) or 'none'})"
                 yield Fault.of(("at", name), value, rule)
-            elif left[name] and not any(_same(value, one) for one in left[name]):
-                yield Fault.of(("at", name), value, f"must be one of {_listed(left[name])}")
-        for name, values in left.items():
+            elif free_dims[name] and not any(_same(value, known) for known in free_dims[name]):
+                yield Fault.of(("at", name), value, f"must be one of {_listed(free_dims[name])}")
+        for name, values in free_dims.items():
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
                 yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
 
-    def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
-        if name not in own:
-            yield Fault.of((place,), name, f"is no dimension of {self.variable}{suggestion(name, own)}")
-        elif place == "by":
-            if len(own[name]) > self.room:
-                yield Fault.of((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")
-        elif any(isinstance(value, str | tuple) for value in own[name]):
-            yield Fault.of((place,), name, "must be one parameter, and a number")
-        elif len(own[name]) == 1:
-            yield Fault.of((place,), name, "must have two values or more")
+    def _wrong_place(self, role: str, name: str, dims: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
+        if name not in dims:
+            yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims)}")
+        elif role == "by":
+            if len(dims[name]) > self.room:
+                yield Fault.of((role,), name, f"has {len(dims[name])} values, and there is room for {self.room}")
+        elif any(isinstance(value, str | tuple) for value in dims[name]):
+            yield Fault.of((role,), name, "must be one parameter, and a number")
+        elif len(dims[name]) == 1:
+            yield Fault.of((role,), name, "must have two values or more")
 
 
-def _same(one: Any, other: Any) -> bool:
-    if isinstance(one, str) or isinstance(other, str | tuple):
-        return bool(one == other)
-    return math.isclose(one, other, rel_tol=1e-12)
+def _same(value: Any, other: Any) -> bool:
+    if isinstance(value, str) or isinstance(other, str | tuple):
+        return bool(value == other)
+    return math.isclose(value, other, rel_tol=1e-12)
 
 
 def _listed(values: Sequence[Any]) -> str:
@@ -115,9 +115,9 @@ def _listed(values: Sequence[Any]) -> str:
     return ", ".join(texts if len(texts) <= 12 else [*texts[:6], "...", texts[-1]])
 
 
-def remaining(found: xr.DataArray, plot: General) -> str | None:
+def remaining(variable: xr.DataArray, plot: General) -> str | None:
     """The dimension that is on no axis, if there is one."""
-    return next((str(name) for name in found.dims if name not in plot.axes.values()), None)
+    return next((str(name) for name in variable.dims if name not in plot.axes.values()), None)
 
 
 def scale(name: str, values: np.ndarray) -> str:
@@ -162,17 +162,17 @@ class HeatMap(General):
         study = drawing.picked(study, self.at)
         ruled = EXCLUDED in study["status"].attrs["flag_meanings"]
         left_out = drawing.statuses(study) == EXCLUDED
-        found = study[self.variable].where(~left_out) if ruled else study[self.variable]
-        by = remaining(found, self)
-        shown = drawing.slices(found, by)
+        variable = study[self.variable].where(~left_out) if ruled else study[self.variable]
+        by = remaining(variable, self)
+        shown = drawing.slices(variable, by)
         figure, axes = panels(PAGE if len(shown) > 1 else COLUMN * 1.2, 2.9, 1, len(shown), sharex=True, sharey=True)
         handles: list[Patch] = []
         if self.variable == "growth_rate" and not self.log:
             handles = _growth(figure, axes, study, self, by)
         else:
-            words, colours = drawing.flags_of(found), _colours(found, self)
-            if found.dtype.kind == "i" and not words and found.max() < FEW:  # a count
-                words = [str(count) for count in range(int(found.max()) + 1)]
+            words, colours = drawing.flags_of(variable), _colours(variable, self)
+            if variable.dtype.kind == "i" and not words and variable.max() < FEW:  # a count
+                words = [str(count) for count in range(int(variable.max()) + 1)]
                 colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
             for ax, (_, panel) in zip(axes, shown, strict=True):
                 ax.patch.set(linewidth=0, **HATCH)
@@ -181,8 +181,8 @@ class HeatMap(General):
                 for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
                     _cells(ax, panel.where(panel), self, cmap=ListedColormap(["white"]))
                 handles += patches(CYCLE_LOOKS, {EXCLUDED})
-            colour_bar(figure, axes, mesh, drawing.label_of(found)[0], words)
-            if not words and (gaps := drawing.gaps(study, found)):
+            colour_bar(figure, axes, mesh, drawing.label_of(variable)[0], words)
+            if not words and (gaps := drawing.gaps(study, variable)):
                 handles.append(Patch(label=", ".join(gaps), **HATCH))
         for axis, name in self.axes.items():  # axes are shared
             axes[0].set(**{f"{axis}scale": scale(name, study[name].values)})
@@ -194,7 +194,7 @@ class HeatMap(General):
         ]
         for ax, name in zip(axes, names, strict=True):
             ax.set_title(name if len(axes) > 1 else "", loc="left")
-            ax.set(xlabel=drawing.label_of(found[self.x])[0], ylabel=drawing.label_of(found[self.y])[0])
+            ax.set(xlabel=drawing.label_of(variable[self.x])[0], ylabel=drawing.label_of(variable[self.y])[0])
             ax.label_outer()
         if handles:
             figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
@@ -204,7 +204,7 @@ class HeatMap(General):
 def _growth(figure: Figure, axes: Sequence[Axes], study: xr.Dataset, plot: HeatMap, by: str | None) -> list[Patch]:
     """Draw growth rates, or the status without a cycle, as in all growth maps."""
     names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
-    shown = [one.transpose(plot.y, plot.x) for _, one in drawing.slices(study[names], by)]
+    shown = [plane.transpose(plot.y, plot.x) for _, plane in drawing.slices(study[names], by)]
     return patches(CYCLE_LOOKS, growth_panels(figure, axes, shown))
 
 
@@ -219,14 +219,14 @@ def _cells(ax: Axes, panel: xr.DataArray, plot: HeatMap, **colours: Any) -> Scal
     return ax.pcolormesh(*edges_of(plane, scale), values, rasterized=True, **colours)
 
 
-def _colours(found: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
+def _colours(variable: xr.DataArray, plot: HeatMap) -> dict[str, Any]:
     """Colour map and scale for matplotlib."""
     from cmcrameri import cm
     from matplotlib.colors import LogNorm, Normalize
 
-    if words := drawing.flags_of(found):
+    if words := drawing.flags_of(variable):
         return in_steps([COLOURS[i % len(COLOURS)] for i in range(len(words))])
-    values = found.values[np.isfinite(found.values)]
+    values = variable.values[np.isfinite(variable.values)]
     if plot.log:
         above = values[values > 0]
         low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
@@ -258,14 +258,14 @@ class CurvePlot(General):
         from matplotlib.cm import ScalarMappable
 
         study = drawing.picked(study, self.at)
-        found = study[self.variable]
-        by = remaining(found, self)
-        lines = drawing.slices(found, by)
-        numbers = found[by] if by in found.coords and found[by].dtype.kind in "fi" else None
+        variable = study[self.variable]
+        by = remaining(variable, self)
+        lines = drawing.slices(variable, by)
+        numbers = variable[by] if by in variable.coords and variable[by].dtype.kind in "fi" else None
         figure, [ax] = panels(COLUMN, 2.9)
-        label, factor = drawing.label_of(found[self.x])
-        along = found[self.x].values * factor
-        words = drawing.flags_of(found)
+        label, factor = drawing.label_of(variable[self.x])
+        along = variable[self.x].values * factor
+        words = drawing.flags_of(variable)
         colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
         jump = np.inf if self.log or self.variable != "growth_rate" else LINEAR
         for colour, (text, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
@@ -285,12 +285,12 @@ class CurvePlot(General):
             ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
         ax.set_xscale(scale(self.x, along))
         ax.margins(0.03)
-        ax.set(xlabel=label, ylabel=fill(drawing.label_of(found)[0], 32))
+        ax.set(xlabel=label, ylabel=fill(drawing.label_of(variable)[0], 32))
         if words:
             ax.set_yticks(range(len(words)), labels=words)
-        for (name, gone), mark in zip(drawing.gaps(study, found).items(), "x+|12", strict=False):
-            there = gone.any([dim for dim in gone.dims if dim != self.x]).values
-            drawing.mark_failed(ax, along[there], name=name, mark=mark)
+        for (name, gone), mark in zip(drawing.gaps(study, variable).items(), "x+|12", strict=False):
+            mask = gone.any([dim for dim in gone.dims if dim != self.x]).values
+            drawing.mark_failed(ax, along[mask], name=name, mark=mark)
         if numbers is not None:
             label, factor = drawing.label_of(numbers)
             steps = ScalarMappable(**in_steps(colours))

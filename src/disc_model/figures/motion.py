@@ -66,13 +66,13 @@ def shade_phases(axes: Sequence[Axes], window: xr.Dataset) -> list[Artist]:
     spans = {name: drawing.stretches(phase == PHASES.index(name)) for name in SHADES}
     if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
         return []
-    for name, found in spans.items():
-        bars = [(borders[first], borders[after] - borders[first]) for first, after in found]
+    for name, colour_spans in spans.items():
+        bars = [(borders[first], borders[after] - borders[first]) for first, after in colour_spans]
         for ax in axes:
             ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
     looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
-    there = {name for name in PHASES if (phase == PHASES.index(name)).any()}
-    return [Patch(label=name, **looks[name]) for name in PHASES if name in there]
+    present = {name for name in PHASES if (phase == PHASES.index(name)).any()}
+    return [Patch(label=name, **looks[name]) for name in PHASES if name in present]
 
 
 def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
@@ -187,7 +187,7 @@ def draw_sections(
     """
     first, time = float(case["first_separation"]), samples["time"].values
     since = np.max([settling(time, samples[name].values).since for name in ("psi", "w_point")])
-    found = stages(time, samples["phase"].values, first, float(since))
+    masks = stages(time, samples["phase"].values, first, float(since))
     slider, disc = axes
     for ax, name in ((slider, "psi"), (disc, "w_point")):
         fitted = [samples, *compared] if ax is slider else [samples]
@@ -198,14 +198,14 @@ def draw_sections(
             limits = _limits(np.concatenate([section[variable] for section in fitted]) * factor)
             ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
-            there = getattr(found, stage)
-            look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(there.sum() > 2000)}
-            ax.scatter(*(values[there] for values in coordinates), **look)
-    names = BY_SEPARATION if found.divided_by_separation else BY_SETTLING
-    names = {stage: name for stage, name in names.items() if getattr(found, stage).any()}
+            mask = getattr(masks, stage)
+            look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
+            ax.scatter(*(values[mask] for values in coordinates), **look)
+    names = BY_SEPARATION if masks.divided_by_separation else BY_SETTLING
+    names = {stage: name for stage, name in names.items() if getattr(masks, stage).any()}
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
     title = "Separation ignored:" if bonded else "No separation:"
-    if found.divided_by_separation:
+    if masks.divided_by_separation:
         title = f"First separation at {first:.2f} s:"
     marks = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
     return [disc.scatter([], [], s=0, label=title), *marks]
@@ -230,7 +230,7 @@ class PoincareSections(CasePlot):
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 2.75, 1, 2)
-        samples, *compared = (dataset.samples(one, "poincare", at_least=1) for one in cases)
+        samples, *compared = (dataset.samples(case, "poincare", at_least=1) for case in cases)
         drawing.letters(axes)
         handles = draw_sections(axes, cases[0], samples, compared)
         figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)

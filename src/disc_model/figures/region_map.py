@@ -46,10 +46,10 @@ class RegionMap(StabilityMap):
         upward = [name for name in study["outcome"].dims if name in (self.x, self.y)] == [self.y, self.x]
         outcomes: set[str] = set()
         lines: list[Artist] = []
-        for upper, lower, one in zip(above, below, shown, strict=True):
-            outcomes |= cells.outcome_cells(upper, one["outcome"])
+        for upper, lower, plane in zip(above, below, shown, strict=True):
+            outcomes |= cells.outcome_cells(upper, plane["outcome"])
             for ax in (upper, lower):
-                lines += _curves(ax, one, overlays["curves"]) if "curves" in overlays else _borders(ax, one, upward)
+                lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
         named = {line.get_label(): line for line in lines}.values()
         legend_above(figure, [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)])
         said = drawing.sample(linestyle="", label="\n".join(_captions(study, self)))
@@ -60,12 +60,12 @@ class RegionMap(StabilityMap):
 
 def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
     """Draw continued curves of the map's cycle, within its points; growth maps show their numbers."""
-    found = []
+    paths = []
     for curve in parted(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data)[0]:
         along = {"Omega": curve.Omega, "N": curve.N}
         inside = [values == np.clip(values, *span(data[name].values)) for name, values in along.items()]
-        found.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
-    return draw_curves([ax], [found], [])
+        paths.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
+    return draw_curves([ax], [paths], [])
 
 
 def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
@@ -85,19 +85,19 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
     gone = (flag_names(data["cycle"]) == "no_cycle") & (flag_names(data["outcome"]) != "quiet")
     names = ("branch_continues_first", "branch_continues_second")
     up, right = names if upward else names[::-1]
-    found: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
-    for joined, ahead, here, ends in (
+    segments: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
+    for joined, ahead, current, ends in (
         (up, np.s_[1:, :], np.s_[:-1, :], lambda i, j: [(x[j], y[i + 1]), (x[j + 1], y[i + 1])]),
         (right, np.s_[:, 1:], np.s_[:, :-1], lambda i, j: [(x[j + 1], y[i]), (x[j + 1], y[i + 1])]),
     ):
-        same = flag_names(data[joined])[here] == "yes"
-        changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
-        stops = (stable[here] & gone[ahead]) | (gone[here] & stable[ahead])
-        found["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
-        found["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
-    for kind, lines in found.items():
+        same = flag_names(data[joined])[current] == "yes"
+        changes = (stable[current] & unstable[ahead]) | (unstable[current] & stable[ahead])
+        stops = (stable[current] & gone[ahead]) | (gone[current] & stable[ahead])
+        segments["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
+        segments["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
+    for kind, lines in segments.items():
         ax.add_collection(LineCollection(lines, capstyle="projecting" if kind == "neutral" else None, **BORDERS[kind]))
-    return [drawing.sample(**BORDERS[kind]) for kind, lines in found.items() if lines]
+    return [drawing.sample(**BORDERS[kind]) for kind, lines in segments.items() if lines]
 
 
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
@@ -107,13 +107,13 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         return
     data = drawing.of(study, "as_published")
     for name, mark in plot.marks.items():
-        here = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
-        outcome, rate = str(flag_names(here["outcome"])), float(here["growth_rate"])
-        found = OUTCOME_LOOKS[outcome].label
+        point = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
+        outcome, rate = str(flag_names(point["outcome"])), float(point["growth_rate"])
+        label = OUTCOME_LOOKS[outcome].label
         if outcome != mark.paper_outcome:
             stated = OUTCOME_LOOKS[mark.paper_outcome].label
-            yield f"{name}: paper: “{stated}”, static start: {found}."
+            yield f"{name}: paper: “{stated}”, static start: {label}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
-            yield f"{name}: {found}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
+            yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."

@@ -127,9 +127,9 @@ def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
     axes.axvline(0, color=GREY, linewidth=0.4, zorder=0)
     values = cycle.multipliers
     outside = np.abs(values) > 1
-    for there, mark, colour, name in ((~outside, "o", BLUE, "decays"), (outside, "D", SEPARATED, "grows")):
-        if there.any():
-            axes.plot(values[there].real, values[there].imag, mark, color=colour, markersize=4, label=name)
+    for mask, mark, colour, name in ((~outside, "o", BLUE, "decays"), (outside, "D", SEPARATED, "grows")):
+        if mask.any():
+            axes.plot(values[mask].real, values[mask].imag, mark, color=colour, markersize=4, label=name)
     axes.text(0, 0.08, f"largest |λ| = {abs(values[0]):.5g}", ha="center", fontsize=7)
     word = "stable" if cycle.stable else "unstable"
     axes.set(xlabel="Re λ", ylabel="Im λ", aspect="equal")
@@ -150,8 +150,8 @@ def plot_eigenvalues(sliding: SteadySliding, ax: Any = None) -> Axes:
     rate, frequency = values.real, values.imag / (2 * np.pi)
     axes.axvline(0, color=BLACK, linewidth=0.6)
     grows = rate > 0
-    for there, mark, colour in ((~grows, "o", BLUE), (grows, "D", SEPARATED)):
-        axes.plot(rate[there], frequency[there], mark, color=colour, markersize=4)
+    for mask, mark, colour in ((~grows, "o", BLUE), (grows, "D", SEPARATED)):
+        axes.plot(rate[mask], frequency[mask], mark, color=colour, markersize=4)
     for x, y in zip(rate[grows], frequency[grows], strict=True):
         drawing.say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=7, color=SEPARATED)
     low, high = axes.get_xlim()

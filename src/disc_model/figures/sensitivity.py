@@ -76,13 +76,13 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
     unstable = ~np.isin(words, STABLE_CYCLES)
     edges = np.quantile(draws, np.linspace(0, 1, BINS + 1))
     part = np.clip(np.searchsorted(edges, draws, side="right") - 1, 0, BINS - 1)
-    found = []
+    handles = []
     for i in range(BINS):
-        here = known & (part == i)
-        count, hits = here.sum(axis=1), (here & unstable).sum(axis=1)
+        mask = known & (part == i)
+        count, hits = mask.sum(axis=1), (mask & unstable).sum(axis=1)
         share = hits.sum() / count.sum()
-        found.append((edges[i : i + 2].mean(), share, np.sqrt(np.sum((hits - share * count) ** 2)) / count.sum()))
-    return np.transpose(found)
+        handles.append((edges[i : i + 2].mean(), share, np.sqrt(np.sum((hits - share * count) ** 2)) / count.sum()))
+    return np.transpose(handles)
 
 
 def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
@@ -105,8 +105,8 @@ def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Name and values of each point of the grid that has samples left, without the dimension of samples."""
     dims = [str(dim) for dim in study["status"].dims if dim != SAMPLE]
-    for place in product(*(range(study.sizes[dim]) for dim in dims)):
-        cell = study.isel(dict(zip(dims, place, strict=True)))
+    for index in product(*(range(study.sizes[dim]) for dim in dims)):
+        cell = study.isel(dict(zip(dims, index, strict=True)))
         cell = cell.isel({SAMPLE: flag_names(cell["status"]) != EXCLUDED})
         if not cell.sizes[SAMPLE]:
             continue

@@ -21,9 +21,9 @@ def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
     """Each mode of a study of one point, with its nodal diameters at the first value; -1 in the plane."""
     for _, mode in study.groupby("mode"):
         mode = mode.squeeze("mode")
-        there = np.isfinite(mode["frequency"].values)
-        if there.any():
-            yield int(mode["diameters"].values[there.argmax()]), mode
+        known = np.isfinite(mode["frequency"].values)
+        if known.any():
+            yield int(mode["diameters"].values[known.argmax()]), mode
 
 
 def handles_of(study: xr.Dataset) -> list[Line2D]:
@@ -156,12 +156,12 @@ class SlidingOutcome(Plot):
         return figure
 
 
-def common_points(one: xr.Dataset, other: xr.Dataset, names: Iterable[str]) -> list[xr.Dataset]:
+def common_points(data: xr.Dataset, other: xr.Dataset, names: Iterable[str]) -> list[xr.Dataset]:
     """Two studies at the values of some dimensions that both have."""
     for name in names:
-        alike = np.isclose(one[name].values[:, None], other[name].values, rtol=1e-9, atol=0)
-        one, other = one.isel({name: alike.any(axis=1)}), other.isel({name: alike.any(axis=0)})
-    return [one, other]
+        alike = np.isclose(data[name].values[:, None], other[name].values, rtol=1e-9, atol=0)
+        data, other = data.isel({name: alike.any(axis=1)}), other.isel({name: alike.any(axis=0)})
+    return [data, other]
 
 
 def agreement(growth_rate: np.ndarray, outcome: np.ndarray) -> np.ndarray:

@@ -66,8 +66,12 @@ class StabilityMap(Plot):
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
-                along = [float(one) for one, *more in values.get(dim, ()) if not more and not isinstance(one, str)]
-                if along and not any(math.isclose(value, one, rel_tol=1e-12) for one in along):
+                along = [
+                    float(coordinate)
+                    for coordinate, *more in values.get(dim, ())
+                    if not more and not isinstance(coordinate, str)
+                ]
+                if along and not any(math.isclose(value, coordinate, rel_tol=1e-12) for coordinate in along):
                     yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -76,22 +80,20 @@ class StabilityMap(Plot):
         figure, axes = panels(PAGE, 3.3, 1, len(norms), sharex=True, sharey=True)
         drawing.letters(axes, [MODES[norm] for norm in norms])
         marks: dict[str, Artist] = {}
-        for ax, one in zip(axes, planes(study, norms, self), strict=True):
-            x, y = np.meshgrid(*(one[name].values * drawing.axis_of(name)[1] for name in (self.x, self.y)))
-            outcome = flag_names(one["outcome"])
+        for ax, plane in zip(axes, planes(study, norms, self), strict=True):
+            x, y = np.meshgrid(*(plane[name].values * drawing.axis_of(name)[1] for name in (self.x, self.y)))
+            outcome = flag_names(plane["outcome"])
             for name, look in MARKS.items():
-                if (there := outcome == name).any():
-                    marks[name] = ax.scatter(
-                        x[there], y[there], zorder=3, clip_on=False, lw=0.5, edgecolor=BLACK, **look
-                    )
+                if (mask := outcome == name).any():
+                    marks[name] = ax.scatter(x[mask], y[mask], zorder=3, clip_on=False, lw=0.5, edgecolor=BLACK, **look)
                     marks[name].set_label(OUTCOME_LOOKS[name].label)
         handles = finish(axes, study, self)
         if "growth" in overlays:
             growth = planes(overlays["growth"], norms, self)
             gaps = growth_panels(figure, axes, growth)
-            for ax, one in zip(axes, growth, strict=True):
-                x, y = (one[name].values * drawing.axis_of(name)[1] for name in (self.x, self.y))
-                rate = one["growth_rate"].values
+            for ax, plane in zip(axes, growth, strict=True):
+                x, y = (plane[name].values * drawing.axis_of(name)[1] for name in (self.x, self.y))
+                rate = plane["growth_rate"].values
                 # the line on which the growth rate changes its sign
                 if min(rate.shape) > 1 and np.isfinite(rate).any() and np.nanmin(rate) < 0 < np.nanmax(rate):
                     ax.contour(x, y, np.ma.masked_invalid(rate), levels=[0.0], colors=BLACK, linewidths=1.0)
@@ -127,13 +129,13 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> list[
 
 def _paper_mark(ax: Axes, plot: StabilityMap, name: str, mark: Mark) -> None:
     """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
-    at = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
+    point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
     edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.outline(2.4, BLACK)}
     shape = MARKS[mark.paper_outcome]["marker"]
-    ax.scatter(*at, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
-    across, up = (ax.transData + ax.transAxes.inverted()).transform(at)
+    ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+    across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
     offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
-    drawing.say(ax, name, at, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=drawing.halo(2.0))
+    drawing.say(ax, name, point, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=drawing.halo(2.0))
 
 
 def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: StabilityMap) -> None:

@@ -118,7 +118,7 @@ class CycleProblem:
         flight, turn, residual = self._fly(p, z, self._analytic)
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
-            changes = (f"{name.replace('_', ' ')} {one} to {two}" for name, one, two in counts if one != two)
+            changes = (f"{name.replace('_', ' ')} {before} to {two}" for name, before, two in counts if before != two)
             raise Reordered(", ".join(changes), z)
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
@@ -357,28 +357,28 @@ def continue_curve(
     """
     places, ds = [start], steps.step
     while len(places) < steps.max_points:
-        here = places[-1]
+        last = places[-1]
         try:
-            new, ds = _step(take, here, ds, steps)
+            new, ds = _step(take, last, ds, steps)
             reason = ends(places, new, ds)
         except CorrectorFailed as lost:
             return places, lost
         places.append(new)
         if reason:
             return places, reason
-        if new.tangent @ here.tangent > steps.easy:
+        if new.tangent @ last.tangent > steps.easy:
             ds = min(steps.longest, steps.growth * ds)
     return places, "the number of points allowed is reached"
 
 
 def _step(
-    take: Callable[[AnyPlace, float], AnyPlace], here: AnyPlace, ds: float, steps: StepControl
+    take: Callable[[AnyPlace, float], AnyPlace], point: AnyPlace, ds: float, steps: StepControl
 ) -> tuple[AnyPlace, float]:
     """The next place at arclength ``ds``, which is halved after each failure, and the arclength taken."""
     while True:
         try:
-            new = take(here, ds)
-            cosine = float(new.tangent @ here.tangent)
+            new = take(point, ds)
+            cosine = float(new.tangent @ point.tangent)
             if abs(cosine) < steps.sharpest:
                 raise CorrectorFailed("the curve bends too sharply")
             return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds

@@ -47,13 +47,13 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     """Frequencies of steady sliding and of the stick-slip cycle near the static start; empty without steady sliding."""
     cycle = floquet(p, tol=tol)
     modes = sliding_modes(p, cycle.sliding)
-    found = np.full((3, len(modes.frequency)), math.nan)
+    columns = np.full((3, len(modes.frequency)), math.nan)
     if cycle.status is CycleStatus.OK and len(modes.frequency):
         disc = modes.diameters >= 0
         disc_rows, _, height = split_rows(mode_arrays(p), modes.shapes[:, disc])
         shapes = np.vstack([*disc_rows, height if len(height) else np.zeros((2, disc.sum()))])
-        found[:, disc] = _of_cycle(p, cycle, modes.frequency[disc], shapes, tol)
-    return Frequencies(cycle, modes, *found)
+        columns[:, disc] = _of_cycle(p, cycle, modes.frequency[disc], shapes, tol)
+    return Frequencies(cycle, modes, *columns)
 
 
 def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:
@@ -67,18 +67,18 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     # two multipliers may match a mode: one resembles its shape, one the conjugate
     mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
     rows, columns = linear_sum_assignment(-mac)
-    place = np.full(len(mac), -1)
-    place[rows] = columns
-    own, other = place[: shapes.shape[1]], place[shapes.shape[1] :]
+    matched = np.full(len(mac), -1)
+    matched[rows] = columns
+    first, other = matched[: shapes.shape[1]], matched[shapes.shape[1] :]
     rate = 1 / cycle.period
-    angle = np.angle(multipliers[own]) / (2 * math.pi)
+    angle = np.angle(multipliers[first]) / (2 * math.pi)
     with np.errstate(divide="ignore"):
         growth = np.log(np.abs(multipliers)) * rate
     frequency = (angle + np.round(seen / rate - angle)) * rate
-    found = np.array([frequency, np.maximum(growth[own], growth[other]), mac[np.arange(len(own)), own]])
+    values = np.array([frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]])
     # with fewer multipliers than places, some modes have none
-    found[:, (own < 0) | (other < 0)] = math.nan
-    return found
+    values[:, (first < 0) | (other < 0)] = math.nan
+    return values
 
 
 def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
@@ -87,6 +87,6 @@ def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexAr
     for part in (shape.real, shape.imag):
         a, alpha, b, beta = part[:-2].reshape(4, -1)
         # in separation, because in contact the height would be the disc's
-        given = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0))
-        parts.append(map_.point(given.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
+        separated = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0))
+        parts.append(map_.point(separated.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
     return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -137,16 +137,16 @@ def neutral_curves(
     assert lines is not None
     x, y = bounds
     names = x, y
-    found: list[StabilityCurve] = []
+    curves: list[StabilityCurve] = []
     notes: list[str] = []
     span = np.array([bounds[name][1] - bounds[name][0] for name in names])
     for line in map(float, lines):
         along = np.linspace(*bounds[names[0]], points)
         for seed in _seeds([p.replace(**{names[1]: line, names[0]: float(x)}) for x in along], names[0], tol, notes):
-            place = np.array([seed.case.numbers[name] for name in names])
-            if _known(found, seed.kind, place, seed.period, span):
+            point = np.array([seed.case.numbers[name] for name in names])
+            if _known(curves, seed.kind, point, seed.period, span):
                 continue
-            where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, place, strict=True))
+            where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, point, strict=True))
             try:
                 branch = continue_border(seed.kind, seed.case, names, bounds, guess=seed.point, tol=tol, steps=steps)
             except ParameterError as error:
@@ -159,16 +159,16 @@ def neutral_curves(
             # the place halfway along the curve, since places are dense where two borders meet
             length = np.cumsum(np.linalg.norm(np.diff(curve.values / span, axis=0), axis=1))
             i = int(np.searchsorted(length, length[-1] / 2)) + 1
-            if not _known(found, curve.kind, curve.values[i], float(curve.period[i]), span):
-                found.append(curve)
-    return NeutralCurves(p, dict(bounds), tuple(found), tuple(notes))
+            if not _known(curves, curve.kind, curve.values[i], float(curve.period[i]), span):
+                curves.append(curve)
+    return NeutralCurves(p, dict(bounds), tuple(curves), tuple(notes))
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
     """Places along a line where the cycle changes stability or ends, found by continuation from both neighbours."""
     growth = np.array([find_cycle(case, tol).growth_rate for case in cases])
-    for i, (one, two) in enumerate(pairwise(growth)):
-        if (np.isnan(one) and np.isnan(two)) or one * two > 0:
+    for i, (before, two) in enumerate(pairwise(growth)):
+        if (np.isnan(before) and np.isnan(two)) or before * two > 0:
             continue
         for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
@@ -206,28 +206,28 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
         if branch.ended.startswith(UNLOCATED):
             notes.append(branch.ended)
         return None
-    there = case.replace(**{name: float(values[j])})
+    moved = case.replace(**{name: float(values[j])})
     point = branch.points[j]
-    own, new = (ReturnMap(each, tol).scale for each in (case, there))
-    if not np.array_equal(own, new):  # frequencies scale the coordinates, and the branch uses those of its first case
-        point = point / own * new
-    return _Seed(kind, there, point, float(branch.period[j]))
+    scale, new = (ReturnMap(each, tol).scale for each in (case, moved))
+    if not np.array_equal(scale, new):  # frequencies scale the coordinates, and the branch uses those of its first case
+        point = point / scale * new
+    return _Seed(kind, moved, point, float(branch.period[j]))
 
 
-def _known(found: Sequence[StabilityCurve], kind: str, place: Array, period: float, span: Array) -> bool:
+def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: float, span: Array) -> bool:
     """Whether a known curve of this kind, with cycles of this period, passes through a place of the plane."""
-    for curve in found:
+    for curve in curves:
         if curve.kind != kind:
             continue
-        corners = (curve.values - place) / span
+        corners = (curve.values - point) / span
         steps = np.diff(corners, axis=0)
         size = np.sum(steps**2, axis=1)
         share = np.clip(-np.sum(corners[:-1] * steps, axis=1) / np.where(size > 0, size, 1.0), 0.0, 1.0)
         distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
         i = int(np.argmin(distance))
-        there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
+        period_there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
         # periods of the two borders of one resonance differ by 1 % and more
-        if distance[i] < 0.01 and abs(there / period - 1) < 0.004:
+        if distance[i] < 0.01 and abs(period_there / period - 1) < 0.004:
             return True
     return False
 

@@ -90,8 +90,8 @@ class FloquetResult(Summarised):
     residual: float = math.nan
 
     def __repr__(self) -> str:
-        p, found = self.parameters, self.status is CycleStatus.OK
-        summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if found else self.status.value
+        p, exists = self.parameters, self.status is CycleStatus.OK
+        summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if exists else self.status.value
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
@@ -129,8 +129,8 @@ class FloquetResult(Summarised):
     @property
     def attractors(self) -> tuple[str, ...]:
         """Those of "stick_slip" and "steady_sliding" that exist and are stable."""
-        found = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
-        return tuple(name for name, stable in found if stable)
+        motions = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
+        return tuple(name for name, stable in motions if stable)
 
     def raise_for_status(self) -> FloquetResult:
         """Return self if a cycle was found; otherwise raise `CycleError`."""
@@ -208,11 +208,11 @@ def find_cycle(
         if outcome != RETURNED:
             ended = f"the motion from the given state does not return: {ENDS[outcome]}"
             return _none(p, tol, CycleStatus.NO_CYCLE, ended)
-        place = f"of {releases} releases near the given state"
+        where = f"of {releases} releases near the given state"
     else:
-        x, place = guess, "near the given point of the section"
+        x, where = guess, "near the given point of the section"
     found = newton(map_, x, releases=releases, may_separate=near_state)
-    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {place}") if found is None else cycle_of(map_, found)
+    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {where}") if found is None else cycle_of(map_, found)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -251,14 +251,14 @@ _WITHOUT_RETURN = {
 """Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
 
 
-def run_through_once(map_: ReturnMap, found: Flight) -> Flight:
+def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
     """A cycle with its shortest period: one that is traversed several times is reduced to a single pass."""
-    times, x = found.counts.releases, found.start
+    times, x = flight.counts.releases, flight.start
     for releases in (n for n in range(1, times) if times % n == 0):
-        once = newton(map_, x, releases=releases, may_separate=found.counts.separations > 0)
+        once = newton(map_, x, releases=releases, may_separate=flight.counts.separations > 0)
         if once is not None and np.allclose(once.start, x, rtol=0, atol=1e-7 * np.linalg.norm(once.start)):
             return once
-    return found
+    return flight
 
 
 def may_stick_and_slip(p: Parameters) -> bool:
@@ -277,9 +277,9 @@ def _counted(counts: Counts) -> str:
     return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for count, name in named if count)
 
 
-def _none(p: Parameters, tol: float, status: CycleStatus, found: str) -> FloquetResult:
+def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
     """The result without a cycle."""
-    return FloquetResult(p, tol, status, f"{status}: {found}")
+    return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 
 def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:

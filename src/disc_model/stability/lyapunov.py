@@ -112,12 +112,12 @@ def lyapunov_exponents(
     columns, rows = t.now.reshape(-1, layout.WIDTH), coordinate_rows(model)
     metric = energy_scale(model)[rows, None]
     columns[:] = 0.0
-    asked, count = count, count + leave_out_trivial
+    wanted, count = count, count + leave_out_trivial
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
     _bind(model, state, t)
-    _, left = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
+    _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
         saltation.rates(model, state, t.before)
         along = t.before.reshape(columns.shape)[:, 0]
@@ -137,15 +137,15 @@ def lyapunov_exponents(
             status = Status.NON_FINITE if code == exit_codes.TIME_OVER else Status(ENDS[code])
             break
         _bind(model, state, t)
-        growth, left = _orthonormalise(columns, rows, metric, left, vanished)
+        growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
         if i >= 0:
-            logs[i, left] = growth
+            logs[i, remaining] = growth
             done = i + 1
-    return _summary(status, logs[:done], duration / steps, asked, t.log, read_state(case, state), leave_out_trivial)
+    return _summary(status, logs[:done], duration / steps, wanted, t.log, read_state(case, state), leave_out_trivial)
 
 
 def _orthonormalise(
-    columns: Array, rows: NDArray[np.intp], metric: Array, left: NDArray[np.intp], vanished: float
+    columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
     """Orthonormalise the remaining columns, and set those to zero that depend on the others.
 
@@ -156,15 +156,15 @@ def _orthonormalise(
     Returns logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,).
     """
     while True:
-        q, r = np.linalg.qr(columns[np.ix_(rows, left)] * metric)
+        q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
         lengths = np.abs(np.diag(r))
         dependent = np.flatnonzero(lengths <= vanished * np.linalg.norm(r, axis=0))
         if not dependent.size:
-            columns[np.ix_(rows, left)] = q / metric
-            return np.log(lengths), left
+            columns[np.ix_(rows, remaining)] = q / metric
+            return np.log(lengths), remaining
         # one at a time, because later columns were made orthogonal to a direction that is mere rounding
-        columns[:, left[dependent[0]]] = 0.0
-        left = np.delete(left, dependent[0])
+        columns[:, remaining[dependent[0]]] = 0.0
+        remaining = np.delete(remaining, dependent[0])
 
 
 def _summary(

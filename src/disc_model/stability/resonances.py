@@ -53,7 +53,7 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
     half = 0.5 if multiplier.imag == 0 and multiplier.real < 0 else 0.0
-    found: list[tuple[float, Resonance]] = []
+    resonances: list[tuple[float, Resonance]] = []
     for frequency, l, bound in modes_at_rest(p):
         if diameters is not None and l != diameters:
             continue
@@ -62,10 +62,10 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
             seen = (frequency + sign * l * p.Omega / (2 * math.pi)) / rate
             miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
             harmonic = round(seen - half) + half
-            found.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
-    if not found:
+            resonances.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
+    if not resonances:
         raise ParameterError(f"diameters={diameters!r}: must be those of a mode")
-    return min(found, key=lambda one: one[0])[1]
+    return min(resonances, key=lambda one: one[0])[1]
 
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:

@@ -87,8 +87,8 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
             damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
-        given = 0.0 if residual else model.compliance
-        scalars[columns.LOAD] = model.k * (model.u_0 + model.N * given) / p.E
+        compliance_kept = 0.0 if residual else model.compliance
+        scalars[columns.LOAD] = model.k * (model.u_0 + model.N * compliance_kept) / p.E
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
@@ -105,12 +105,12 @@ def coordinate_rows(model: layout.Model) -> NDArray[np.intp]:
 
 def energy_scale(model: layout.Model) -> Array:
     """Square root of twice the energy of a unit of each row of a column: (rows,)."""
-    one, one0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
+    ones, ones0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
     slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
     contact = 1 / model.compliance if model.compliant else 0.0
     height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
     stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
-    return np.concatenate([np.sqrt(stiffness), one, np.sqrt(model.stiffness0), one0, slider, height])
+    return np.concatenate([np.sqrt(stiffness), ones, np.sqrt(model.stiffness0), ones0, slider, height])
 
 
 class Counts(NamedTuple):
@@ -311,9 +311,9 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
             if not again.returned:
                 return None
             jacobian, used, fresh = again.jacobian, used + 1, True
-    found = follow(flight.start)
-    close = found.returned and found.residual <= rounding(map_.tol, 1e4) * map_.deflection
-    return found if close and np.all(np.isfinite(found.jacobian)) else None
+    solution = follow(flight.start)
+    close = solution.returned and solution.residual <= rounding(map_.tol, 1e4) * map_.deflection
+    return solution if close and np.all(np.isfinite(solution.jacobian)) else None
 
 
 def _solve(matrix: Array, right: Array) -> Array:

@@ -209,8 +209,8 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     draw[2:, modes.diameters == 0] = 0.0
     a, alpha, b, beta = draw[0] / modes.omega, draw[1], draw[2] / modes.omega, draw[3]
     u, velocity = float(modes.psi @ a), float(modes.psi @ alpha)
-    own = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
-    size = math.sqrt(energy / own)
+    energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
+    size = math.sqrt(energy / energy_drawn)
     slope = float(np.sum(modes.diameters * modes.psi * b))
     return state.replace(
         a=state.a + size * a,

@@ -258,16 +258,16 @@ def _excess_rate(near: NearCycle, distance: Array) -> float | None:
 
     The phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders.
     """
-    left, right = near.leading, _left_vector(near.jacobian.T)
-    right = right / (left @ right)
+    leading_left, right = near.leading, _left_vector(near.jacobian.T)
+    right = right / (leading_left @ right)
     real = near.cycle.multipliers[0].imag == 0
-    part, count = left @ distance, 0
+    part, count = leading_left @ distance, 0
     before = float(abs(part))
     for periods, flight in near.flights(near.x + distance, thresholds.TEST_TIMES[-1]):
         if not flight.returned:
             return None
         apart, count = flight.end - near.x, count + periods
-        part = left @ apart
+        part = leading_left @ apart
         plane = np.real(part * right) * (1 if real else 2)
         if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
             return None

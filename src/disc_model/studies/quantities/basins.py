@@ -112,23 +112,23 @@ class AttractorBasins(Start, Quantity):
         from disc_model.analysis.sobol import share
 
         sample = _Sample(point, self)
-        found = sample.found
-        rows = [reached for row in found for reached in row]
+        results = sample.found
+        rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
         attractors = [attractor for attractor, _ in starts.most_common()]
         numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
         failed = [reached for reached in rows if reached.outcome is None]
         values: dict[str, Any] = {
             "status": failed[0].status if len(failed) == len(rows) else "ok",
-            "kind": [[reached.word for reached in row] for row in found],
-            "attractor_index": [[numbers[reached.attractor] for reached in row] for row in found],
-            "simulated_time": [[reached.simulated for reached in row] for row in found],
+            "kind": [[reached.word for reached in row] for row in results],
+            "attractor_index": [[numbers[reached.attractor] for reached in row] for row in results],
+            "simulated_time": [[reached.simulated for reached in row] for row in results],
             "lost_contact": [
-                ["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in found
+                ["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in results
             ],
         }
-        values |= _shares("basin_fraction_by_energy", found, self.confidence)
-        values |= {name: one for name, (one,) in _shares("basin_fraction", [rows], self.confidence).items()}
+        values |= _shares("basin_fraction_by_energy", results, self.confidence)
+        values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
         values |= with_ends("separating_fraction", shown)
         values |= sample.critical_energy() | _described(starts)
@@ -161,8 +161,8 @@ class _Sample:
     def critical_energy(self) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
         energies = self.options.energies
-        reached = ((energies[j], i, j, one) for j, row in enumerate(self.found) for i, one in enumerate(row))
-        separating = sorted((energy, i, j) for energy, i, j, one in reached if one.separates)
+        reached = ((energies[j], i, j, result) for j, row in enumerate(self.found) for i, result in enumerate(row))
+        separating = sorted((energy, i, j) for energy, i, j, result in reached if result.separates)
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
@@ -170,7 +170,7 @@ class _Sample:
             return least
         if self._outcome_of(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
-        ends = [self._bisected(*one) for one in separating[: self.options.n_bisection_directions]]
+        ends = [self._bisected(*start) for start in separating[: self.options.n_bisection_directions]]
         low, high = min(ends, key=lambda pair: pair[1])
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
@@ -190,13 +190,13 @@ class _Sample:
         return low, high
 
 
-def _shares(name: str, found: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
+def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
     """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
     from disc_model.analysis.sobol import share
 
     shares = [
         [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
-        for row in found
+        for row in results
     ]
     return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
 

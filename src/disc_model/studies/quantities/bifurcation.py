@@ -144,21 +144,21 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
     kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
     taken = events[events["kind"] == kind]
-    found = Regularity(reached.calm or Outcome.UNDECIDED)
+    motion = Regularity(reached.calm or Outcome.UNDECIDED)
     if near is not None:
         n = near.cycle.separations or near.cycle.releases
         times = run.events["time"][run.events["kind"] == kind]
         intervals = np.diff(times[times > transient - FIRST_LEG])
-        found = Regularity(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
+        motion = Regularity(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
     elif reached.settled and reached.calm is None:
-        found = regularity(p, state, options.tol)
+        motion = regularity(p, state, options.tol)
     shown = taken.iloc[-options.samples :]
     columns = {"psi": shown["psi"], "psi_velocity": p.Omega - shown["f"], "P": shown["P"], "u": shown["u"]}
     values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
     values |= _answer(answer) | {
-        "kind": found.kind,
-        "period_events": found.period,
-        "period_residual": found.closure,
+        "kind": motion.kind,
+        "period_events": motion.period,
+        "period_residual": motion.closure,
         "status": "ok",
         "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
         "first_separation": first,

@@ -118,8 +118,8 @@ class Branches(Quantity):
                 break
             swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = late.range, late.separation_rate
             swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
-            if (way == 0 or i < lowest) and (own := find_cycle(result.parameters)).state is not None:
-                follow(own, False)
+            if (way == 0 or i < lowest) and (near_start := find_cycle(result.parameters)).state is not None:
+                follow(near_start, False)
             if reached.near is not None and reached.near.cycle.releases <= self.releases:
                 follow(reached.near.cycle, True)
         sliding = [steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate for v in values]
@@ -152,12 +152,12 @@ def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str,
         for column in ("values", "points", "period", "growth_rate")
     )
     row = {"value": values[:, 0], "period": period, "growth_rate": growth_rate}
-    own = ReturnMap(p)
+    return_map = ReturnMap(p)
     ranges = []
     for value, x, time in zip(row["value"], points, period, strict=True):
         case = p.replace(**{name: float(value)})
         map_ = ReturnMap(case)
-        ranges.append(_range(case, map_.state(x / own.scale * map_.scale), time))
+        ranges.append(_range(case, map_.state(x / return_map.scale * map_.scale), time))
     return row | {"range": np.array(ranges), "releases": cycle.releases, "separations": cycle.separations}
 
 

@@ -101,29 +101,29 @@ class Campbell(Quantity):
         """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
         from disc_model.stability.campbell import frequencies
 
-        found = frequencies(point.parameters, tol=self.tol)
-        cycle = found.cycle
+        campbell = frequencies(point.parameters, tol=self.tol)
+        cycle = campbell.cycle
         values: dict[str, Any] = {
             "status": cycle.status.value,
             "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
             "rotation_frequency": point.parameters.Omega / (2 * math.pi),
-            "mode_kind": np.where(found.modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
-            "diameters": np.maximum(found.modes.diameters, 0),
-            "forward_wave_fraction": found.modes.forward,
-            "sliding_frequency": found.modes.frequency,
-            "sliding_growth_rate": found.modes.growth_rate,
-            "cycle_frequency": found.cycle_frequency,
-            "cycle_growth_rate": found.cycle_growth_rate,
-            "mac": found.mac,
+            "mode_kind": np.where(campbell.modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
+            "diameters": np.maximum(campbell.modes.diameters, 0),
+            "forward_wave_fraction": campbell.modes.forward,
+            "sliding_frequency": campbell.modes.frequency,
+            "sliding_growth_rate": campbell.modes.growth_rate,
+            "cycle_frequency": campbell.cycle_frequency,
+            "cycle_growth_rate": campbell.cycle_growth_rate,
+            "mac": campbell.mac,
         }
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def summarise(self, cell: xr.Dataset) -> dict[str, Any]:
         """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
-        left = flag_names(cell["status"]) != EXCLUDED
-        stretches = np.split(np.arange(len(left)), np.flatnonzero(np.diff(left)) + 1)
-        axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if left[stretch[0]]]
+        included = flag_names(cell["status"]) != EXCLUDED
+        stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
+        axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
         found = chain.from_iterable(crossings(axis, self) for axis in axes)
         rows = sorted(found, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
@@ -138,25 +138,25 @@ def crossings(cell: xr.Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     turns = cell["rotation_frequency"].values
     highest = int(cell["diameters"].max())
     for i, mode in enumerate(cell["mode"].values):
-        own = frequency_of(cell.isel(mode=i))
-        if not np.isfinite(own).any():
+        of_mode = frequency_of(cell.isel(mode=i))
+        if not np.isfinite(of_mode).any():
             continue
-        most = math.floor(2 * np.nanmax(own) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
+        most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
         lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
         lines += [("rotation", float(l), l * turns) for l in range(1, highest + 1)]
         for line, multiple, frequency in lines:
-            detuning = frequency - own
-            for place in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
-                if detuning[place] == detuning[place + 1] or (detuning[place + 1] == 0 and place + 2 < len(speeds)):
+            detuning = of_mode - frequency
+            for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+                if detuning[index] == detuning[index + 1] or (detuning[index + 1] == 0 and index + 2 < len(speeds)):
                     continue  # the next interval begins there
-                part = detuning[place] / (detuning[place] - detuning[place + 1])
+                part = detuning[index] / (detuning[index] - detuning[index + 1])
                 yield {
-                    "Omega": float(speeds[place] + part * (speeds[place + 1] - speeds[place])),
-                    "frequency": float(own[place] + part * (own[place + 1] - own[place])),
+                    "Omega": float(speeds[index] + part * (speeds[index + 1] - speeds[index])),
+                    "frequency": float(frequency[index] + part * (frequency[index + 1] - frequency[index])),
                     "mode": int(mode),
                     "line": line,
                     "multiple": multiple,
-                    **effect_of(detuning, int(place), growth, leading, options),
+                    **effect_of(detuning, int(index), growth, leading, options),
                 }
 
 
@@ -171,7 +171,7 @@ def frequency_of(mode: xr.Dataset) -> Array:
     return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
 
 
-def effect_of(detuning: Array, place: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
+def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
     number, as far as they are known.
 
@@ -179,8 +179,8 @@ def effect_of(detuning: Array, place: int, growth: Array, leading: Array, option
     growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
     """
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
-    first = outside.max(initial=-1, where=outside <= place)
-    last = outside.min(initial=len(detuning), where=outside > place)
+    first = outside.max(initial=-1, where=outside <= index)
+    last = outside.min(initial=len(detuning), where=outside > index)
     within = slice(first + 1, last)
     if first < 0 or last >= len(detuning) or last - first - 1 < 3:
         return {"effect": "unresolved"}

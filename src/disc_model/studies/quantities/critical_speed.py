@@ -98,9 +98,9 @@ class CriticalSpeed(EarlyEnd):
         def look(i: int) -> None:
             """Compute the motion at the i-th speed of the lattice, which is not known yet."""
             # their return maps would take megabytes each for a disc of many modes
-            found = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
-            none = math.isnan(found.first_separation) and found.status == "ok"
-            known[i] = math.inf if none else found.first_separation
+            result = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
+            none = math.isnan(result.first_separation) and result.status == "ok"
+            known[i] = math.inf if none else result.first_separation
 
         scanned = [i * round(self.step) for i in range(scan.intervals + 1)]
         for i in scanned:
@@ -110,16 +110,16 @@ class CriticalSpeed(EarlyEnd):
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
                 for i in wide:
                     look(i)
-        failed = {i: found for i, found in motions.items() if found.status != "ok"}
+        failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {
-            "status": next((found.status for found in failed.values()), "ok"),
+            "status": next((result.status for result in failed.values()), "ok"),
             "scan_first_separation": [motions[i].first_separation for i in scanned],
             "scan_status": [motions[i].status for i in scanned],
             "simulations": len(motions),
-            "simulated_time": sum(found.simulated for found in motions.values()),
+            "simulated_time": sum(result.simulated for result in motions.values()),
         }
         values |= listed([_crossings(known, horizon, speed) for horizon in self.horizons])
-        return values, "; ".join(f"Omega={speed(i):g}: {found.message}" for i, found in failed.items())
+        return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
 
 
 def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:

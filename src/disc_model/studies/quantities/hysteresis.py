@@ -68,16 +68,16 @@ class Hysteresis(Quantity):
         values: dict[str, Any] = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims}
         status, message = "ok", ""
         dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
-        for place, result, late, reached in sweep(
+        for index, result, late, reached in sweep(
             point.parameters, "Omega", speeds, dwell, longest, evaluated, self.tol
         ):
             if late is None:
-                status, message = result.status.value, f"Omega={speeds[place[1]]:g}: {result.message}"
-            values["sweep_status"][place] = STATUSES.index(status)
-            values["sweep_settled"][place] = ANSWER.flags.index(reached.settling.answer)
+                status, message = result.status.value, f"Omega={speeds[index[1]]:g}: {result.message}"
+            values["sweep_status"][index] = STATUSES.index(status)
+            values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
             for name, number in asdict(late).items() if late else ():
                 if name in values:
-                    values[name][place] = number
+                    values[name][index] = number
         done = values["sweep_status"] == STATUSES.index("ok")
         values |= _ends(np.array(speeds), values["separation_rate"] > 0, done) | {"status": status}
         return values, message
@@ -85,11 +85,11 @@ class Hysteresis(Quantity):
 
 def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
     """Speeds at which separation begins on the way up and ends on the way down, if the sweep reached them."""
-    found: dict[str, float] = {}
+    ends: dict[str, float] = {}
     if separates[0].any():
-        found["onset_speed"] = float(speeds[separates[0].argmax()])
+        ends["onset_speed"] = float(speeds[separates[0].argmax()])
     if separates[1, -1]:
         quiet = np.flatnonzero(~separates[1])
         if not quiet.size or done[1, quiet[-1]]:
-            found["offset_speed"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
-    return found
+            ends["offset_speed"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
+    return ends

@@ -67,7 +67,7 @@ class Lyapunov(Start, Quantity):
             start = self.state_at(point)
         except SimulationError as error:
             return {"status": STATUS_OF[type(error)].value}, str(error)
-        found = lyapunov_exponents(
+        result = lyapunov_exponents(
             point.parameters,
             self.duration,
             count=self.exponents,
@@ -76,17 +76,17 @@ class Lyapunov(Start, Quantity):
             tol=self.tol,
             leave_out_trivial=True,
         )
-        known = np.isfinite(found.exponents)
+        known = np.isfinite(result.exponents)
         values = {
-            "status": found.status.value,
-            "exponent": found.exponents,
-            "exponent_error": found.errors,
-            "converged": np.where(known, 1 + found.converged, 0),
-            "trivial_exponent": found.trivial_exponent,
-            "averaging_time": found.duration,
-            "separations": found.separations,
+            "status": result.status.value,
+            "exponent": result.exponents,
+            "exponent_error": result.errors,
+            "converged": np.where(known, 1 + result.converged, 0),
+            "trivial_exponent": result.trivial_exponent,
+            "averaging_time": result.duration,
+            "separations": result.separations,
         }
-        return values, "" if found.status.complete else found.status.advice
+        return values, "" if result.status.complete else result.status.advice
 
     def state_at(self, point: Point) -> State:
         """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""

@@ -61,8 +61,8 @@ class Ramps(Quantity):
         rows: list[dict[str, Any]] = []
         status, message = "ok", ""
         for rate in self.rates.values:
-            found, failed = _run(point.parameters.replace(Omega=self.low), rate, self)
-            rows.append({"rate_status": failed.status.value if failed else "ok", **found})
+            run, failed = _run(point.parameters.replace(Omega=self.low), rate, self)
+            rows.append({"rate_status": failed.status.value if failed else "ok", **run})
             if failed:
                 status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
         return listed(rows) | {"status": status}, message

@@ -71,14 +71,14 @@ class Regions(Quantity):
         from disc_model.stability.attractor.outcome import find_outcome
 
         p = point.parameters
-        found = find_outcome(p, self.horizon, tol=self.tol)
-        if found.near is not None and found.near.cycle.stable:
-            state = found.near.cycle.state
+        result = find_outcome(p, self.horizon, tol=self.tol)
+        if result.near is not None and result.near.cycle.stable:
+            state = result.near.cycle.state
             assert state is not None
             return state
         # to the horizon, or to what the separation leads to
-        end = self.horizon if found.state is None else found.state.time + 5.0
-        return simulate(p, end, tol=self.tol, initial_state=found.state).raise_for_status().final_state
+        end = self.horizon if result.state is None else result.state.time + 5.0
+        return simulate(p, end, tol=self.tol, initial_state=result.state).raise_for_status().final_state
 
     def compute_tile(
         self, points: Sequence[Sequence[Made]], sampled: Collection[tuple[int, int]]

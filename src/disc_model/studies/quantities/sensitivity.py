@@ -167,8 +167,8 @@ class Sensitivity(Quantity):
 
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
-        given = data.get("distributions")
-        names = map(str, given if isinstance(given, Mapping) else ())
+        raw = data.get("distributions")
+        names = map(str, raw if isinstance(raw, Mapping) else ())
         of_modes = {name: "rad/s" for name in names if name.startswith("omega_")}
         return super()._units(data) | {"distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes}
 
@@ -236,15 +236,15 @@ class Sensitivity(Quantity):
         path, numbers = ("options", "distributions"), _numbers(grid)
         varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
         faults = []
-        for name, given in self.distributions.items():
-            own = _own(name, grid.base)
+        for name, distribution in self.distributions.items():
+            nominal = _own(name, grid.base)
             if name not in numbers:
                 rule = f"must be of a parameter that is a number (known: {', '.join(numbers)})"
                 faults.append(Fault((*path, name), "", rule))
-            elif not given.relative and name in varied:
+            elif not distribution.relative and name in varied:
                 faults.append(Fault((*path, name), "", "must be relative, since it varies along an axis as well"))
-            elif given.relative and name not in varied and (not is_number(own) or own == 0):
-                faults.append(Fault((*path, name), "", f"must not be relative to {as_text(own)}"))
+            elif distribution.relative and name not in varied and (not is_number(nominal) or nominal == 0):
+                faults.append(Fault((*path, name), "", f"must not be relative to {as_text(nominal)}"))
         yield from faults
         first: dict[str, Fault] = {}
         for fault in () if faults else self._out_of_reach(grid):
@@ -260,9 +260,9 @@ class Sensitivity(Quantity):
         for point in dict.fromkeys(tuple((name, value) for name, value in items if name != SAMPLE) for items in every):
             case = case_of({**grid.base, **dict(point)}, grid.discs)
             ends: dict[str, list[float]] = {}
-            for name, given in self.distributions.items():
-                scale = _own(name, case) if given.relative else 1.0
-                ends[name] = [scale * end for end in given.ends]
+            for name, distribution in self.distributions.items():
+                scale = _own(name, case) if distribution.relative else 1.0
+                ends[name] = [scale * end for end in distribution.ends]
                 for end in ends[name]:
                     try:
                         if name in NUMBERS:
@@ -278,9 +278,9 @@ class Sensitivity(Quantity):
         """Compute one sample about the point's own parameters."""
         p, names = point.parameters, sorted(self.distributions)
         shares = unit_draws(self.seed, len(names), point.sample)
-        own = dict(p) | ({} if p.disc is None else p.disc.numbers)
-        given = [(self.distributions[name], float(own[name])) for name in names]
-        drawn = np.array([[quantile(*one, part) for one, part in zip(given, row, strict=True)] for row in shares])
+        numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
+        marginals = [(self.distributions[name], float(numbers[name])) for name in names]
+        drawn = np.array([[quantile(*of_name, x) for of_name, x in zip(marginals, row, strict=True)] for row in shares])
         rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
         cycles, messages = zip(*(tried("cycle", evaluate, p, row, self.tol) for row in rows), strict=True)
         values = listed(cycles) | {"status": "ok", "parameter_values": drawn, "outcome": "not_simulated"}
@@ -313,9 +313,9 @@ class Sensitivity(Quantity):
         unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
         growth_rate = cell["growth_rate"].transpose("sample", "variant").values
         outputs = unstable, np.minimum(growth_rate, self.growth_rate_cap)
-        found = [sobol_intervals(output, self.seed) for output in outputs]
+        indices = [sobol_intervals(output, self.seed) for output in outputs]
         for name in Indices._fields:
-            values[f"sobol_{name}"] = np.array([getattr(one, name) for one in found])
+            values[f"sobol_{name}"] = np.array([getattr(index, name) for index in indices])
         values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
         return values
 
@@ -361,18 +361,18 @@ def _block(seed: int, count: int, block: int) -> Array:
     return np.asarray(sequence.random(BLOCK), dtype=float)
 
 
-def quantile(given: Distribution, own: float, share: float) -> float:
+def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     from scipy.special import ndtr, ndtri
 
-    scale = own if given.relative else 1.0
-    low, high = given.ends
-    if given.distribution == "uniform":
+    scale = nominal if distribution.relative else 1.0
+    low, high = distribution.ends
+    if distribution.distribution == "uniform":
         return float(scale * (low + share * (high - low)))
     first, last = EDGE / 2, 1 - EDGE / 2
-    if given.distribution == "truncated_normal":
-        first, last = (ndtr((end - given.mean) / given.deviation) for end in (low, high))
-    value = given.mean + given.deviation * float(ndtri(first + share * (last - first)))
+    if distribution.distribution == "truncated_normal":
+        first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
+    value = distribution.mean + distribution.deviation * float(ndtri(first + share * (last - first)))
     # rounding must not exceed the ends
     return float(scale * min(max(value, low), high))
 
@@ -391,26 +391,26 @@ def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> tuple[Ro
     """Compute the cycle of a case with some parameters replaced: its class and growth rate (1/s), and a message."""
     from disc_model.stability.cycle import floquet
 
-    found = floquet(p.replace(**values), tol=tol)
-    cycle = cycle_word(found)
-    return {"cycle": cycle, "growth_rate": found.growth_rate}, found.message if cycle == "failed" else ""
+    cycle = floquet(p.replace(**values), tol=tol)
+    word = cycle_word(cycle)
+    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == "failed" else ""
 
 
-def cycle_word(found: FloquetResult) -> str:
+def cycle_word(cycle: FloquetResult) -> str:
     """The class of a cycle in `SAMPLE_CYCLES`."""
-    if found.status is CycleStatus.OK:
-        return "stable" if found.stable else "unstable"
-    if found.status is CycleStatus.NO_STICK_SLIP:
-        return "steady_sliding" if found.sliding.stable else "unstable_sliding"
-    return found.status.value if found.status.value in SAMPLE_CYCLES else "failed"
+    if cycle.status is CycleStatus.OK:
+        return "stable" if cycle.stable else "unstable"
+    if cycle.status is CycleStatus.NO_STICK_SLIP:
+        return "steady_sliding" if cycle.sliding.stable else "unstable_sliding"
+    return cycle.status.value if cycle.status.value in SAMPLE_CYCLES else "failed"
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
     """Simulate the static start and return its outcome."""
     from disc_model.stability.attractor.outcome import find_outcome
 
-    found = find_outcome(p, options.horizon, tol=options.motion_tol)
-    return {"outcome": found.word, "first_separation": found.first_separation}, found.message
+    result = find_outcome(p, options.horizon, tol=options.motion_tol)
+    return {"outcome": result.word, "first_separation": result.first_separation}, result.message
 
 
 def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
@@ -418,5 +418,5 @@ def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) 
     from disc_model.analysis.sobol import share
 
     known = words[words != FAILED]
-    found = np.array([share(int(np.isin(known, one).sum()), len(known), len(words) - len(known)) for one in classes])
-    return with_ends(name, found[0] if len(classes) == 1 else found.T)
+    shares = np.array([share(int(np.isin(known, word).sum()), len(known), len(words) - len(known)) for word in classes])
+    return with_ends(name, shares[0] if len(classes) == 1 else shares.T)

@@ -85,7 +85,7 @@ class StabilityCurves(Quantity):
 
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
-        found = neutral_curves(
+        curves = neutral_curves(
             point.parameters,
             {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)},
             lines.values,
@@ -106,10 +106,10 @@ class StabilityCurves(Quantity):
                 "multiplier_im": curve.multipliers.imag,
                 **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
             }
-            for curve in sorted(found, key=lambda curve: -len(curve.period))
+            for curve in sorted(curves, key=lambda curve: -len(curve.period))
         ]
         return listed(rows) | {
             "status": "ok",
-            "n_curves": len(found),
-            "n_continuation_failures": len(found.failures),
+            "n_curves": len(curves),
+            "n_continuation_failures": len(curves.failures),
         }, ""
