@@ -1,13 +1,15 @@
 """What is shown of long work: on a terminal, and elsewhere."""
 
+import functools
 import io
 import sys
+import threading
 
 import numba
 import pytest
 
 from disc_model import Execution, Parameters, progress, simulate
-from disc_model.progress import COMPILING, compiling
+from disc_model.engine.jit import cache
 from disc_model.simulation import api
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -43,10 +45,30 @@ def test_compilation_is_said_in_one_line(
 ) -> None:
     stderr = kind()
     monkeypatch.setattr(sys, "stderr", stderr)
-    monkeypatch.setattr(progress._LINE, "shown", False)
+    monkeypatch.setattr(cache.LINES, "shown", set())
     inner = numba.njit(lambda x: x + 1)
     outer = numba.njit(lambda x: inner(x) + 1)
-    with compiling(report):
+    with cache.compiling(report):
         outer(1)
         outer(2.0)
-    assert stderr.getvalue() == f"{COMPILING}\n" * report
+    assert stderr.getvalue() == f"{cache.COMPILING}\n" * report
+
+
+def test_a_wait_for_another_process_is_said_and_its_helpers_are_read(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
+    fcntl = pytest.importorskip("fcntl")
+    stderr = io.StringIO()
+    monkeypatch.setattr(sys, "stderr", stderr)
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    monkeypatch.setattr(cache.LINES, "shown", set())
+    monkeypatch.setattr(cache, "stored_helpers", functools.cache(lambda codegen: object()))
+    before = cache.stored_helpers(None)
+    with cache.compiling(), cache.lock("free"):
+        pass
+    assert (stderr.getvalue(), cache.stored_helpers(None)) == ("", before)
+    with (tmp_path / "taken.lock").open("a") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        threading.Timer(0.2, fcntl.flock, (file, fcntl.LOCK_UN)).start()
+        with cache.compiling(), cache.lock("taken"):
+            pass
+    assert stderr.getvalue() == f"{cache.WAITING}\n"
+    assert cache.stored_helpers(None) is not before

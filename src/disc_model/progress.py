@@ -1,18 +1,15 @@
-"""Progress on stderr: for long simulations a bar (a line where there is no terminal), and a line for compilation."""
+"""Progress on stderr: for long simulations a bar, or a line where there is no terminal."""
 
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from typing import Any
-
-from numba.core import event
 
 Progress = Callable[[float], object] | bool | None
 """Argument `progress` of callers: a function that receives the time reached, or False for silence."""
 PATIENCE = 2.0
 """s, after which the progress of a simulation is shown."""
-COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 
 _shown = False
 """Whether a bar is shown: what it stands for may simulate as well, also in other threads."""
@@ -71,27 +68,3 @@ def _open_bar(text: str, total: float) -> Any:
     bar.add_task(text, total=total)
     bar.start()
     return bar
-
-
-class _CompilingLine(event.Listener):
-    """Says once in a process that kernels are compiled."""
-
-    shown = False
-
-    def on_start(self, event: Any) -> None:
-        if not self.shown:
-            print(COMPILING, file=sys.stderr, flush=True)
-        self.shown = True
-
-    def on_end(self, event: Any) -> None:
-        pass
-
-
-_LINE = _CompilingLine()
-
-
-@contextmanager
-def compiling(report: bool = True) -> Iterator[None]:
-    """Say so if the block compiles kernels; also usable as a decorator."""
-    with event.install_listener("numba:compile", _LINE) if report else nullcontext():
-        yield

@@ -14,8 +14,8 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model.data.variables import CycleStatus
 from disc_model.disc.plate import mode_arrays
+from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
-from disc_model.progress import compiling
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import FloquetResult, floquet
 from disc_model.stability.return_map import Array, ComplexArray, ReturnMap

@@ -13,9 +13,9 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
+from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.progress import compiling
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State

@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.progress import compiling
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.branch import Branch, StepControl, free_faults, is_interval
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle

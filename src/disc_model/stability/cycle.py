@@ -15,9 +15,9 @@ import numpy as np
 
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Summarised, draw, number_text
+from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
-from disc_model.progress import compiling
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import (
     ENDS,

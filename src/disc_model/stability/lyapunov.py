@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.engine import exit_codes, layout, saltation, tangent, variational
+from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
-from disc_model.progress import compiling
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults

@@ -20,6 +20,7 @@ from typing import Any
 
 import llvmlite
 import numba
+from numba.core import event
 
 from disc_model.sources import code_hash
 
@@ -56,6 +57,43 @@ def hash_of(*of: object) -> str:
     return hashlib.sha256(repr((*of, versions())).encode()).hexdigest()[:16]
 
 
+COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
+WAITING = "waiting for another process that compiles the same kernel"
+
+
+class _Lines(event.Listener):
+    """Says once in a process that kernels are compiled, and once that another process compiles them."""
+
+    def __init__(self) -> None:
+        self.shown: set[str] = set()
+        self.listening = 0
+
+    def say(self, text: str) -> None:
+        if self.listening and text not in self.shown:
+            print(text, file=sys.stderr, flush=True)
+            self.shown.add(text)
+
+    def on_start(self, event: Any) -> None:
+        self.say(COMPILING)
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+LINES = _Lines()
+
+
+@contextmanager
+def compiling(report: bool = True) -> Iterator[None]:
+    """Say so if the block compiles kernels or waits for them; also usable as a decorator."""
+    LINES.listening += report
+    try:
+        with event.install_listener("numba:compile", LINES):
+            yield
+    finally:
+        LINES.listening -= report
+
+
 @functools.cache
 def stored_helpers(codegen: Any) -> dict[str, bytes]:
     """The helpers that were compiled for earlier kernels."""
@@ -78,7 +116,12 @@ def lock(name: str) -> Iterator[None]:
             folder().mkdir(parents=True, exist_ok=True)
             # never deleted: a process may wait for this file while the next one makes another
             file = stack.enter_context((folder() / f"{name}.lock").open("a"))
-            fcntl.flock(file, fcntl.LOCK_EX)
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                LINES.say(WAITING)
+                fcntl.flock(file, fcntl.LOCK_EX)
+                stored_helpers.cache_clear()  # the other process has stored its helpers
         yield
 
 
