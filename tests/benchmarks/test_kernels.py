@@ -58,6 +58,13 @@ def test_at_rest_the_spring_decides():
     assert switched(start.replace(psi=1.0), 1)[0] == ("slip", 1, [kernels.SLIP_REVERSAL])
 
 
+def test_a_state_that_is_not_finite_is_no_event():
+    start = lively("slip", 1)
+    _, y, modes, c = vector(start.replace(psi=np.inf), P)
+    phase, _, count = kernels.switch(modes, c, PHASES.index(start.phase), 1, y, np.zeros(2, np.int64))
+    assert (PHASES[phase], count) == ("slip", -1)
+
+
 @pytest.mark.parametrize("direction", [1, -1])
 def test_after_an_impact_slip_goes_on_as_the_slider_did(direction):
     falling = lively("separation").replace(u_velocity=-1.0, f=30.0 * direction)
