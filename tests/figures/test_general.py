@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm, to_rgba
 from matplotlib.figure import Figure
 
+from disc_model.errors import ParameterError
 from disc_model.figures.drawing import save
 from disc_model.figures.general import CurvePlot
 from tests.figures.reading import draw, labels, lines
@@ -37,6 +38,28 @@ def study() -> xr.Dataset:
 
 def mapped(study: xr.Dataset, variable: str, **phrase: Any) -> Figure:
     return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **phrase)
+
+
+def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None:
+    speeds = study.rename(mu_k="Omega", c_p="N").assign_coords(Omega=[10.0, 11.0, 12.0], N=[1e3, 2e3, 3e3, 4e3])
+    speeds = speeds.assign_attrs(base=json.dumps({"E": 7e10, "k": 6e4, "normalization": "orthonormal"}))
+    plain, other = (
+        draw("heat_map", speeds, variable="drift", x="Omega", y="N", **units)
+        for units in ({}, {"units": {"Omega": "rpm", "N": "kN", "k": "N/mm"}})
+    )
+    assert all(text in plain.get_suptitle() for text in ("E = 70 GPa", "k = 60 kN/m"))
+    assert "k = 60 N/mm" in other.get_suptitle()
+    ax = other.axes[0]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Speed Ω (rpm)", "Preload N (kN)")
+    assert ax.get_xlim() == plain.axes[0].get_xlim(), "what is drawn stays"
+    other.canvas.draw()
+    low, high = ax.get_xlim()
+    for place, text in zip(ax.get_xticks(), ax.get_xticklabels(), strict=True):
+        if low <= place <= high:
+            assert float(text.get_text()) == pytest.approx(place * 60 / (2 * np.pi), rel=1e-5)
+            assert float(text.get_text()) % 2.5 == pytest.approx(0, abs=1e-6), "round numbers"
+    with pytest.raises(ParameterError, match=r"units.N='rpm': must be a number in N"):
+        draw("heat_map", speeds, variable="drift", x="Omega", y="N", units={"N": "rpm"})
 
 
 def mesh(figure: Figure) -> Any:

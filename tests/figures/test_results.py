@@ -99,3 +99,19 @@ def test_modes_are_drawn_with_their_nodal_lines() -> None:
     axes = plot_modes(P, 12)
     assert [ax.get_title() for ax in axes][1] == "(1, 0)  241 Hz"
     assert isinstance(axes[0].figure, Figure)
+
+
+def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
+    line = dm.sweep(dm.floquet, P, Omega=[10, 12, 14, 15])
+    ax = dm.plot_sweep(line)
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), line["growth_rate"])
+    assert ax.get_xlabel() == "Speed Ω (rad/s)"
+    plane = dm.sweep(dm.floquet, P, Omega=[10, 12, 14], N=[300, 385])
+    ax = dm.plot_sweep(plane, "period", x="N")
+    np.testing.assert_allclose(ax.collections[0].get_array(), plane["period"])
+    assert ax.get_ylabel() == "Speed Ω (rad/s)"
+    assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (s)"
+    outcomes = plane.assign(outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]]))
+    assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
+    with pytest.raises(dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"):
+        dm.plot_sweep(plane, "perod")

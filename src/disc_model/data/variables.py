@@ -7,6 +7,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple, get_args
 
 import numpy as np
@@ -160,7 +161,9 @@ def attributes(name: str) -> dict[str, Any]:
 
 
 def flag_names(variable: Any) -> np.ndarray:
-    """Values of a flag variable (a DataArray) as words, array of str of the same shape."""
+    """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as they are."""
+    if variable.dtype.kind in "UO":
+        return np.asarray(variable.values, dtype=str)
     return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
 
 
@@ -220,18 +223,23 @@ def angles_text(angles: Iterable[float]) -> str:
     return " and ".join(f"{angle:g}" for angle in sorted({*angles})) + " rad"
 
 
-def values_text(values: Mapping[str, Any]) -> str:
-    """Text with N, Omega and all parameter values that differ from Table 1, with units."""
+def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})) -> str:
+    """Text with N, Omega and all parameter values that differ from Table 1, with units.
+
+    units : other units than those of `SHOWN`, with the factor from SI, by parameter
+    """
     texts = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
-            value, unit = values[name], Parameters.unit(name)
+            value = values[name]
             if name == "disc" and value:  # a table is too long
                 frequencies = value["omega"] if isinstance(value, Mapping) else value.omega
                 texts.append(f"a disc given by {len(frequencies)} modes")
             elif name in ("N", "Omega") or value != field.default:
+                shown = SHOWN.get(name) or Shown(name, name, Parameters.unit(name).removeprefix("1"))
+                unit, factor = units.get(name, (shown.unit, shown.factor))
                 number = isinstance(value, float | int)  # some parameters may be words, which have no unit
-                shown = f"{value:g}" + (f" {unit}" if unit not in ("", "1") else "") if number else str(value)
-                symbol = SHOWN[name].symbol if name in SHOWN else ""
-                texts.append(f"{symbol or name} = {shown}")
+                unit = unit if value else unit.removeprefix("10⁻⁵ ")
+                text = f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵") if number else str(value)
+                texts.append(f"{shown.symbol or name} = {text}")
     return ", ".join(texts)

@@ -8,7 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
-from disc_model.figures.drawing import BLACK, GREY, AsinhNorm, Axes, Figure, Outline, Patch, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, AsinhNorm, Axes, FigureBase, Outline, Patch, edges, label_of
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -157,7 +157,7 @@ def growth_norm(rates: Array) -> AsinhNorm:
     return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_panels(figure: Figure, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
+def growth_panels(figure: FigureBase, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
     """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
 
     Cells of decay are dotted, isolated ones hatched. Returns the used keys of `CYCLE_LOOKS`, and "".

@@ -8,6 +8,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from functools import wraps
 from itertools import chain, repeat
 from pathlib import Path
@@ -172,6 +173,36 @@ def outline(width: float, colour: str) -> list[AbstractPathEffect]:
     return [withStroke(linewidth=width, foreground=colour)]
 
 
+UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
+"""Units of the reader and the factors from SI to them, by parameter or sampled variable, while a figure is drawn."""
+
+
+def restate_axes(figure: Figure) -> None:
+    """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
+    from matplotlib.ticker import AutoLocator, FixedLocator, FuncFormatter
+
+    class Ticks(AutoLocator):
+        def __init__(self, ratio: float) -> None:
+            super().__init__()
+            self.ratio = ratio
+
+        def tick_values(self, low: float, high: float) -> Any:
+            return np.asarray(super().tick_values(low * self.ratio, high * self.ratio)) / self.ratio
+
+    decades = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
+    for axis in [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]:
+        text = axis.get_label_text()
+        for name, (unit, factor) in UNITS.get().items():
+            shown = SHOWN[name]
+            if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
+                ratio = factor / shown.factor
+                axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
+                axis.set_major_locator(
+                    Ticks(ratio) if axis.get_scale() == "linear" else FixedLocator((decades / ratio).tolist())
+                )
+                axis.set_major_formatter(FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
+
+
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     words = str(variable.attrs.get("long_name", variable.name))
@@ -185,8 +216,17 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 
 def flags_of(variable: xr.DataArray) -> list[str]:
     """Words of a flag's values; none for other variables."""
+    if variable.dtype.kind in "UO":
+        return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in np.unique(variable.values).tolist()]
     words = variable.attrs.get("flag_meanings", "").split()
     return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
+
+
+def as_numbers(variable: xr.DataArray) -> xr.DataArray:
+    """A variable as numbers: words by their places among `flags_of`."""
+    if variable.dtype.kind not in "UO":
+        return variable
+    return variable.copy(data=np.unique(variable.values, return_inverse=True)[1].reshape(variable.shape).astype(float))
 
 
 def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
@@ -210,7 +250,7 @@ def what_case(values: Mapping[str, Any]) -> str:
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
-    numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)})
+    numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)}, UNITS.get())
     return ", ".join(filter(None, [numbers, *words]))
 
 
@@ -234,6 +274,9 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     if isinstance(value, str):
         return WORDS.get(value, value)
     label, factor = label_of(data[by])
+    if by in UNITS.get():
+        unit, factor = UNITS.get()[by]
+        label = f"{label.rpartition(' (')[0]} ({unit})"
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
     name, _, unit = label.rpartition(" (")
@@ -363,6 +406,8 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
     """The status of each point of a grid study, as a word."""
+    if "status" not in study:
+        return xr.DataArray("ok")
     return study["status"].copy(data=flag_names(study["status"]))
 
 

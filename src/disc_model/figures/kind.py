@@ -10,22 +10,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import xarray as xr
-from pydantic import BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PERTURBATIONS
-from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.data.variables import PERTURBATIONS, SERIES, SHOWN
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import Figure
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Poincare, Window
-from disc_model.units import Strict, Title
+from disc_model.units import Strict, Title, in_si
 
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""
@@ -66,18 +67,37 @@ def _joined(caption: Any) -> Any:
     )
 
 
+def _si_unit(name: str) -> str:
+    return Parameters.unit(name) or (SERIES[name].units.replace(" s-1", "/s") if name in SERIES else "")
+
+
+def _known_units(units: dict[str, str]) -> dict[str, str]:
+    """The units, if each is one of its parameter or variable; raises `ParameterError`."""
+    faults: list[Fault] = []
+    for name, unit in units.items():
+        known = [one for one in SHOWN if _si_unit(one) not in ("", "1")]
+        if name not in known:
+            faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
+        else:
+            in_si(f"1 {unit}", _si_unit(name), faults, (name,))
+    raise_faults(faults)
+    return units
+
+
 class Kind(Strict):
     """A figure: its fields are what a study file may say of it.
 
     title : stands above the figure, and in lists
     caption : stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
     section : heading under which report and explorer show it
+    units : units of axes and titles by parameter or sampled variable, such as ``{Omega: rpm, N: kN}``
     """
 
     kind: str
     title: Title = ""
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
     section: Title = ""
+    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
 
     @classmethod
     def __pydantic_init_subclass__(cls, **options: Any) -> None:
@@ -90,6 +110,17 @@ class Kind(Strict):
         """Module that holds its kind."""
         return type(self).__module__
 
+    @contextmanager
+    def in_its_style(self) -> Iterator[None]:
+        """The common style, and the units of its readers."""
+        factors = {name: (unit, 1 / in_si(f"1 {unit}", _si_unit(name), [], ())) for name, unit in self.units.items()}
+        token = drawing.UNITS.set(factors)
+        try:
+            with drawing.styled():
+                yield
+        finally:
+            drawing.UNITS.reset(token)
+
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
         """Draw it from its data in the common style.
 
@@ -100,8 +131,9 @@ class Kind(Strict):
     def write_head(self, figure: Figure, title: str, values: str) -> None:
         """Write the figure's title, or else another one, and values of parameters above it, in lines that fit.
 
-        A caption says both.
+        A caption says both.  Axes get the units of the reader.
         """
+        drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:
             self.place_title(figure, text)
@@ -163,7 +195,7 @@ class Plot(Kind):
         if not self.several:
             norm = getattr(self, "normalization", None) or drawing.normalizations(study)[0]
             study, *others = (drawing.of(dataset, norm) for dataset in (study, *others))
-        with drawing.styled():
+        with self.in_its_style():
             figure = self.draw(study, dict(zip([*inputs][1:], others, strict=True)))
             base = json.loads(study.attrs.get("base", "{}"))
             modes = drawing.normalizations(study) if "normalization" in study.coords else []
@@ -316,7 +348,7 @@ class CasePlot(Kind):
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
         """Draw it as any figure; the reason instead, if a case does not hold what it needs."""
         first = next(iter(inputs.values()))
-        with drawing.styled():
+        with self.in_its_style():
             try:
                 figure = self.draw(*inputs.values())
             except Missing as reason:

@@ -15,7 +15,7 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, suggestion
-from disc_model.figures import disc, drawing, motion
+from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.branches import draw_branch
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
 from disc_model.parameters import Parameters
@@ -213,3 +213,54 @@ def plot_modes(p: Parameters, most: int, ax: Any = None) -> np.ndarray:
     if ax is None:
         axes[0].figure.suptitle("Modes (nodal diameters, nodal circles), slider and nodal lines", fontsize=8)
     return np.array(axes)
+
+
+@by_itself
+def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool = False, ax: Any = None) -> Axes:
+    """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over two.
+
+    Parameters
+    ----------
+    study : such as `disc_model.sweep` and `disc_model.run_study` return; of one or two dimensions of several values
+    variable : the growth rate, the outcome or the first number there is if not given
+    x : the dimension along the horizontal axis; the first of two for a map
+    log : whether the scale of the variable is logarithmic
+    ax : axes to draw on
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> growth = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14])
+    >>> dm.plot_sweep(growth).get_xlabel()
+    'Speed Ω (rad/s)'
+    """
+    study = study.squeeze()
+    grid = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
+    choices = [str(name) for name, values in study.items() if {*values.dims} and {*values.dims} <= {*grid}]
+    named = variable or next((name for name in ("growth_rate", "outcome") if name in choices), (*choices, "")[0])
+    if named not in choices:
+        raise ParameterError(Fault.of(("variable",), named, f"must be one over the grid{suggestion(named, choices)}"))
+    dims = [str(dim) for dim in study[named].dims]
+    across = x or dims[0]
+    if across not in dims or len(dims) > 2:
+        rule = f"must be one of {', '.join(dims)}, and these one or two: select values of others"
+        raise ParameterError(Fault.of(("x",), across, rule))
+    [axes] = axes_for(ax, 1.3 * COLUMN, 2.9)
+    handles: Sequence[Any]
+    if len(dims) == 1:
+        general.draw_lines(axes, study, named, across, log)
+        handles = axes.get_legend_handles_labels()[0]
+    else:
+        [up] = [dim for dim in dims if dim != across]
+        handles = general.draw_maps(axes.figure, [axes], study, named, across, up, log)
+    if handles:
+        axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
+    if "parameters" in study.attrs:
+        case = dict(Parameters.model_validate_json(study.attrs["parameters"]))
+    else:
+        case = drawing.stated_in(study, "base") if "base" in study.attrs else {}
+    values = {name: value for name, value in dict(case).items() if name not in study.coords}
+    if ax is None:
+        figure: Any = axes.figure
+        figure.suptitle(drawing.head_text(figure.get_figwidth(), "", drawing.what_case(values)), fontsize=8)
+    return axes
