@@ -16,6 +16,11 @@ LAWS: dict[str, dict[str, Any]] = {
     "compliant_normal": {"contact_compliance": taylor.COMPLIANCE, "contact_force": "normal"},
 }
 
+COUPLE: dict[str, Any] = {"friction_offset": 0.02}
+"""Ten times the plate's thickness, so that the couple shows at once."""
+COUPLED = {f"{name or 'vertical'}_coupled": law | COUPLE for name, law in {"": {}, **LAWS}.items()}
+"""Each law with friction above the middle plane."""
+
 COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
 """Marks of what has kernels of its own, which compile for a minute; without compilation it is quick."""
 

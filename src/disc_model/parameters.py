@@ -11,7 +11,16 @@ from importlib import import_module
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import BeforeValidator, Field, ModelWrapValidatorHandler, PrivateAttr, field_validator, model_validator
+from pydantic import (
+    BeforeValidator,
+    Field,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    SerializerFunctionWrapHandler,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from disc_model.display import draw, html_table
 from disc_model.errors import Fault, as_text, raise_faults
@@ -42,6 +51,9 @@ CHOOSING = ("truncation_quantity", "truncation_tolerance")
 RESIDUAL = "residual"
 """Value of ``contact_compliance`` that stands for the static flexibility of the modes left out."""
 
+SURFACE = "surface"
+"""Value of ``friction_offset`` by which friction acts on the disc's surface."""
+
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 """Parameters in rules that relate several parameters."""
 
@@ -59,21 +71,25 @@ FREQUENCIES = (1e-3, 1e7)
 AMPLITUDES = (1e-6, 1e6)
 """Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
 
-_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc")
+_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
-def _compliance(value: Any) -> Any:
-    """A compliance in m/N, or `RESIDUAL`."""
-    if value == RESIDUAL:
-        return value
-    try:
-        compliance = float(number(value))
-    except ValueError:
-        raise ValueError(f"must be a number or {RESIDUAL!r}") from None
-    if not 0 <= compliance < math.inf:
-        raise ValueError(f"must be finite and >= 0, or {RESIDUAL!r}")
-    return compliance
+def _or_word(word: str) -> BeforeValidator:
+    """Validator of a finite number >= 0, or a word in its place."""
+
+    def check(value: Any) -> Any:
+        if value == word:
+            return value
+        try:
+            size = float(number(value))
+        except ValueError:
+            raise ValueError(f"must be a number or {word!r}") from None
+        if not 0 <= size < math.inf:
+            raise ValueError(f"must be finite and >= 0, or {word!r}")
+        return size
+
+    return BeforeValidator(check)
 
 
 # What only study files and the command line accept is refused with the name of the function to use instead.
@@ -111,6 +127,9 @@ class Disc(Checked):
     amplitude : mass-normalised displacement under the slider, at an antinode of the pair (kg^-1/2)
     damping_ratio : of each mode (0 to 1; 0 if left out)
     circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
+    tangential : displacement of the friction surface along the slider's path, under the slider, of the half of each
+        pair that has its node there (kg^-1/2); in a plate, at the height z, -(z/r_0) diameters amplitude. Needed for
+        ``friction_offset="surface"`` alone
     static_compliance : of the whole disc at the slider (m/N, > 0), from which the compliance of the modes that are left
         out follows; None if it is not known
     radii : where shapes are known (m, ascending, two or more); none if they are not
@@ -127,18 +146,21 @@ class Disc(Checked):
     amplitude: tuple[Finite, ...]
     damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field((), validate_default=True)
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
+    tangential: tuple[Finite, ...] = ()
     static_compliance: Positive | None = None
     radii: tuple[Positive, ...] = Field((), repr=False)
     shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
 
-    _columns: ClassVar[tuple[str, ...]] = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "shapes")
+    _columns: ClassVar[tuple[str, ...]] = (
+        "diameters", "omega", "amplitude", "damping_ratio", "circles", "tangential", "shapes",
+    )  # fmt: skip
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
-        def __init__(
+        def __init__(  # noqa: PLR0913
             self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column | None = ...,
-            circles: Column | None = ..., static_compliance: Quantity | None = ..., radii: Column = ...,
-            shapes: Iterable[Column] = ...,
+            circles: Column | None = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
+            radii: Column = ..., shapes: Iterable[Column] = ...,
         ) -> None: ...  # fmt: skip
 
     @model_validator(mode="wrap")
@@ -152,6 +174,11 @@ class Disc(Checked):
         counted = isinstance(circles, Sized) and not len(circles)
         raise_faults(disc._faults_of_columns() or disc._faults_of_modes(counted))
         return disc
+
+    @model_serializer(mode="wrap")
+    def _older(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """The fields, without those added later where they are left out, so that older hashes stay valid."""
+        return {name: x for name, x in handler(self).items() if x or name != "tangential"}
 
     @field_validator("damping_ratio", "circles")
     @classmethod
@@ -172,8 +199,9 @@ class Disc(Checked):
         Parameters
         ----------
         path : CSV file. Its columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``, and
-            ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, and shapes at radii, such as
-            ``shape_at_0.08_m``. Lines that begin with # are comments; one may give ``static_compliance_m_per_N: ...``
+            ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, ``tangential_per_sqrt_kg``, and
+            shapes at radii, such as ``shape_at_0.08_m``. Lines that begin with # are comments; one may give
+            ``static_compliance_m_per_N: ...``
 
         Raises
         ------
@@ -253,7 +281,7 @@ class Disc(Checked):
         -------
         Disc
             Modes ordered by frequency; ``circles`` numbers the modes of equal nodal diameters. Shapes are those at the
-            height of the slider.
+            height of the slider, tangential amplitudes those of the surface there.
 
         Raises
         ------
@@ -411,11 +439,14 @@ class Parameters(Checked):
         "as_published", "", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
     contact: Literal["separable", "bonded"] = _field("separable", "", "whether the slider may leave the disc")
-    contact_compliance: Annotated[float | Literal["residual"], BeforeValidator(_compliance)] = _field(
+    contact_compliance: Annotated[float | Literal["residual"], _or_word(RESIDUAL)] = _field(
         0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
     )
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
+    )
+    friction_offset: Annotated[float | Literal["surface"], _or_word(SURFACE)] = _field(
+        0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
@@ -432,9 +463,9 @@ class Parameters(Checked):
             mu_k: Quantity = ..., a: Quantity = ..., b: Quantity = ..., r_0: Quantity = ..., h: Quantity = ...,
             nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
             normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ..., contact_force: str = ...,
-            damping_ratio: Quantity | None = ..., disc: Disc | None = ..., mu_k_over_mu_s: float = ...,
-            k_p_over_k: float = ..., c_p_over_c: float = ..., a_over_b: float = ..., r_0_over_b: float = ...,
-            h_over_b: float = ...,
+            friction_offset: Quantity = ..., damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+            mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ..., a_over_b: float = ...,
+            r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
 
     else:
@@ -450,6 +481,9 @@ class Parameters(Checked):
         values, fields = dict(self), type(self).model_fields
         changed = [name for name in (*PLATE, "damping_ratio") if values[name] not in (fields[name].default, AUTO)]
         if self.disc is not None:
+            if self.friction_offset == SURFACE and not self.disc.tangential:
+                need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
+                raise_faults([Fault.of(("friction_offset",), SURFACE, need)])
             rule = "must be left out where a disc is given: it is a parameter of the plate"
         else:
             rule = "must be left out where damping_ratio is given"

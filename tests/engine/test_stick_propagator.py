@@ -18,6 +18,7 @@ VARIANTS = {
     "orthonormal": {"normalization": "orthonormal"},
     "more blocks": {"n_diameters": 7, "n_circles": 1, "c": 2.0},
     "no pairs": {"n_diameters": 0},
+    "coupled": {"friction_offset": 0.02, "c_p": 0.5},
 }
 COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
@@ -39,7 +40,7 @@ def _lively(model: layout.Model, seed: int = 1) -> layout.EngineState:
     return state
 
 
-@pytest.mark.parametrize("variant", [*VARIANTS, "compliant"])
+@pytest.mark.parametrize("variant", [*VARIANTS, "compliant", "compliant coupled"])
 @pytest.mark.parametrize("x", [pytest.param(x, marks=COMPILES) for x in (0.0, 0.1, 1.7, 4.0)])
 def test_closed_form_is_the_series(variant: str, x: float) -> None:
     """Both are exact but for rounding: 40 terms, whose largest is 4^4 / 4! = 11 times the sum at x = 4.
@@ -47,18 +48,20 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     A velocity is rounded as the static deflection is, times the highest frequency.
     """
     model = engine_case(Parameters(N=385, Omega=15.1, **VARIANTS.get(variant, COMPLIANT))).model
+    if variant == "compliant coupled":
+        model = engine_case(Parameters(N=385, Omega=15.1, **COMPLIANT | VARIANTS["coupled"])).model
     closed, taylor = _lively(model), _lively(model)
     _propagate(model, layout.build_series(model, ORDER), closed, x)
     s = layout.build_series(model, ORDER)
     dense_output.load_state(model, s, taylor)
-    expand = series.compliant_stick_series if variant == "compliant" else series.stick_series
+    expand = series.compliant_stick_series if model.compliant else series.stick_series
     expand(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
     for name, unit in {"e": model.unit, "g": model.unit, "z": 1.0, "y": 1.0}.items():
         np.testing.assert_allclose(getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0)
     assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
-    if variant == "compliant":
+    if model.compliant:
         assert closed.x[layout.U] == pytest.approx(taylor.x[layout.U], abs=1e-14 * size)
         assert closed.x[layout.U_VELOCITY] == pytest.approx(taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit)
 

@@ -9,7 +9,7 @@ from disc_model import Parameters, plate_modes
 from disc_model.engine import exit_codes, saltation, tangent, transitions
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
-from tests.contact_laws import COMPILES, LAWS
+from tests.contact_laws import COMPILES, COUPLED, LAWS
 from tests.engine.full_system import Full
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, P, lively
@@ -36,12 +36,13 @@ SWITCHES = {
 }
 #: Two laws are residual: their compliance changes with Young's modulus.
 RESIDUAL = {"contact_compliance": "residual", "normalization": "orthonormal"}
-CONTACTS = {"vertical": {}, **LAWS, "compliant": RESIDUAL, "residual_normal": RESIDUAL | {"contact_force": "normal"}}
+CONTACTS = {
+    "vertical": {}, **LAWS, "compliant": RESIDUAL, "residual_normal": RESIDUAL | {"contact_force": "normal"}, **COUPLED,
+}  # fmt: skip
 #: Where nothing pulls the reference meets two switches at once; a compliant contact begins without tension.
 NOT_THERE = [
-    ("normal", "contact lost in stick"),
-    ("residual_normal", "contact lost in stick"),
-    *((law, "impact, left in tension") for law in ("compliant", "compliant_normal", "residual_normal")),
+    *((law, "contact lost in stick") for law in ("normal", "residual_normal", "normal_coupled")),
+    *((law, "impact, left in tension") for law in CONTACTS if "compliant" in law or "residual" in law),
 ]
 THROUGH = [
     pytest.param(law, switch, marks=COMPILES if law != "vertical" else ())
@@ -63,7 +64,7 @@ def about_to(switch: str, law: str) -> tuple[Parameters, stored.State]:
     p = P.replace(n_diameters=1, **CONTACTS[law])
     if switch == "contact lost in stick":
         # it is not friction that ends stick: it holds on the slope, or nothing pulls
-        p = p.replace(**({"mu_s": 4.0} if law == "compliant_normal" else {"k_p": 0.0, "c_p": 0.0}))
+        p = p.replace(**({"mu_s": 4.0} if law.startswith("compliant_normal") else {"k_p": 0.0, "c_p": 0.0}))
     start, q = stored.reference_state(lively(phase, direction, p), p), taylor.problem_of(p)
     level, flies, thrown = np.array(start.a), phase == "separation", "lost" in switch or "release" in switch
     start.b, start.alpha = np.array(start.b) * (-60 if backwards else 60), start.alpha + 6 * thrown * q.s / q.S2

@@ -115,7 +115,9 @@ def compare_laws():
     for N, Omega in CASES:
         p = Parameters(N=N, Omega=Omega, normalization="orthonormal")
         for consistent in (False, True):
-            time, low, high, share = first_separation(problem_of(p, offset=p.h / 2), 80, STEP, consistent)
+            time, low, high, share = first_separation(
+                problem_of(p.replace(friction_offset="surface")), 80, STEP, consistent
+            )
             outcome = f"P {low:.0f} to {high:.0f} N" if np.isnan(time) else f"separates at {time:.2f} s"
             law = "consistent" if consistent else "model's"
             print(

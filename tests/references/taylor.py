@@ -62,9 +62,10 @@ class Problem:
         return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)
 
 
-def problem_of(p, rates=(0.0, 0.0), offset=0.0):
+def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
     modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
+    offset = p.h / 2 if p.friction_offset == "surface" else p.friction_offset
     return Problem(values, modes["omega"], np.abs(modes["psi"]), modes["diameters"], rates, offset)
 
 

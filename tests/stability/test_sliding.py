@@ -9,7 +9,7 @@ from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.engine import exit_codes
 from disc_model.simulation.states import State
 from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes
-from tests.contact_laws import COMPILES, LAWS
+from tests.contact_laws import COMPILES, COUPLED, LAWS
 from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -37,13 +37,16 @@ SLIDING = {
     "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),
     "orthonormal": Parameters(N=100, Omega=40, normalization="orthonormal"),
     # two nodal diameters, and damping that counts beside l Omega and omega
-    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in LAWS.items()},
+    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in (LAWS | COUPLED).items()},
 }
 
 
 @pytest.mark.parametrize(
     "p",
-    [pytest.param(p, marks=COMPILES if name in LAWS else pytest.mark.compiled, id=name) for name, p in SLIDING.items()],
+    [
+        pytest.param(p, marks=COMPILES if name in LAWS | COUPLED else pytest.mark.compiled, id=name)
+        for name, p in SLIDING.items()
+    ],
 )
 def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     """It stays where it is, and its eigenvalues are those of a flight from there."""

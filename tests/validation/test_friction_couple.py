@@ -52,7 +52,7 @@ def test_growth_of_the_reference_without_the_couple_is_ours(law):
 def test_both_references_move_alike_about_steady_sliding(law):
     """Rates of the Taylor integrator, differentiated there, have the eigenvalues of the program of growth rates."""
     p, offset = Parameters(N=385, Omega=20, n_diameters=2, c=0.3, c_p=0.7, D_star=1e-3, **EACH_LAW[law]), 0.01
-    q, n = taylor.problem_of(p, offset=offset), 3
+    q, n = taylor.problem_of(p.replace(friction_offset=offset)), 3
     wanted, (V, R, T) = eigenvalues(p, offset)
     kept = np.array([i for i in range(4 * n + (4 if q.C else 2)) if i not in (n, 3 * n)])
 
@@ -93,7 +93,7 @@ def test_both_references_move_alike_about_steady_sliding(law):
 def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase, direction):
     """Coefficient by coefficient: power into disc and slider across the disc, with T v_s, and along it."""
     p, offset, order = P.replace(**EACH_LAW[law]), 0.02, 12
-    q, start = taylor.problem_of(p, offset=offset), lively(phase, direction, p)
+    q, start = taylor.problem_of(p.replace(friction_offset=offset)), lively(phase, direction, p)
     if q.C:
         start = start.replace(u=start.u - 500 * float(q.C), u_velocity=start.u_velocity + 0.01)
     step = taylor.Step(q, phase, direction, stored.reference_state(start, p))
@@ -134,5 +134,5 @@ def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase
 @pytest.mark.parametrize(("N", "Omega", "time"), [(385, 15, 63.6), (200, 30, 37.9)])
 def test_first_separation_of_the_reference_is_that_of_the_prototype(N, Omega, time):
     """To its last digit."""
-    q = taylor.problem_of(Parameters(N=N, Omega=Omega, normalization="orthonormal"), offset=1e-3)
+    q = taylor.problem_of(Parameters(N=N, Omega=Omega, normalization="orthonormal", friction_offset=1e-3))
     assert first_separation(q, 80)[0] == pytest.approx(time, abs=0.05)

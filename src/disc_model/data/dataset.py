@@ -31,7 +31,7 @@ from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
-from disc_model.parameters import RESIDUAL, Parameters
+from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
 OVERHEAD = 1 << 18
@@ -75,7 +75,9 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         for name, variable in SCALARS.items()
     }
     disc = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
-    for name, value in (p.model_dump() | {"contact_compliance": _compliance(p), "disc": disc}).items():
+    for name, value in (
+        p.model_dump() | {"contact_compliance": _compliance(p), "friction_offset": _offset(p), "disc": disc}
+    ).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
     attrs = {
@@ -86,6 +88,13 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         "message": message,
     }
     return xr.Dataset(data, attrs=attrs)
+
+
+def _offset(p: Parameters) -> float:
+    """Height of friction above the middle plane, m; nan if it follows from the table of a disc."""
+    if p.friction_offset != SURFACE:
+        return float(p.friction_offset)
+    return p.h / 2 if p.disc is None else math.nan
 
 
 def _compliance(p: Parameters) -> float:

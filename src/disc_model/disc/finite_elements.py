@@ -96,11 +96,12 @@ def disc_of_section(
     )
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
-    vertical = basis.split_indices()[1]
+    _, vertical, circular = basis.split_indices()
     apart = np.hypot(*(basis.doflocs[:, vertical] - np.array(slider)[:, None]))
     level = np.flatnonzero(np.abs(basis.doflocs[1, vertical] - slider[1]) < SAME_PLACE)
     radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
-    measured = vertical[[int(np.argmin(apart)), *level[first]]]
+    nearest = int(np.argmin(np.hypot(*(basis.doflocs[:, circular] - np.array(slider)[:, None]))))
+    measured = np.array([vertical[int(np.argmin(apart))], circular[nearest], *vertical[level[first]]])
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     pieces = _pieces(mesh)
     raise_faults(
@@ -112,19 +113,20 @@ def disc_of_section(
     )
     warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
     highest = math.tau * highest_Hz
-    rows: list[tuple[float, int, int, float, list[float]]] = []
+    rows: list[tuple[float, int, int, float, float, list[float]]] = []
     for l in range(61):
         omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, highest)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
-        rows += [(w, l, i, a, shape) for i, (w, (a, *shape)) in enumerate(zip(omega, moves, strict=True))]
-    largest = max((a for *_, a, _ in rows), default=0.0)
+        # the sine of a mode has the displacement -v(sin(l theta) to cos(l theta)) along theta
+        rows += [(w, l, i, a, 0.0 - v, shape) for i, (w, (a, v, *shape)) in enumerate(zip(omega, moves, strict=True))]
+    largest = max((row[3] for row in rows), default=0.0)
     transverse = sorted(row for row in rows if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
     raise_faults(violations((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
-    omegas, diameters, circles, amplitudes, shapes = zip(*transverse, strict=True)
+    omegas, diameters, circles, amplitudes, tangential, shapes = zip(*transverse, strict=True)
     return Disc(
-        omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, shapes=shapes, radii=radii.tolist(),
-        damping_ratio=[float(damping_ratio)] * len(transverse),
+        omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,
+        shapes=shapes, radii=radii.tolist(), damping_ratio=[float(damping_ratio)] * len(transverse),
     )  # fmt: skip
 
 

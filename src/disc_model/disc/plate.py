@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
-from disc_model.parameters import Disc, Parameters, foreign_case
+from disc_model.parameters import SURFACE, Disc, Parameters, foreign_case
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -94,6 +94,17 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
     if p.disc is not None:
         return modes_of_table(p.disc)
     return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
+
+
+def tangential_amplitudes(p: Parameters) -> Array:
+    """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape (n_modes,).
+
+    At a height z of ``friction_offset`` above the middle plane they are -(z/r_0) l psi; 0 in that plane.
+    """
+    if p.disc is not None and p.friction_offset == SURFACE:
+        return np.array(p.disc.tangential)
+    modes, height = mode_arrays(p), p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
+    return -height / p.r_0 * modes.diameters * modes.psi
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table
+from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table, tangential_amplitudes
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Disc, Parameters
 
 if TYPE_CHECKING:
     import os
 
+TANGENTIAL = "tangential_per_sqrt_kg"
 COLUMNS = {
     "diameters": ("diameters", 1.0),
     "frequency_Hz": ("omega", math.tau),
@@ -24,6 +25,7 @@ COLUMNS = {
     "amplitude_per_sqrt_kg": ("amplitude", 1.0),
     "damping_ratio": ("damping_ratio", 1.0),
     "circles": ("circles", 1.0),
+    TANGENTIAL: ("tangential", 1.0),
 }
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
 SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")
@@ -213,19 +215,21 @@ def disc_table(p: Parameters) -> str:
         return table_text(p.disc)
     modes = mode_arrays(p)
     numbers = (modes.diameters, modes.circles, modes.omega, modes.psi, damping_ratios(p))
-    return _text_of(numbers, {}, residual_flexibility(p).total)
+    further = {TANGENTIAL: tangential_amplitudes(p)} if p.friction_offset else {}
+    return _text_of(numbers, further, residual_flexibility(p).total)
 
 
 def table_text(disc: Disc) -> str:
     """A disc as a table."""
     numbers = (disc.diameters, disc.circles, disc.omega, disc.amplitude, disc.damping_ratio)
+    further: dict[str, Any] = {TANGENTIAL: disc.tangential} if disc.tangential else {}
     shapes = zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)
-    return _text_of(numbers, {f"shape_at_{r}_m": shape for r, shape in shapes}, disc.static_compliance)
+    return _text_of(numbers, further | {f"shape_at_{r}_m": shape for r, shape in shapes}, disc.static_compliance)
 
 
-def _text_of(numbers: tuple[Any, ...], shapes: dict[str, Any], static: float | None) -> str:
+def _text_of(numbers: tuple[Any, ...], further: dict[str, Any], static: float | None) -> str:
     names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio")
-    columns = dict(zip(names, numbers, strict=True)) | shapes
+    columns = dict(zip(names, numbers, strict=True)) | further
     rows = [[*columns], *zip(*columns.values(), strict=True)]
     comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)

@@ -1,9 +1,10 @@
 """Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense output.
 
-d/dt (disc + vertical slider) = P f B - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
+d/dt (disc + vertical slider) = P f B + T v_s - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
 d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2
 
-On a ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
+T v_s is the work of friction T on the disc's surface, whose velocity is v_s; it has no counterpart in the plane. On a
+ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
 """
 
 import math
@@ -12,8 +13,9 @@ import numpy as np
 
 from . import layout
 from .dense_output import force_at, move_to
-from .jit import helper
-from .transitions import disc_point, inplane_force_per_radius, slider_motion
+from .jit import helper, inlined
+from .jit.simd import WIDTH, fma, load, splat, total
+from .transitions import disc_point, friction_force, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
@@ -25,7 +27,8 @@ _PANEL = 8.0
 # Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy
 # exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken out.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
-TRANSVERSE_TURNOVER, INPLANE_TURNOVER, N_SUMS = range(6, 9)
+# COUPLE: sum of the work T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps, audited or not.
+TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
 
 
 @helper
@@ -57,9 +60,18 @@ def inplane_energy(model, state):
     return 0.5 * model.r_0**2 * (model.m * x[layout.F] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
 
+@inlined
+def surface_velocity(model, state):
+    """v_s: velocity of the disc's surface under the slider, along its path, by which friction bends the disc; m/s."""
+    velocity = splat(0.0)
+    for b in range(0, len(model.shift), WIDTH):
+        velocity = fma(load(model.couple, b), load(state.e, b), velocity)
+    return -total(velocity)
+
+
 @helper
 def _powers_in(model, state, phase, direction, P):
-    """Power into the transverse and the in-plane motion, and the sums of the moduli of their parts, W."""
+    """Power into the transverse and the in-plane motion, the sums of the moduli of their parts, and T v_s, W."""
     u, v, dw_dtheta = slider_motion(model, state)
     f, F, Omega = state.x[layout.F], inplane_force_per_radius(model, state), layout.drive_now(model, state)
     lost = model.c * v * v
@@ -77,7 +89,12 @@ def _powers_in(model, state, phase, direction, P):
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
     if model.ramped:
         driven += model.N_rate * (u - model.u_0)
-    return driven - lost, supplied - rubbed - damped, abs(driven) + lost, abs(supplied) + abs(rubbed) + damped
+    size, couple = abs(driven) + lost, 0.0
+    if model.coupled:
+        couple = friction_force(model, state, phase, direction, P) * surface_velocity(model, state)
+        driven += couple
+        size += abs(couple)
+    return driven - lost, supplied - rubbed - damped, size, abs(supplied) + abs(rubbed) + damped, couple
 
 
 @helper
@@ -90,11 +107,12 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
         move_to(model, s, order, x, phase, probe)
         P = force_at(model, s, order, phase, probe)
         weight = _WEIGHTS[i % len(_NODES)] * x_end / panels * model.unit
-        t, p, st, sp = _powers_in(model, probe, phase, direction, P)
+        t, p, st, sp, couple = _powers_in(model, probe, phase, direction, P)
         work_t += weight * t
         work_p += weight * p
         size_t += weight * st
         size_p += weight * sp
+        audit[COUPLE] += weight * couple
     move_to(model, s, order, 0.0, phase, probe)
     start_t, start_p = transverse_energy(model, probe, phase), inplane_energy(model, probe)
     move_to(model, s, order, x_end, phase, probe)

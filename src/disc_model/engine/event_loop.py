@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import layout, transitions
-from .audit import audit_impact, audit_step, transverse_energy
+from .audit import SURFACE, audit_impact, audit_step, surface_velocity, transverse_energy
 from .dense_output import CLOSED_FORM, move_to
 from .exit_codes import CONSISTENT, NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
 from .jit import inlined, kernel
@@ -119,6 +119,10 @@ def _record_step(model, s, state, probe, order, x_end, audit_every, buffers):
             model, s, order, state, x_end, buffers.samplers, buffers.sampled, probe, kept, filled
         )
     move_to(model, s, order, x_end, phase, state)
+    if model.coupled:
+        speed = model.r_0 * layout.drive_now(model, state)
+        share = abs(surface_velocity(model, state)) / speed if speed > 0.0 else 0.0
+        buffers.audit[SURFACE] = max(buffers.audit[SURFACE], share)
 
 
 @inlined

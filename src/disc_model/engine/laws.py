@@ -117,6 +117,13 @@ def stick_loads(model, i, V):
 
 
 @inlined
+def friction_in_stick(model, i, V):
+    """Friction T in stick under V, N."""
+    pull, _ = stick_loads(model, i, V)
+    return pull / (1.0 + (i.dw_dtheta / model.r_0) ** 2) if model.normal else pull
+
+
+@inlined
 def impact(model, i):
     """Plastic impact (Eqs. 29-37): the impulse, and f after it, which the slope reduces if the force is normal."""
     lever = i.dw_dtheta / (i.m * model.r_0**2) if model.normal else 0.0 * i.dw_dtheta  # of the type of an entry

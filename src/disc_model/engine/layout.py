@@ -24,15 +24,16 @@ PSI, F, U, U_VELOCITY, SLIDER = range(5)
 
 # Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
 # From SLOPE_RATE on, a row for each order k: dw_dtheta (k + 1) / unit in a-lanes, dw_dtheta in b-lanes.
+# FORCES: psi_l in a-lanes, on which V acts, in b-lanes the couple's arm, on which T acts; COUPLE: the latter alone.
 SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
-SLOPE_RATE = 8
+FORCES, COUPLE, SLOPE_RATE = 8, 9, 10
 
 # Number of coefficients of a series; rows of Series.modes where e and scratch begin (z begins at 0); offsets of the
 # slider's series in Series.slider, and its end.
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
 PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
-SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 14))
+SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 16))
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
@@ -48,8 +49,8 @@ class Model(NamedTuple):
     ``lanes`` holds the lane arrays one after the other, and derived ones. Hot kernels address all through that one
     pointer; the others are views of it.
 
-    ``wide``, ``compliant``, ``normal`` and ``ramped`` are flags: (True,) for yes, () for no.  The compiler knows the
-    length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at run time.
+    ``wide``, ``compliant``, ``normal``, ``coupled`` and ``ramped`` are flags: (True,) for yes, () for no.  The compiler
+    knows the length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at run time.
     """
 
     lanes: np.ndarray
@@ -85,6 +86,9 @@ class Model(NamedTuple):
     compliant: tuple[bool, ...]
     compliance: float  # of the contact, m/N; 0 if it is rigid
     normal: tuple[bool, ...]  # whether the contact force is normal to the bent disc; else it is vertical
+    coupled: tuple[bool, ...]  # whether friction acts on the disc's surface, and so bends it
+    couple: np.ndarray  # in b-lanes the arm of friction T on a mode, -(its tangential amplitude at the surface)
+    couple_swing: float  # sum l psi_l couple_l, 1/kg
     ramped: tuple[bool, ...]  # whether Omega and N may change with time
     ramp_begin: float  # s
     ramp_angle: float  # rad, of the drive point at the ramp's begin
@@ -119,7 +123,8 @@ class Series(NamedTuple):
     """Taylor coefficients of one step.
 
     z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``, ``ROWS`` doubles each. Behind them
-    stand those of B / r_0, under the normal force, and of Omega and N, on a ramp.
+    stand those of B / r_0, under the normal force, and of Omega and N, on a ramp; then R and T of stick, where both the
+    normal force and the couple act.
     """
 
     modes: np.ndarray
@@ -182,12 +187,15 @@ def _flag(yes) -> tuple[bool, ...]:
     return (True,) if yes else ()
 
 
-def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.0, normal=False) -> Model:
+def build_model(  # noqa: PLR0913
+    diameters, omega, psi, damping, slider, *, tangential, bonded, compliance=0.0, normal=False
+) -> Model:
     """Constants of a case.
 
     diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
-    for a rigid disc.  slider: N to r_0 of the model.  compliance: of the contact, m/N, 0 if rigid; normal: whether the
-    contact force is normal to the bent disc.
+    for a rigid disc.  slider: N to r_0 of the model.  tangential: of the modes at the surface on which friction acts,
+    kg^-1/2, shape (n_modes,); zeros in the middle plane.  compliance: of the contact, m/N, 0 if rigid; normal: whether
+    the contact force is normal to the bent disc.
     """
     N, k, m = (slider[name] for name in ("N", "k", "m"))
     diameters = np.asarray(diameters)
@@ -201,6 +209,8 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     rows[AMPLITUDE_ROW, lane] = psi[pairs]
     rows[DW_DTHETA, lane + HALF] = diameters[pairs] * psi[pairs]
     rows[BEND, lane] = -(diameters[pairs] ** 2) * psi[pairs]
+    rows[COUPLE, lane + HALF] = -tangential[pairs]
+    rows[FORCES] = rows[AMPLITUDE_ROW] + rows[COUPLE]
     rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE_ROW] * rows[DAMPING]
     rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE_ROW] * rows[STIFFNESS]
     blocks, S2 = width // WIDTH, float(np.sum(psi**2))
@@ -212,11 +222,13 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
     modes = no_modes()
     if not normal:
         each, n0 = np.concatenate([pairs, single, pairs]), len(single)
-        shape = np.where(np.arange(len(each)) < len(pairs) + n0, psi[each], 0.0)
+        across = np.arange(len(each)) >= len(pairs) + n0
+        shape, arm = np.where(across, 0.0, psi[each]), np.where(across, -tangential[each], 0.0)
         place = np.concatenate([lane, 2 * width + np.arange(n0), lane + HALF])
         modes = build_stick_modes(
-            (omega[each], damping[each], shape), np.stack([place, place + np.where(diameters[each] > 0, width, n0)]),
-            slider, u=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0), unit=unit, compliance=compliance,
+            (omega[each], damping[each], shape, arm),
+            np.stack([place, place + np.where(diameters[each] > 0, width, n0)]), slider,
+            u=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0), unit=unit, compliance=compliance,
         )  # fmt: skip
     views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(
@@ -240,6 +252,9 @@ def build_model(diameters, omega, psi, damping, slider, *, bonded, compliance=0.
         compliant=_flag(compliance),
         compliance=compliance,
         normal=_flag(normal),
+        coupled=_flag(np.any(rows[COUPLE])),
+        couple=rows[COUPLE],
+        couple_swing=float(np.sum(rows[DW_DTHETA] * rows[COUPLE])),
         ramped=_flag(False),
         ramp_begin=0.0,
         ramp_angle=0.0,

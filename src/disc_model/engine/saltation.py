@@ -25,12 +25,14 @@ def rates(model, state, out):
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     phase, direction = state.x[PHASE], state.x[DIRECTION]
     i, _ = instant(model, state)
-    f, V, rate_f = i.f, 0.0, 0.0
+    f, V, T, rate_f = i.f, 0.0, 0.0, 0.0
     if phase == STICK:
         V = laws.vertical_in_stick(model, i)
+        T = laws.friction_in_stick(model, i, V)
     elif phase == SLIP:
         force = laws.slip_numerator(model, i) / laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
         V, rate_f = laws.slip_rates(model, i, direction, force)
+        T = direction * model.mu_k * force
     else:
         rate_f = laws.inplane_force_per_radius(i) / i.m
     for j in range(width):
@@ -38,6 +40,8 @@ def rates(model, state, out):
         out[j * WIDTH] = state.e[j] + model.shift[j] * f * state.z[other]
         rate = model.shift[j] * f * state.e[other] - model.damping[j] * state.e[j] - model.stiffness[j] * state.z[j]
         out[(width + j) * WIDTH] = rate - model.mode_amplitude[j] * V
+        if model.coupled:
+            out[(width + j) * WIDTH] -= model.couple[j] * T
     for j in range(n0):
         out[(2 * width + j) * WIDTH] = state.g[j]
         rate = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]

@@ -46,9 +46,12 @@ from .layout import (
     DRIVE_SERIES,
     DW_DTHETA,
     F_SERIES,
+    FORCES,
+    FRICTION_SERIES,
     LOAD_SERIES,
     MINUS_AMPLITUDE_DAMPING,
     MINUS_AMPLITUDE_STIFFNESS,
+    NORMAL_SERIES,
     P_SERIES,
     PSI_SERIES,
     ROWS,
@@ -125,6 +128,12 @@ def _kept(s, row, width, b):
 @inlined
 def _keep(s, row, width, b, v):
     store(s.modes, (SCRATCH + row) * width + b, v)
+
+
+@inlined
+def _push(model, impulse, friction):
+    """Minus the impulses of V, in a-lanes, and of friction T, in b-lanes: what multiplies row ``FORCES`` (lanes)."""
+    return low_halves(splat(-impulse), splat(-friction)) if model.coupled else splat(-impulse)
 
 
 @inlined
@@ -224,8 +233,8 @@ def _pending(s, width, b, e, z, carried):
 
 
 @inlined
-def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
-    """One block of order k >= 1; ``f`` is f_k, ``impulse`` is P_{k-1} unit / k.
+def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
+    """One block of order k >= 1; ``f`` is f_k, ``push`` is that of P_{k-1} unit / k and T_{k-1} unit / k.
 
     Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) the
     block's part of u'' of order k beyond the pending one. Its pending part and the four values of order k + 1 follow.
@@ -235,7 +244,7 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
     part = mul(_row(model, SLOPE_RATE + k, b), high_halves(z_inner, e_inner))
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
-    e = fma(splat(-impulse), _row(model, AMPLITUDE_ROW, b), e)
+    e = fma(push, _row(model, FORCES, b), e)
     turned = swap_halves(fma(f, _z(s, b), carried))
     z_next = mul(fma(shift, turned, e), up)
     carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
@@ -248,11 +257,11 @@ def _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last):
 
 
 @inlined
-def _order_from_memory(model, s, width, b, k, f, f0, impulse):
+def _order_from_memory(model, s, width, b, k, f, f0, push):
     """As ``_order`` for the blocks after the first, whose values are not kept in registers between orders."""
     at, carried = k * width + b, _kept(s, _CARRIED, width, b)
     e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), _z(s, at)
-    part, pending, e, carried, _, _ = _order(model, s, width, b, k, f, f0, impulse, e, carried, e_last, z_last)
+    part, pending, e, carried, _, _ = _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last)
     _set_e(s, width, at + width, e)
     _keep(s, _CARRIED, width, b, carried)
     return part, pending
@@ -327,17 +336,19 @@ def _begin_orders(model, s, f0):
 
 
 @inlined
-def _next_order(model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last):
+def _next_order(model, s, k, f, f0, impulse, friction, pending, e, carried, e_last, z_last):
     """Order k >= 1 of all modes; the last four arguments are those of ``_order`` for the first block.
+
+    impulse, friction : P_{k-1} unit / k and T_{k-1} unit / k
 
     Returns the parts of u'' of the pairs (lanes) and of the other modes, and the last five arguments for the next
     order. The last four are handed over one by one: as one argument they cost a slip under the normal force 6 %.
     """
-    width = lane_count(model)
-    part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, impulse, e, carried, e_last, z_last)
+    width, push = lane_count(model), _push(model, impulse, friction)
+    part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, push, e, carried, e_last, z_last)
     part = add(pending, part)
     for b in range(WIDTH, width, WIDTH):
-        more, more_left = _order_from_memory(model, s, width, b, k, f, f0, impulse)
+        more, more_left = _order_from_memory(model, s, width, b, k, f, f0, push)
         part, left = add(part, more), add(left, more_left)
     return part, _axisymmetric(model, s, k, impulse), left, e, carried, e_last, z_last
 
@@ -365,26 +376,34 @@ def _move_slider(model, s, k, f_rate, acceleration):
 
 
 @inlined
-def _last_force(model, s, order, impulse):
-    """Put the last contact force into the velocities of the highest order."""
-    width, n, q = lane_count(model), len(model.mode_amplitude0), splat(impulse)
+def _last_force(model, s, order, impulse, friction):
+    """Put the last contact force and friction into the velocities of the highest order."""
+    width, n, q = lane_count(model), len(model.mode_amplitude0), _push(model, impulse, friction)
     for b in range(0, width, WIDTH):
         at = order * width + b
-        store(s.modes, E * width + at, sub(_e(s, width, at), mul(q, _row(model, AMPLITUDE_ROW, b))))
+        store(s.modes, E * width + at, add(_e(s, width, at), mul(q, _row(model, FORCES, b))))
     for j in range(n):
         s.g[j * ROWS + order] -= model.mode_amplitude0[j] * impulse
 
 
 @inlined
-def _end_slip(model, s, order, direction, e, impulse):
+def _end_slip(model, s, order, direction, e, impulse, friction):
     """Complete the highest order, set the event function, and clear the order beyond the known ones."""
     width = lane_count(model)
     _set_e(s, width, order * width, e)
-    _last_force(model, s, order, impulse)
+    _last_force(model, s, order, impulse, friction)
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
     # remains of an earlier step in another phase
     s.slider[SWITCH + order + 1] = s.slider[P_SERIES + order] = 0.0
+
+
+@inlined
+def _damped(model, f0, braked):
+    """What an impulse of P adds to u'', through damping and, with T = ``braked`` P, through 2 l f_0 beta."""
+    if model.coupled:
+        return model.damped_inverse_mass - 2.0 * f0 * model.couple_swing * braked
+    return model.damped_inverse_mass
 
 
 @inlined
@@ -402,6 +421,7 @@ def slip_series(model, s, order, direction):
     inverse, braking = 1.0 / denominator, friction / model.m
     recoil = model.inverse_effective_mass + braking * dw_dtheta
     spring, damper = model.k_p / model.m, model.c_p / model.m
+    braked, damped = direction * model.mu_k, _damped(model, f0, direction * model.mu_k)
 
     acceleration, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     pull = spring * psi + damper * (drive(model, s) - f0)
@@ -420,10 +440,10 @@ def slip_series(model, s, order, direction):
         if k == order:
             break
         pairs, single, pending, e, carried, e_last, z_last = _next_order(
-            model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
+            model, s, k, f, f0, impulse, braked * impulse, pending, e, carried, e_last, z_last
         )
         by_speed = by_f + by_f_rate * s.slider[DOWN + k]
-        acceleration = total(pairs) + (single + f * by_speed + impulse * model.damped_inverse_mass)
+        acceleration = total(pairs) + (single + f * by_speed + impulse * damped)
         pull = spring * psi - damper * f
         P = weight * acceleration + (by_u * u + by_v * v + by_pull * pull)
         psi = -f * s.slider[UP + k]
@@ -433,7 +453,8 @@ def slip_series(model, s, order, direction):
             pull += more_pull
             P += s.slider[LOAD_SERIES + 1] * inverse + by_pull * more_pull
         s.slider[P_SERIES + k] = P
-    _end_slip(model, s, order, direction, e, P * s.slider[UP + order - 1])
+    impulse = P * s.slider[UP + order - 1]
+    _end_slip(model, s, order, direction, e, impulse, braked * impulse)
     return denominator
 
 
@@ -444,17 +465,40 @@ def _stick_pending(model, b, e, z):
 
 
 @inlined
-def _stick_order(model, s, b, k, impulse, e, z):
-    """One block of order k in stick, from e_k without P_{k-1} and z_k.  Returns its pending share, e_{k+1}, z_{k+1}."""
+def _stick_order(model, s, b, k, push, e, z):
+    """One block of order k in stick, from z_k, and e_k without what ``push`` gives.
+
+    Returns its pending share, e_{k+1}, z_{k+1}.
+    """
     width, up = lane_count(model), splat(s.slider[UP + k])
     at, damping = k * width + b, _row(model, DAMPING, b)
-    e = fma(splat(-impulse), _row(model, AMPLITUDE_ROW, b), e)
+    e = fma(push, _row(model, FORCES, b), e)
     z_next = mul(e, up)
     e_next = sub(splat(0.0), mul(fma(damping, e, mul(_row(model, STIFFNESS, b), z)), up))
     _set_e(s, width, at, e)
     _set_z(s, at + width, z_next)
     _set_e(s, width, at + width, e_next)
     return _stick_pending(model, b, e_next, z_next), e_next, z_next
+
+
+@inlined
+def _stick_friction(model, s, k):
+    """T of order k in stick, V being known: r_0 F; under the normal force r_0 F - beta R, with R = V + beta T."""
+    T = 0.0
+    if k == 0:
+        T = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
+    elif k == 1:
+        T = model.r_0 * model.k_p * drive(model, s) * model.unit
+        if model.ramped:
+            T += model.r_0 * model.c_p * s.slider[DRIVE_SERIES + 1]
+    elif model.ramped and k == 2:
+        T = model.r_0 * model.k_p * s.slider[DRIVE_SERIES + 1] * s.slider[UP + 1]
+    if model.normal:
+        s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
+        beta, V = s.slider[SLOPE_SERIES], s.slider[P_SERIES + k] + _leverage(s, k, FRICTION_SERIES)
+        T = (T - _leverage(s, k, NORMAL_SERIES) - beta * V) / (1.0 + beta * beta)
+        s.slider[FRICTION_SERIES + k], s.slider[NORMAL_SERIES + k] = T, V + beta * T
+    return T
 
 
 @inlined
@@ -466,15 +510,16 @@ def stick_series(model, s, order):
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass)
     weight = model.m * inverse
     by_force = inverse * (model.m * model.damped_inverse_mass - model.c * model.inverse_effective_mass)
-    pending, impulse, vertical = zero, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
+    pending, impulse, friction, vertical = zero, 0.0, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
         pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
     e_first, z_first = _e(s, width, 0), _z(s, 0)
     for k in range(order):
-        more, e_first, z_first = _stick_order(model, s, 0, k, impulse, e_first, z_first)
+        push = _push(model, impulse, friction)
+        more, e_first, z_first = _stick_order(model, s, 0, k, push, e_first, z_first)
         part, pending = pending, more
         for b in range(WIDTH, width, WIDTH):
-            more, _, _ = _stick_order(model, s, b, k, impulse, _e(s, width, k * width + b), _z(s, k * width + b))
+            more, _, _ = _stick_order(model, s, b, k, push, _e(s, width, k * width + b), _z(s, k * width + b))
             pending = add(pending, more)
         single, up = _axisymmetric(model, s, k, impulse), s.slider[UP + k]
         modes = total(part)
@@ -483,6 +528,8 @@ def stick_series(model, s, order):
         s.slider[P_SERIES + k] = P
         s.slider[SWITCH + k] = s.slider[SWITCH2 + k] = model.mu_s * P
         impulse = P * up
+        if model.coupled:
+            friction = _stick_friction(model, s, k) * up
         u, v_hat = v * up, acceleration * up
         v = v_hat - model.inverse_effective_mass * impulse
         s.slider[U_SERIES + k + 1], s.slider[V_SERIES + k + 1] = u, v
@@ -491,7 +538,7 @@ def stick_series(model, s, order):
         vertical = model.k * u + model.c * v_hat
         if model.ramped and k == 0:
             vertical += s.slider[LOAD_SERIES + 1]
-    _last_force(model, s, order, impulse)
+    _last_force(model, s, order, impulse, friction)
     s.slider[F_SERIES + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
@@ -521,7 +568,7 @@ def separation_series(model, s, order):
             if model.ramped:
                 pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
             _, _, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, s.slider[F_SERIES + k], f0, 0.0, pending, e, carried, e_last, z_last
+                model, s, k, s.slider[F_SERIES + k], f0, 0.0, 0.0, pending, e, carried, e_last, z_last
             )
         gap = s.slider[U_SERIES + k] - _modal_sum(model, s, AMPLITUDE_ROW, k)
         for j in range(n):
@@ -588,14 +635,14 @@ def _weight(model, s, k):
 
 
 @inlined
-def _leverage(s, k):
-    """Order k of beta R without beta_0 R_k, in two sums so that neither waits for the other."""
+def _leverage(s, k, force=P_SERIES):
+    """Order k of beta R without beta_0 R_k, in two sums so that neither waits for the other; ``force``: series of R."""
     odd, even = 0.0, 0.0
     for j in range(1, k, 2):
-        odd += s.slider[SLOPE_SERIES + j] * s.slider[P_SERIES + k - j]
-        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[P_SERIES + k - j - 1]
+        odd += s.slider[SLOPE_SERIES + j] * s.slider[force + k - j]
+        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[force + k - j - 1]
     if k % 2 == 1:
-        odd += s.slider[SLOPE_SERIES + k] * s.slider[P_SERIES]
+        odd += s.slider[SLOPE_SERIES + k] * s.slider[force]
     return odd + even
 
 
@@ -607,7 +654,7 @@ def compliant_slip_series(model, s, order, direction):
     """
     stiffness, friction = 1.0 / model.compliance, direction * model.mu_k
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
-    f0, ratio, share, beta, V, impulse = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0
+    f0, ratio, share, beta, V, impulse, braked = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
     _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
     for k in range(order):
@@ -631,18 +678,19 @@ def compliant_slip_series(model, s, order, direction):
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
         if k > 0:
             _, _, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
+                model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
             )
         closing = _closing(model, s, k + 1, e, carried)
-        impulse = V * s.slider[UP + k]
-    _end_slip(model, s, order, direction, e, impulse)
+        impulse, braked = V * s.slider[UP + k], friction * R * s.slider[UP + k]
+    _end_slip(model, s, order, direction, e, impulse, braked)
     return ratio
 
 
 @inlined
 def compliant_stick_series(model, s, order):
     """Stick on a compliant contact; ``P`` is V.  Fills both release functions."""
-    width, stiffness, lightness, impulse = lane_count(model), 1.0 / model.compliance, 1.0 / model.m, 0.0
+    width, stiffness, lightness = lane_count(model), 1.0 / model.compliance, 1.0 / model.m
+    impulse, friction = 0.0, 0.0
     for k in range(order + 1):
         s.slider[F_SERIES + k], s.slider[PSI_SERIES + k + 1] = 0.0, 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
@@ -655,10 +703,12 @@ def compliant_stick_series(model, s, order):
         s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) * lightness * up
         for b in range(0, width, WIDTH):
             at = k * width + b
-            _stick_order(model, s, b, k, impulse, _e(s, width, at), _z(s, at))
+            _stick_order(model, s, b, k, _push(model, impulse, friction), _e(s, width, at), _z(s, at))
         _axisymmetric(model, s, k, impulse)
         impulse = V * up
-    _last_force(model, s, order, impulse)
+        if model.coupled:
+            friction = _stick_friction(model, s, k) * up
+    _last_force(model, s, order, impulse, friction)
     s.slider[P_SERIES + order] = 0.0
     release_series(model, s, order)
 
@@ -713,17 +763,19 @@ def normal_slip_series(model, s, order, direction):
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
     inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
-    h, impulse = 0.0, 0.0
+    h, impulse, braked = 0.0, 0.0, 0.0
     for k in range(order):
         f = s.slider[F_SERIES + k]
         if k > 0:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             h = _leverage(s, k)
             pairs, single, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, f, f0, impulse, pending, e, carried, e_last, z_last
+                model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
             )
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
             inertia = total(pairs) + single + f * by_speed + impulse * model.damped_inverse_mass
+            if model.coupled:
+                inertia -= 2.0 * f0 * model.couple_swing * braked
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
         R = (top + h * (mobility * friction - beta)) * inverse
@@ -731,6 +783,6 @@ def normal_slip_series(model, s, order, direction):
         s.slider[P_SERIES + k] = R
         rate = spring * lightness - ((friction + beta) * R + h) * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
-        impulse = V * s.slider[UP + k]
-    _end_slip(model, s, order, direction, e, impulse)
+        impulse, braked = V * s.slider[UP + k], friction * R * s.slider[UP + k]
+    _end_slip(model, s, order, direction, e, impulse, braked)
     return denominator

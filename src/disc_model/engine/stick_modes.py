@@ -43,6 +43,8 @@ class StickModes(NamedTuple):
     offset: np.ndarray  # q of the zero state, shape (2 * n,)
     leave: np.ndarray  # state of a unit change of the real parts, then of the imaginary parts of q, shape (2 * n * L,)
     rest: np.ndarray  # static equilibrium, shape (L,)
+    friction_offset: np.ndarray  # q of minus the response to T = 1 N, and to T' = 1 N/s, shape (2 * 2 * n,)
+    friction_rest: np.ndarray  # that response of the disc, shape (2 * L,); both are empty without the couple
 
 
 def padded(n: int) -> int:
@@ -106,7 +108,8 @@ def _decomposed(stiffness, damping, scale, unit):
 def build_stick_modes(components, places, slider, *, u, length, unit, compliance) -> StickModes:
     """Modes of stick for the model of `layout.build_model`.
 
-    components : omega, damping, shape of the components a, modes without nodal diameter, components b, whose shape is 0
+    components : omega, damping, shape, arm of friction of the components a, modes without nodal diameter, components b;
+        the shape is 0 for the last, the arm for the others
     places : shape (2, n), of their displacements and velocities in `EngineState.disc`
     slider : with N, k, c and m
     u : index of u in `EngineState.disc`, followed by u', where contact is compliant
@@ -126,7 +129,7 @@ def build_stick_modes(components, places, slider, *, u, length, unit, compliance
 @lru_cache(maxsize=256)
 def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
     """`StickModes` for N = 1, shared by many cases; last of ``arrays``: indices of (d, d') in `EngineState.disc`."""
-    omega, damping, shape, where = map(np.array, arrays)
+    omega, damping, shape, arm, where = map(np.array, arrays)
     system = (omega, damping, shape, k, c, m, unit)
     modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
     if modes is None:
@@ -139,11 +142,17 @@ def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
         force = np.concatenate([shape / compliance, [-1.0 / compliance], np.zeros(len(omega) + 1)])
     else:
         force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
+    # d'' + damping d' + omega^2 d = -arm T with T'' = 0
+    friction = np.zeros((2, length) if arm.any() else (0, length))
+    if len(friction):
+        give, count = arm / omega**2, len(where) // 2
+        friction[0, where[: len(omega)]] = friction[1, where[count:][: len(omega)]] = -give
+        friction[1, where[: len(omega)]] = give * damping / omega**2
     rates, vectors, to_modes = modes
-    return _packed(rates, vectors, to_modes, where, rest, force)
+    return _packed(rates, vectors, to_modes, where, rest, friction, force)
 
 
-def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
+def _packed(rates, vectors, to_modes, where, rest, friction, force) -> StickModes:
     """Modes (see `_eigenmodes`) as lanes; ``where``: indices of displacements and velocities in `EngineState.disc`."""
     n, length = len(rates), len(rest)
     enter = np.zeros((length, 2, padded(n)))
@@ -162,6 +171,8 @@ def _packed(rates, vectors, to_modes, where, rest, force) -> StickModes:
         offset=_in_lanes(-np.tensordot(rest, enter, 1)),
         leave=_in_lanes(leave),
         rest=rest,
+        friction_offset=_in_lanes(-np.tensordot(friction, enter, 1)),
+        friction_rest=_in_lanes(friction),
     )
 
 

@@ -17,11 +17,15 @@ SHORTEST_STICK = 5.0
 
 
 @helper
-def _enter_modes(modes, disc, states, amplitudes):
-    """Modal amplitudes of a disc, into ``amplitudes``.  Returns the bound on abs(P - N) from now on."""
+def _enter_modes(model, disc, states, spring, amplitudes):
+    """Modal amplitudes of a disc under F = ``spring``, into ``amplitudes``.  Returns the bound on abs(P - N)."""
+    modes = model.modes
     n, width, swing = len(modes.gain), len(modes.offset), 0.0
     for b in range(0, width, WIDTH):
         q = load(modes.offset, b)
+        if model.coupled:
+            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
+            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
         for j in range(states):
             q = fma(spread(disc, j), load(modes.enter, j * width + b), q)
         store(amplitudes, b, q)
@@ -37,8 +41,12 @@ def _times(ar, ai, br, bi):
 
 
 @helper
-def _leave_modes(modes, amplitudes, x, disc):
-    """The disc at ``x`` (time units) after ``amplitudes``: exp(lambda x) from its series and tabled powers."""
+def _leave_modes(model, amplitudes, x, spring, disc):
+    """The disc at ``x`` (time units) after ``amplitudes``, under F = ``spring`` there.
+
+    exp(lambda x) is taken from its series and tabled powers.
+    """
+    modes = model.modes
     n, length = len(modes.gain), len(disc)
     quanta = int(x / QUANTUM)
     rest = splat(x - quanta * QUANTUM)
@@ -59,6 +67,9 @@ def _leave_modes(modes, amplitudes, x, disc):
         store(amplitudes, 3 * n + b, qi)
     for b in range(0, length, WIDTH):
         v = load(modes.rest, b)
+        if model.coupled:
+            v = fma(splat(model.r_0 * spring), load(modes.friction_rest, b), v)
+            v = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_rest, length + b), v)
         for i in range(2 * n):
             v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
         store(disc, b, v)
@@ -73,10 +84,10 @@ def closed_form_length(model, s, state):
     if model.compliant:
         state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
         states += 2
-    swing = _enter_modes(model.modes, state.disc, states, s.amplitudes)
+    spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
+    swing = _enter_modes(model, state.disc, states, spring, s.amplitudes)
     s.psi[0] = state.x[PSI]
     friction = model.mu_s * (model.N - swing) / model.r_0
-    spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
     # the spring force only grows, so that a backward release is impossible if it is impossible now
     if not abs(spring) < friction:
         return 0.0
@@ -90,9 +101,10 @@ def closed_form_length(model, s, state):
 @inlined
 def propagate_stick(model, s, x, state):
     """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
-    _leave_modes(model.modes, s.amplitudes, x, state.disc)
+    psi = s.psi[0] + model.Omega * model.unit * x
+    _leave_modes(model, s.amplitudes, x, model.k_p * psi + model.c_p * model.Omega, state.disc)
     if model.compliant:
         states = 2 * (len(model.shift) + len(model.mode_amplitude0))
         state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
     state.x[PHASE], state.x[F] = STICK, 0.0
-    state.x[PSI] = s.psi[0] + model.Omega * model.unit * x
+    state.x[PSI] = psi

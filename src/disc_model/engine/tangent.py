@@ -19,7 +19,24 @@ from .jit import helper, inlined
 from .jit.packing import packed
 from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, slip_denominator
-from .layout import DIRECTION, HALF, PHASE, PSI, ROWS, SEPARATION, SLIDER, SLIP, STICK, U_VELOCITY, F, Model, U
+from .layout import (
+    DIRECTION,
+    FRICTION_SERIES,
+    HALF,
+    NORMAL_SERIES,
+    P_SERIES,
+    PHASE,
+    PSI,
+    ROWS,
+    SEPARATION,
+    SLIDER,
+    SLIP,
+    STICK,
+    U_VELOCITY,
+    F,
+    Model,
+    U,
+)
 
 # Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -39,6 +56,7 @@ class Tangent(NamedTuple):
     series: np.ndarray  # [block][order][row][8]
     force: np.ndarray  # [block][order][8] of P (R under the normal force)
     dw_dtheta: np.ndarray  # [block][order][8] of B
+    friction: np.ndarray  # [block][order][8] of T, where it has a series of its own: see ``_friction_in_stick``
     now: np.ndarray  # [block][row][8]
     parameters: np.ndarray  # [block][row][8], changes of parameters
     before: np.ndarray  # [row][8], rates before an event in the first lane
@@ -71,7 +89,7 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     rows, order_size = n_rows(model), (order + 2) * columns
     inputs = N_SCALARS + rows - SLIDER
     arrays = aligned_pieces(
-        order_size * rows, order_size, order_size, rows * columns, inputs * columns,
+        order_size * rows, order_size, order_size, order_size, rows * columns, inputs * columns,
         rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
     )  # fmt: skip
     return Tangent._make((*arrays, columns, plain, rows, inputs))
@@ -217,13 +235,16 @@ def _path_change(s, t, block, k, f_row):
 
 
 @inlined
-def _leverage_change(model, s, t, block, k):
-    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes)."""
+def _leverage_change(model, s, t, block, k, force, changes):
+    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes).
+
+    force, changes : offset of the series of R in ``Series.slider``, and its changes, [block][order][8]
+    """
     chain = block * len(t.base_dw_dtheta) * WIDTH
-    change = mul(splat(s.P[0]), load(t.dw_dtheta, chain + k * WIDTH))
+    change = mul(splat(s.slider[force]), load(t.dw_dtheta, chain + k * WIDTH))
     for i in range(1, k + 1):
-        change = fma(splat(t.base_dw_dtheta[i]), load(t.force, chain + (k - i) * WIDTH), change)
-        change = fma(splat(s.P[i]), load(t.dw_dtheta, chain + (k - i) * WIDTH), change)
+        change = fma(splat(t.base_dw_dtheta[i]), load(changes, chain + (k - i) * WIDTH), change)
+        change = fma(splat(s.slider[force + i]), load(t.dw_dtheta, chain + (k - i) * WIDTH), change)
     return mul(splat(1.0 / model.r_0), change)
 
 
@@ -253,7 +274,7 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
     """
     beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
     if model.normal:
-        h = _leverage_change(model, s, t, block, k)
+        h = _leverage_change(model, s, t, block, k, P_SERIES, t.force)
     if model.compliant:
         V = _compliant_change(model, s, t, block, k, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
@@ -268,14 +289,34 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
 
 
 @inlined
-def _apply_force(model, s, t, block, k, P):
-    """Velocities of order k + 1, once the change P of the vertical contact force of order k is known."""
+def _friction_in_stick(model, s, t, block, k, pull, V):
+    """Change of T of order k in stick (lanes), from those of F (``pull``) and V: see ``series._stick_friction``.
+
+    Under the normal force ``t.force`` holds the changes of R.
+    """
+    T = mul(splat(model.r_0), pull)
+    if model.normal:
+        beta, at = t.base_dw_dtheta[0] / model.r_0, (block * len(t.base_dw_dtheta) + k) * WIDTH
+        V = add(V, _leverage_change(model, s, t, block, k, FRICTION_SERIES, t.friction))
+        T = sub(sub(T, _leverage_change(model, s, t, block, k, NORMAL_SERIES, t.force)), mul(splat(beta), V))
+        T = mul(splat(1.0 / (1.0 + beta * beta)), T)
+        store(t.friction, at, T)
+        store(t.force, at, fma(splat(beta), T, V))
+    return T
+
+
+@inlined
+def _apply_force(model, s, t, block, k, P, T):
+    """Velocities of order k + 1, once the changes P of the vertical contact force and T of friction are known."""
     width, n0, up = len(model.mode_amplitude), len(model.mode_amplitude0), splat(s.up[k])
     there = (block * len(t.base_dw_dtheta) + k + 1) * t.rows * WIDTH
     for j in range(width):
         if model.shift[j] > 0.0:
             e = there + (width + j) * WIDTH
             store(t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.mode_amplitude[j]), P))))
+            if model.coupled:
+                e += HALF * WIDTH
+                store(t.series, e, sub(load(t.series, e), mul(mul(up, splat(model.couple[j + HALF])), T)))
     for j in range(n0):
         g = there + (2 * width + n0 + j) * WIDTH
         store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.mode_amplitude0[j]), P))))
@@ -335,7 +376,10 @@ def tangent_series(model, s, t, order, phase, direction):
                 if phase == SLIP:
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
-            _apply_force(model, s, t, block, k, V)
+            T = mul(splat(direction * model.mu_k), P)
+            if model.coupled and phase == STICK:
+                T = _friction_in_stick(model, s, t, block, k, pull, V)
+            _apply_force(model, s, t, block, k, V, T)
             store(t.series, there + psi_row * WIDTH, mul(turn, up))
             store(t.series, there + f_row * WIDTH, mul(rate_f, up))
             du, dv = mul(dv, up), mul(acceleration, up)

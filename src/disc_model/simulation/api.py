@@ -252,7 +252,7 @@ class _Run:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
         # the kind of the model determines the types of all arguments
-        kind = self.model.wide, self.model.compliant, self.model.normal, self.model.ramped
+        kind = self.model.wide, self.model.compliant, self.model.normal, self.model.coupled, self.model.ramped
         if kind not in _ENGINES:
             with compiling(self.execution.progress is not False):
                 _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
@@ -301,7 +301,9 @@ class _Run:
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(self.collector.buffers, self.execution.audit_every_step, self.wall_time),
+            statistics=_statistics(
+                self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled), self.wall_time
+            ),
             samples=self.collector.finish(),
             ramps=self.ramps,
             initial_state=self.initial_state,
@@ -328,7 +330,7 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
     return text
 
 
-def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, wall: float) -> dict[str, float]:
+def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, coupled: bool, wall: float) -> dict[str, float]:
     def relative(residual: int, scale: int, turnover: int) -> float:
         """Sum of the residuals over the largest energy present plus all energy exchanged."""
         size = total[scale] + total[turnover]
@@ -349,6 +351,8 @@ def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, wall: fl
         "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
         "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
         "audited_steps": int(total[audit.STEPS]),
+        "couple_work": total[audit.COUPLE] if coupled and audit_every_step else math.nan,
+        "surface_speed": total[audit.SURFACE] if coupled else math.nan,
         "wall_time": wall,
     }
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.engine import layout
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
@@ -234,6 +234,7 @@ def engine_case(p: Parameters) -> EngineCase:
         modes.psi,
         modal_damping(p),
         {name: getattr(p, name) for name in names},
+        tangential=tangential_amplitudes(p),
         bonded=p.contact == "bonded",
         compliance=contact_compliance(p),
         normal=p.contact_force == "normal",

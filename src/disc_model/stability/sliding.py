@@ -4,12 +4,12 @@ The module computes the equilibrium of the equations of slip (docs/model.md, Sli
 brake engineers call complex eigenvalues.  With
 d = 2 xi omega the disc's response to the force P that rotates over it is
 
-    b_l = d l Omega a_l / (l^2 Omega^2 - omega^2),
-    a_l = psi_l P / (l^2 Omega^2 - omega^2 + d^2 l^2 Omega^2 / (l^2 Omega^2 - omega^2)),
+    a_l = (gap psi_l V + lag t_l T) / (gap^2 + lag^2),  gap = l^2 Omega^2 - omega^2,
+    b_l = (lag psi_l V - gap t_l T) / (gap^2 + lag^2),  lag = d l Omega,
 
-so that w = chi P.  With V for the vertical force, C for the contact's compliance and u = w - C V,
-V = (N - k u_0) / (1 - k chi + k C); under the normal force, with beta = B / r_0, R = V / (1 - mu_k beta) and
-r_0 F = (mu_k + beta) R.
+with V for the vertical force, T = mu_k R for friction and t_l for the tangential amplitude of a mode where friction
+acts.  With C for the contact's compliance, V = N + k (w - C V - u_0).  R = V; under the normal force, with
+beta = B / r_0, V = R (1 - mu_k beta) and r_0 F = (mu_k + beta) R.
 
 Modes are followed over a parameter by the modal assurance criterion (MAC), the squared cosine of their shapes.
 """
@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import Modes, modal_damping, mode_arrays
+from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Summarised, draw, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
@@ -184,7 +184,27 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
         along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))
         static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
         force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
+        if (arm := tangential_amplitudes(p)).any():
+            twist = arm * lag / (gap**2 + lag**2), -arm * gap / (gap**2 + lag**2)
+            return _with_couple(p, modes, (along, across), twist, p.N * (1 + p.k * static), compliance)
     return along * force, across * force, force
+
+
+def _with_couple(
+    p: Parameters, modes: Modes, bend: tuple[Array, Array], twist: tuple[Array, Array], load: float, compliance: float
+) -> tuple[Array, Array, float]:
+    """As `_equilibrium`, from a, b under V = 1 N (``bend``) and under T = 1 N (``twist``); load: N - k u_0."""
+    slope = modes.diameters * modes.psi / p.r_0 if p.contact_force == "normal" else np.zeros_like(modes.psi)
+    # V = stiff_0 + stiff_1 R, and V = R (1 - mu_k beta) with beta = lean_0 V + lean_1 R
+    share = 1 - p.k * (float(modes.psi @ bend[0]) - compliance)
+    start, rise = load / share, p.k * p.mu_k * float(modes.psi @ twist[0]) / share
+    lean = p.mu_k * float(slope @ bend[1]), p.mu_k**2 * float(slope @ twist[1])
+    # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 - rise) for a flat disc
+    square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
+    R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
+    V = start + rise * R
+    a, b = (of_V * V + of_T * p.mu_k * R for of_V, of_T in zip(bend, twist, strict=True))
+    return a, b, V
 
 
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
@@ -203,6 +223,7 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     )  # fmt: skip
     force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, 1.0, slope)
     V, rate_f = _LAWS.slip_rates(model, i, 1.0, force)
+    free_across = free_across + tangential_amplitudes(p)[:, None] * (p.mu_k * force)
     lift = (v, (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m)[: len(height)]
     return i, join_rows(modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift)
 

@@ -26,7 +26,7 @@ from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.region_map import RegionMap
 from disc_model.mode_choice import ModeRequest, asked_modes
-from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, RESIDUAL, Parameters, case_of
+from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
 from disc_model.studies.quantity import Quantity
@@ -265,7 +265,7 @@ class GridStudy:
             raise ParameterError(Fault.of((), value, f"no such start{suggestion(value, self.starts)}"))
         if name == "disc" and not (isinstance(value, str) and value in self.discs):
             raise ParameterError(Fault.of((), value, "must be the table of a disc"))
-        if (name, value) in (("n_diameters", AUTO), ("contact_compliance", RESIDUAL)):
+        if (name, value) in (("n_diameters", AUTO), ("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
             raise ParameterError(Fault.of((), value, "must be a number along an axis: give it in base, for all points"))
         if name in (START, "disc"):
             return value
