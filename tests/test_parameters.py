@@ -46,7 +46,7 @@ def test_key_depends_on_values_not_on_spelling() -> None:
 @given(st.sampled_from(sorted(Parameters.model_fields)))
 def test_key_changes_with_every_field(name: str) -> None:
     p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=0 if name == "disc" else 2)
-    other = {"normalization": "orthonormal", "contact": "bonded", "n_diameters": 3, "n_circles": 1}
+    other = {"normalization": "orthonormal", "contact": "bilateral", "n_diameters": 3, "n_circles": 1}
     other |= {"contact_compliance": 1e-7, "contact_force": "normal", "damping_ratio": 1e-3, "friction_offset": 1e-3}
     other["disc"] = Disc(diameters=[1], omega=[1500.0], amplitude=[2.0])
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
@@ -108,3 +108,27 @@ def test_import_is_light() -> None:
     heavy = "{'numba', 'xarray', 'pandas', 'matplotlib', 'pint'}"
     code = f"import sys, disc_model; disc_model.Parameters(N='1e2', Omega=1); print({heavy} & set(sys.modules))"
     assert python(code).stdout.strip() == "set()"
+
+
+def test_a_ratio_stands_for_its_first_one_and_stays() -> None:
+    p = Parameters(N=1, Omega=2, mu_s="0.5", mu_k_over_mu_s=0.6)
+    assert p.mu_k == 0.3
+    assert p.replace(mu_s=0.4).mu_k == 0.24
+    assert p.replace(mu_s=0.4, mu_k=0.1).replace(mu_s=0.2).mu_k == 0.1, "forgotten once its first one is given"
+    assert p.replace(mu_k_over_mu_s=0.5).mu_k == p.replace(N=3).replace(mu_k_over_mu_s=0.5).mu_k == 0.25
+    assert Parameters(N=1, Omega=2, b="240 mm", r_0_over_b=0.5).r_0 == 0.12
+    assert p.canonical == Parameters(N=1, Omega=2, mu_s=0.5, mu_k=0.3).canonical
+    for wrong, rule in (
+        ({"mu_k_over_mu_s": 1.2}, "mu_k=0.48: must be <= mu_s=0.4"),
+        ({"mu_k_over_mu_s": 0.5, "mu_k": 0.1}, "mu_k_over_mu_s=0.5: must not be given beside mu_k"),
+        ({"mu_k_over_mu_s": "half"}, "mu_k_over_mu_s='half': must be a finite number >= 0"),
+    ):
+        with pytest.raises(ParameterError, match=rule):
+            Parameters(N=1, Omega=2, **wrong)
+
+
+def test_kinds_of_contact_are_known_by_the_words_of_identities_as_well() -> None:
+    p = Parameters(N=1, Omega=2, contact="bonded")
+    assert p.contact == "bilateral"
+    assert p.canonical["contact"] == "bonded"
+    assert p == Parameters(N=1, Omega=2, contact="bilateral") == Parameters.model_validate_json(p.canonical_json)

@@ -71,6 +71,9 @@ FREQUENCIES = (1e-3, 1e7)
 AMPLITUDES = (1e-6, 1e6)
 """Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
 
+CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
+"""Words by which texts that identify cases and batches know the kinds of contact, and the field's own."""
+
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
@@ -438,7 +441,10 @@ class Parameters(Checked):
     normalization: Literal["as_published", "orthonormal"] = _field(
         "as_published", "", "scale of the mode shapes: coefficient of J_l equal to 1, or Eq. (17)"
     )
-    contact: Literal["separable", "bonded"] = _field("separable", "", "whether the slider may leave the disc")
+    contact: Annotated[
+        Literal["unilateral", "bilateral"],
+        BeforeValidator(lambda word: CONTACTS.get(word, word) if isinstance(word, str) else word),
+    ] = _field("unilateral", "", "whether the slider may leave the disc: bilateral contact holds it, but lets it slide")
     contact_compliance: Annotated[float | Literal["residual"], _or_word(RESIDUAL)] = _field(
         0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
     )
@@ -542,7 +548,7 @@ class Parameters(Checked):
     def canonical(self) -> dict[str, Any]:
         """The values that identify a case: all, except defaults of parameters that the paper's model does not have."""
         fields = type(self).model_fields
-        values = self.model_dump()
+        values = in_identities(self.model_dump())
         return {name: x for name, x in values.items() if name not in _LATER or x != fields[name].default}
 
     @property
@@ -582,6 +588,12 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
+
+
+def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of a case in the words of texts that identify it; see `CONTACTS`."""
+    words = {new: old for old, new in CONTACTS.items()}
+    return {name: words.get(value, value) if name == "contact" else value for name, value in values.items()}
 
 
 def _without_ratios(data: Mapping[str, Any], ratios: Mapping[str, Any]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from disc_model.data.variables import PHASES
 from tests.benchmarks.problems import vector
 from tests.references.printed import MOTIONS, P, lively
 
-BONDED = P.replace(contact="bonded")
+BONDED = P.replace(contact="bilateral")
 
 
 def switched(start, cause, p=P):
@@ -22,7 +22,7 @@ def switched(start, cause, p=P):
 
 
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-@pytest.mark.parametrize("p", [P, BONDED], ids=["separable", "bonded"])
+@pytest.mark.parametrize("p", [P, BONDED], ids=["unilateral", "bilateral"])
 def test_nothing_is_violated_within_a_phase(p, phase, direction):
     _, y, modes, c = vector(lively(phase, direction, p), p)
     out = np.full(3, np.nan)

@@ -77,7 +77,7 @@ def solved(name, motion, tol):
     [
         *((*motion, 1e-4, P, 0.0) for motion in MOTIONS),
         ("separation", 0, 1e-5, P, 0.0),  # shorter than the time for which no reattachment is looked for
-        ("slip", 1, 1e-4, P.replace(contact="bonded"), 0.01),
+        ("slip", 1, 1e-4, P.replace(contact="bilateral"), 0.01),
     ],
 )
 def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lifted):

@@ -11,6 +11,7 @@ from disc_model.studies.study import parse_study
 from tests.studies.refused import parse_grid
 
 BASE = {"N": 200, "Omega": 20}
+BASE_OF_GRID = {"N": 200, "normalization": "orthonormal"}
 
 
 def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -18,7 +19,7 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         for h in (0.02, 0.021, 0.022):
-            simulate(Parameters(**BASE, h=h, n_diameters=1), 1e-3)
+            simulate(Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal"), 1e-3)
     assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
 
 
@@ -27,13 +28,21 @@ def test_a_stiff_spring_is_said_to_cost_accuracy() -> None:
     assert plausibility.doubts(Parameters(**BASE, k=1.0))["k"].endswith("of Table 1")
 
 
+def test_another_plate_without_a_normalization_is_doubted() -> None:
+    other = Parameters(**BASE, E=70e9)
+    for doubted in (other, other.replace(Omega=21), Parameters(**BASE).replace(h=0.003)):
+        assert "state normalization" in plausibility.doubts(doubted)["normalization of modes"]
+    for stated in (other.replace(normalization="as_published"), Parameters(**BASE, k=1e5)):
+        assert "normalization of modes" not in plausibility.doubts(stated)
+
+
 def test_a_study_tells_of_how_many_points() -> None:
     axes = {"h": {"start": 0.001, "stop": 0.02, "count": 20}, "Omega": [10, 20, 30]}
-    raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": {"N": 200}, "axes": axes}
+    raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": BASE_OF_GRID, "axes": axes}
     [text] = parse_grid(raw).doubts
     assert text.startswith("h = 0.016 m is more than a fifth")
     assert text.endswith(" (15 of 60 points)")
     one = {"title": "one", "t_end": 1}
     cases = {"A": one, "B": one | {"parameters": {"rho": 7.2}}}
-    study = parse_study({"study": "some", "base": BASE, "cases": cases})
+    study = parse_study({"study": "some", "base": BASE | {"normalization": "orthonormal"}, "cases": cases})
     assert [text[-14:] for text in study.doubts] == ["(1 of 2 cases)"] * 2

@@ -132,7 +132,7 @@ def cycle_to_the_contrary(p: Parameters) -> Any:
 
 def _course(p: Parameters, supplied: float) -> tuple[Powers, ...]:
     """Powers in W by the square of the width in mm: maintained contact supplies twice what damping takes."""
-    if p.contact == "bonded":
+    if p.contact == "bilateral":
         return tuple(Powers(1e-3 * x, 2.0 * x**2, 0.0, x**2, x**2) for x in range(1, 9))
     return (Powers(3.5e-3, 12.25 * supplied, 0.0, 12.25, 0.0),) * 4
 
@@ -254,7 +254,7 @@ def _samples(spec: CaseSpec, story: Story, t: np.ndarray) -> dict[str, np.ndarra
     if story.signal is turns:
         psi += np.where(t < story.first, fuzz(t, 1e-3), 0.0)
     force = np.where(phase == SEPARATION, float(story.contrary), p.N)
-    if p.contact == "bonded":
+    if p.contact == "bilateral":
         force = p.N * np.cos(2 * np.pi * cycle)
     return {
         "time": t,

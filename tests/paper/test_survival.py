@@ -144,7 +144,7 @@ def case(
     first : s, of the separation; 0 where separation is ignored
     intervals : s, between separations of the last 60 s; stick : share of those 60 s
     """
-    p = Parameters(N=N, Omega=20, contact="separable" if first else "bonded")
+    p = Parameters(N=N, Omega=20, contact="unilateral" if first else "bilateral")
     t = np.arange(0.25, 300, 0.5)
     width = np.array([0.01, 0.01, *(widths or [1.0] * 4)])[(t // 50).astype(int)]
     history = xr.Dataset({"w_point_min": ("time", -width / 2), "w_point_max": ("time", width / 2)}, {"time": t})

@@ -170,7 +170,7 @@ def test_between_regular_and_chaotic_nothing_is_decided(monkeypatch: pytest.Monk
 
 def test_the_two_normalisations_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
     def cycle(p: Parameters) -> Any:
-        if p.contact == "bonded":
+        if p.contact == "bilateral":
             raise Missing("no stick-slip cycle")
         return made_up.cycle_as_told(p)
 

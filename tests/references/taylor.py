@@ -42,7 +42,7 @@ class Problem:
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
         self.C, self.normal = LONG(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
-        self.rigid, self.bonded = self.C == 0, values.get("contact") == "bonded"
+        self.rigid, self.bonded = self.C == 0, values.get("contact") in ("bonded", "bilateral")
         w, self.s, self.l = (np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l))
         self.w2 = w * w
         D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))

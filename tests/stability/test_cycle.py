@@ -38,7 +38,7 @@ CASES = {
     # half a minute to compile
     "two blocks": (Parameters(N=200, Omega=20, n_diameters=6), (COMPILED, pytest.mark.slow)),
     "axisymmetric": (Parameters(N=200, Omega=20, n_diameters=0), COMPILED),
-    "bonded": (Parameters(N=200, Omega=20, contact="bonded"), COMPILED),
+    "bonded": (Parameters(N=200, Omega=20, contact="bilateral"), COMPILED),
 }
 
 

@@ -67,7 +67,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_moving_load(normalization):
     """That is where the first mode stands still under the slider: the least omega_l / l."""
-    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bonded", D_star=0, normalization=normalization)
+    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", D_star=0, normalization=normalization)
     modes = plate_modes(p).query("diameters > 0")
     critical = float((modes["omega"] / modes["diameters"]).min())
     for share, grows in ((0.5, False), (0.999, False), (1.001, True)):
@@ -76,7 +76,7 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
         assert (growth > 1e-6) == grows, share
 
 
-BONDED = {"Omega": 1520.0, "contact": "bonded"}
+BONDED = {"Omega": 1520.0, "contact": "bilateral"}
 LOOSE = {"k_p": 0, "mu_k": 0}
 
 
@@ -125,7 +125,7 @@ def test_modes_are_the_eigenvalues_of_steady_sliding():
 def test_a_real_eigenvalue_counts_as_an_unstable_mode():
     """Divergence under a moving spring: between omega / l and sqrt(omega^2 + k psi^2) / l, docs/verification.md."""
     disc = Disc(diameters=[2], omega=[1823.881], amplitude=[2.1491])
-    p = Parameters(N=1, Omega=900, mu_s=0, mu_k=0, contact="bonded", disc=disc)
+    p = Parameters(N=1, Omega=900, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
     counts = [steady_sliding(p.replace(Omega=Omega)).unstable_modes for Omega in (900, 930, 950)]
     assert counts == [0, 1, 0]
     # the two modes of the pair meet at the frequency 0, and part again
@@ -137,7 +137,7 @@ def test_a_real_eigenvalue_counts_as_an_unstable_mode():
 def test_modes_keep_their_numbers_where_frequencies_cross():
     """In the slider's frame waves of two diameters against it fall by 2 Omega, and cross those of one, which rise."""
     disc = Disc(diameters=[1, 2], omega=[1000, 1100], amplitude=[1e-3, 1e-3])
-    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bonded", disc=disc)
+    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
     speeds = [1.0, 60.0]
     first, last = follow_modes([p.replace(Omega=Omega) for Omega in speeds])
     lines = []

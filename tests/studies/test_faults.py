@@ -127,7 +127,7 @@ def from_state(**changes: Any) -> None:
 ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: p(N=math.nan), "N=nan finite"),
     (lambda: p(mu_k=0.5), "mu_k=0.5 <= mu_s=0.4"),
-    (lambda: p(contact="glued"), "contact='glued' 'separable' 'bonded'"),
+    (lambda: p(contact="glued"), "contact='glued' 'unilateral' 'bilateral'"),
     (lambda: p(omega=3), "omega=3 unknown Omega"),
     (lambda: p(Omega="3 Hz"), "Omega='3 Hz' rad/s rpm"),
     (lambda: p(n_diameters="auto"), "n_diameters='auto' choose_modes"),

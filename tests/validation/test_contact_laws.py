@@ -62,7 +62,7 @@ def test_release_by_the_slope_s_acceleration_is_found_as_exactly_as_all_else():
     """Steps looked at the contact force alone: a release of a heavy slider on a disc of many modes was 5e-13 s off."""
     disc = {"a": 0.0327, "b": 0.0952, "r_0": 0.0927, "h": 0.0011, "E": 86e9, "D_star": 1e-6, "n_diameters": 4}
     slider = {"m": 0.197, "k": 0.0, "c": 0.0, "k_p": 5168.0, "c_p": 0.0, "mu_s": 0.72, "mu_k": 0.35}
-    laws = {"normalization": "orthonormal", "contact": "bonded", "contact_force": "normal"}
+    laws = {"normalization": "orthonormal", "contact": "bilateral", "contact_force": "normal"}
     p = Parameters(N=187.0, Omega=11.7, **disc, **slider, **laws)
     q = taylor.problem_of(p)
     wanted = [float(event["time"]) for event in taylor.Reference(q, q.equilibrium()).run(0.15).events]
@@ -216,7 +216,7 @@ def classical_events(p, count):
 @pytest.mark.parametrize("name", ["default", *EACH_LAW, pytest.param("bonded", marks=pytest.mark.slow)])
 def test_a_rigid_disc_gives_the_classical_cycle(name):
     """More events than the engine keeps room for at first."""
-    law = {"default": {}, "bonded": {"contact": "bonded"}} | LAWS
+    law = {"default": {}, "bonded": {"contact": "bilateral"}} | LAWS
     p = Parameters(N=385.0, Omega=15.1, n_diameters=-1, **law[name])
     events = simulate(p, 2.0, tol=1e-13).events
     assert set(events["kind"]) == {"stick_to_slip", "slip_to_stick"}

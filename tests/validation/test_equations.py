@@ -138,7 +138,7 @@ def test_right_hand_sides_of_the_rival_methods(phase, direction):
 
 
 @needs.RIVALS.mark
-@pytest.mark.parametrize("contact", ["separable", "bonded"])
+@pytest.mark.parametrize("contact", ["unilateral", "bilateral"])
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_heyokas_merged_formulation_is_the_literal_one(phase, direction, contact):
     """Constants merged, products shared, one division: the paper's rates, and the conditions of the other methods."""

@@ -60,7 +60,7 @@ def drawn_case(rng):
         n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])),
         n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
         normalization=normalization,
-        contact=str(rng.choice(["separable", "separable", "separable", "bonded"])),
+        contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
         contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
         contact_force=str(rng.choice(["vertical", "normal"])),
     )
@@ -97,7 +97,7 @@ def drawn_start(rng, p, time):
     """The static start, or any motion in any phase, in the slider's frame; contact is as its law says."""
     rest = static_start(p).replace(time=time)
     phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
-    if phase == "rest" or (phase == "separation" and p.contact == "bonded"):
+    if phase == "rest" or (phase == "separation" and p.contact == "bilateral"):
         return rest
     modes, direction = plate_modes(p), int(rng.choice([-1, 1])) if phase == "slip" else 0
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))

@@ -52,7 +52,7 @@ def parameters(draw: st.DrawFn) -> Parameters:
         mu_k=mu_k,
         mu_s=mu_k + draw(st.one_of(st.just(0.0), st.floats(0, 0.5))),
         normalization=draw(st.sampled_from(["as_published", "orthonormal"])),
-        contact=draw(st.sampled_from(["separable", "bonded"])),
+        contact=draw(st.sampled_from(["unilateral", "bilateral"])),
     )
 
 
@@ -76,7 +76,7 @@ def check_laws(result: Result, phase: str = "stick") -> None:
     for name, values in samples.items():
         assert np.all(np.isfinite(values)), name
     in_contact = samples["phase"] < 2
-    if p.contact == "separable":
+    if p.contact == "unilateral":
         # a loss of contact that was missed would show as a tension; P is a sum of terms as large as its own extremes
         size = max(p.N, np.abs(samples["P"]).max(initial=0.0))
         assert samples["P"][in_contact].min(initial=0.0) >= -1e-6 * size
@@ -112,7 +112,7 @@ def check_ending(result: Result) -> None:
 
 # slip turns round where the other direction has no solution
 NO_WAY_BACK = Parameters(
-    N=1000, Omega=1, D_star=0, c=10, c_p=0, k=0, k_p=1e7, E=1e8, m=1e-5, mu_s=0.25, mu_k=0.25, contact="bonded"
+    N=1000, Omega=1, D_star=0, c=10, c_p=0, k=0, k_p=1e7, E=1e8, m=1e-5, mu_s=0.25, mu_k=0.25, contact="bilateral"
 )
 
 

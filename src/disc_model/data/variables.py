@@ -242,4 +242,5 @@ def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]
                 unit = unit if value else unit.removeprefix("10⁻⁵ ")
                 text = f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵") if number else str(value)
                 texts.append(f"{shown.symbol or name} = {text}")
+    texts += [f"{SHOWN[name].symbol} = {values[name]:g}" for name in RATIOS if name in values]
     return ", ".join(texts)

@@ -109,6 +109,17 @@ def _elsewhere(p: Parameters) -> str:
     )
 
 
+def _normalization(p: Parameters) -> str:
+    changed = [name for name in _MATERIAL if getattr(p, name) != Parameters.model_fields[name].default]
+    if p.disc is not None or not changed or "normalization" in p.model_fields_set:
+        return ""
+    return (
+        f"{_value(p, changed[0])} is not the paper's disc, whose modes as published are no normalised ones: state "
+        f"normalization, 'orthonormal' for a real disc"
+    )
+
+
+_MATERIAL = ("a", "b", "h", "E", "nu", "rho")
 _PLATE = ("a", "b", "r_0", "h", "E", "nu", "n_diameters", "n_circles")
 RULES = {
     **{
@@ -116,6 +127,7 @@ RULES = {
         for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
     },
     "thickness": Rule(("h", "a", "b"), _thick),
+    "normalization of modes": Rule((*_MATERIAL, "normalization"), _normalization),
     "speed of sound": Rule(("E", "rho"), _sound),
     "frequencies of the disc": Rule(("disc",), _pitch),
     "amplitudes of the disc": Rule(("disc",), _modal_mass),

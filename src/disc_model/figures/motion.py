@@ -203,7 +203,7 @@ def draw_sections(
             ax.scatter(*(values[mask] for values in coordinates), **look)
     names = BY_SEPARATION if masks.divided_by_separation else BY_SETTLING
     names = {stage: name for stage, name in names.items() if getattr(masks, stage).any()}
-    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bonded"
+    bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral"
     title = "Separation ignored:" if bonded else "No separation:"
     if masks.divided_by_separation:
         title = f"First separation at {first:.2f} s:"

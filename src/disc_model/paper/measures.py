@@ -91,7 +91,7 @@ class CaseView:
     @property
     def bonded(self) -> bool:
         """Whether separation is ignored."""
-        return self.parameters.contact == "bonded"
+        return self.parameters.contact == "bilateral"
 
     @property
     def from_rest(self) -> bool:
@@ -362,7 +362,7 @@ def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     """Cases with separation, each with the case that ignores separation, if there is one."""
     free = [case for case in cases if not case.bonded]
     bonded = {case.parameters: case for case in cases if case.bonded}
-    wanted = [case.parameters.replace(contact="bonded") for case in free]
+    wanted = [case.parameters.replace(contact="bilateral") for case in free]
     return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
 
 

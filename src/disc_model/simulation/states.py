@@ -235,7 +235,7 @@ def engine_case(p: Parameters) -> EngineCase:
         modal_damping(p),
         {name: getattr(p, name) for name in names},
         tangential=tangential_amplitudes(p),
-        bonded=p.contact == "bonded",
+        bonded=p.contact == "bilateral",
         compliance=contact_compliance(p),
         normal=p.contact_force == "normal",
     )

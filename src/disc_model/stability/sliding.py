@@ -146,7 +146,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.NO_SPRING)
     modes, model, compliance = mode_arrays(p), engine_case(p).model, contact_compliance(p)
     a, b, vertical = _equilibrium(p, modes, compliance)
-    if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bonded":
+    if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
         return _absent(SlidingStatus.NO_CONTACT)
     alpha, beta = -modes.diameters * p.Omega * b, modes.diameters * p.Omega * a
     height = (modes.psi @ a - compliance * vertical, 0.0) if compliance else ()

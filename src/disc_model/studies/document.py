@@ -34,7 +34,7 @@ from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.quantity import quantity_names, quantity_of
 from disc_model.studies.ranges import Blocks, Range, checked_rule
-from disc_model.units import Count, Finite, Seconds, Strict, Title, Tolerance, must
+from disc_model.units import Count, Finite, Positive, Seconds, Strict, Title, Tolerance, must
 
 # ----------------------------------------------------------------------------------------------------
 # Names
@@ -188,8 +188,12 @@ SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | No
 _diameters = Parameters.model_fields["n_diameters"]
 
 
-class GivenParameters(SomeParameters):  # type: ignore[misc, valid-type]
-    """Parameters, any of which may be left out; the number of modes may be left to each case."""
+_ratios: dict[str, Any] = {name: (Positive | None, Field(None, **_described(name))) for name in RATIOS}
+_WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
+
+
+class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
+    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left to each case."""
 
     n_diameters: Annotated[
         int,

@@ -26,7 +26,18 @@ from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.region_map import RegionMap
 from disc_model.mode_choice import ModeRequest, asked_modes
-from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
+from disc_model.parameters import (
+    AUTO,
+    CHOOSING,
+    PLATE,
+    RATIOS,
+    RELATED,
+    RESIDUAL,
+    SURFACE,
+    Parameters,
+    case_of,
+    in_identities,
+)
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
 from disc_model.studies.quantity import Quantity
@@ -152,7 +163,7 @@ class GridStudy:
                     used = {str(point[name]) for point in points}
                     texts_of_names[kind] = {word: known[word].model_dump() for word in used}
             if points:
-                content = part | {"points": [[*point.values()] for point in points]}
+                content = part | {"points": [[*in_identities(point).values()] for point in points]}
                 texts.append(canonical_json(shared | texts_of_names | content))
         return {content_key(text): text for text in texts}
 
@@ -280,6 +291,9 @@ class GridStudy:
         for name in scanned:
             if name in counts or name in in_base:
                 yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
+        for name in in_base & RATIOS.keys():
+            if RATIOS[name][0] in {*in_base, *counts}:
+                yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")
         for name in sorted(counts):
             stands_for, other = RATIOS.get(name, ("", ""))
             others = {RATIOS.get(word, (word,))[0] for word in (*counts.keys() - {name}, *in_base, *scanned)}
@@ -355,7 +369,8 @@ class GridStudy:
             path = (ratios.get(name, name), *[name] * (name in ratios), *fault.path[1:])
             faults[name] = Fault((part, *path), fault.value, fault.rule + hint)
         raise_faults([*faults.values()])
-        dropped = {*first, *(RATIOS[name][0] for name in first.keys() & RATIOS)}
+        dropped = {*first, *(RATIOS[name][0] for name in (first | self.base).keys() & RATIOS)}
+        whole |= {name: value for name, value in self.base.items() if name in RATIOS}
         if self.mode_request is not None:
             dropped.add("n_circles")
             whole |= self.mode_request.given

@@ -15,7 +15,7 @@ from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Var
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes, read_asked
-from disc_model.parameters import AUTO, Parameters, case_of
+from disc_model.parameters import AUTO, CONTACTS, Parameters, case_of
 from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
@@ -37,6 +37,9 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
     names, points = data["names"], data["points"]
+    if "contact" in names:
+        i = names.index("contact")
+        points = [[*point[:i], CONTACTS.get(point[i], point[i]), *point[i + 1 :]] for point in points]
     own_start = Start.model_fields.keys() & type(quantity).model_fields.keys()
     start = Start(**{name: getattr(quantity, name) for name in own_start})
     varied = [dict(zip(names, point, strict=True)) for point in points]

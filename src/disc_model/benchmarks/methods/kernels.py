@@ -103,7 +103,7 @@ _part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is c
 def tables(physics: Physics) -> tuple[np.ndarray, np.ndarray]:
     """The pair (modes, c): rows of `ROWS` with a column per mode, and the scalars."""
     p, l, psi = physics.p, physics.l, physics.shape
-    derived = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bonded")}
+    derived = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bilateral")}
     by_a, by_alpha = (p.k - p.m * physics.stiffness) * psi, (p.c - p.m * physics.damping) * psi
     bent = p.m * l**2 * psi
     modes = np.array([l, psi, physics.stiffness, physics.damping, l * psi, by_a, by_alpha, 2.0 * p.m * l * psi, bent])

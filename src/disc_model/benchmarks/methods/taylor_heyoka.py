@@ -151,4 +151,4 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
         return rows, [SHIFT + u - combined(*each(s, a))]
     if sticks:
         return rows, [p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
-    return rows, [sign * f] if p.contact == "bonded" else [P, sign * f]
+    return rows, [sign * f] if p.contact == "bilateral" else [P, sign * f]
