@@ -135,6 +135,19 @@ def test_a_point_that_failed_says_so(shown: Page) -> None:
     assert text(shown, "message") == ""
 
 
+def test_a_point_is_a_case_of_the_package_and_has_an_address(shown: Page) -> None:
+    shown.point(*centre(shown, 3, 1), click=True)
+    case, address = text(shown, "call"), shown.run("return document.getElementById('link').getAttribute('href')")
+    assert case.startswith("dm.Parameters(k=50000, ")
+    assert f"Omega={made_up.plane()['Omega'].values[3]:g}" in case
+    shown.point(*centre(shown, 0, 0), click=True)
+    assert text(shown, "call") != case
+    shown.run("location.hash = arguments[0]", address)
+    shown.wait_for(f"return document.getElementById('link').getAttribute('href') === '{address}'")
+    assert text(shown, "call") == case
+    assert shown.run("return csv().split('\\n')[0]") == "Omega (rad s⁻¹),N (N),growth_rate (s⁻¹)"
+
+
 def test_a_click_shows_the_motion(shown: Page) -> None:
     def history() -> np.ndarray:
         return np.array(shown.run("return motionDrawn && [...motionDrawn.histories[0]]"))

@@ -21,6 +21,7 @@ from PIL import Image, ImageOps
 
 from disc_model.data.variables import attributes
 from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
+from disc_model.parameters import RATIOS, Parameters
 
 # ----------------------------------------------------------------------------------------------------
 # Contents of studies: numbers packed, words as they are
@@ -195,6 +196,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "maps": {"sequential": _colours("batlow"), "diverging": _colours("vik")},
         "palette": PALETTE,
         "words": WORDS,
+        "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)

@@ -41,8 +41,55 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
+/** The point as a case of the package: all numbers that it needs, in SI units. */
+function call(study, place) {
+  const varied = study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
+  const values = [...study.fixed.map((one) => [one.name, one.value]), ...varied];
+  const python = (value) => (value === null ? "None" : JSON.stringify(value));
+  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(value)}`);
+  return `dm.Parameters(${stated.join(", ")})`;
+}
+
+/** The address of a point: its study, what is shown of it, and its place along each dimension. */
+const address = () =>
+  new URLSearchParams({ study: view.study.name, across: view.x, up: view.y, variable: view.variable.name, ...view.place });
+
+/** Choose what an address says, as far as it is there. */
+async function follow(hash) {
+  const asked = new URLSearchParams(hash);
+  if (!contents.studies.some((study) => study.name === asked.get("study"))) return false;
+  await chooseStudy(asked.get("study"));
+  const { study } = view;
+  if (study.dim[asked.get("across")]) view.x = asked.get("across");
+  view.y = study.dim[asked.get("up")] && asked.get("up") !== view.x ? asked.get("up") : NONE;
+  view.variable = study.variables.find((one) => one.name === asked.get("variable")) ?? view.variable;
+  chooseAxes();
+  for (const dim of study.dims) {
+    const index = Number(asked.get(dim.name) ?? view.place[dim.name]);
+    if (index >= 0 && index < dim.values.length) view.place[dim.name] = Math.floor(index);
+  }
+  return true;
+}
+
+/** What the map shows, as comma-separated values. */
+function csv() {
+  const { study, variable, x, y } = view;
+  const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
+  const cell = (text) => (/[",\n]/.test(text) ? `"${String(text).replaceAll('"', '""')}"` : text);
+  const rows = [[...axes, variable].map((thing) => cell(heading(thing)))];
+  const inner = axes[1]?.values ?? [null];
+  for (const [j] of inner.entries())
+    for (const [i] of axes[0].values.entries()) {
+      const place = { ...view.place, [x]: i, ...(axes[1] ? { [y]: j } : {}) };
+      const stored = value(study, variable, place);
+      rows.push([...axes.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : stored]);
+    }
+  return rows.map((row) => row.join(",")).join("\n");
+}
+
 function choose(place, pointed = place) {
   view.place = place;
+  element("link").href = `#${address()}`;
   drawMap();
   hover(pointed);
   showPoint();
@@ -53,6 +100,7 @@ function showPoint() {
   const { study, place, variable } = view;
   const own = study.dims.filter((dim) => study.status?.dims.includes(dim.name) || variable.dims.includes(dim.name));
   element("point").textContent = `${where(place, own)}: ${variable.name} ${shown(study, variable, place)}`;
+  element("call").textContent = call(study, place);
   const message = messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;

@@ -37,13 +37,19 @@ function listen() {
   map.addEventListener("keydown", move);
   element("motion").addEventListener("pointermove", hoverMotion);
   window.addEventListener("resize", redraw);
+  window.addEventListener("hashchange", async () => (await follow(location.hash.slice(1))) && update());
+  element("table").addEventListener("click", () => {
+    URL.revokeObjectURL(element("table").href);
+    element("table").href = URL.createObjectURL(new Blob([csv()], { type: "text/csv" }));
+    element("table").download = `${view.study.name}_${view.variable.name}.csv`;
+  });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 }
 
 async function start() {
   try {
     const [first] = [...contents.studies].sort((a, b) => mapped(b) - mapped(a)); // the largest growth map
-    await chooseStudy(first.name);
+    if (!(await follow(location.hash.slice(1)))) await chooseStudy(first.name);
   } catch (error) {
     element("map-title").textContent = `This browser cannot unpack the studies: ${error}`;
     return;
