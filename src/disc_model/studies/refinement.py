@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, stays_linear_until
-from disc_model.stability.attractor.outcome import OutcomeResult, find_outcome
+from disc_model.stability.attractor.outcome import OutcomeResult, Stage, find_outcome
 from disc_model.stability.attractor.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.resonances import modes_at_rest
@@ -228,7 +228,11 @@ class Tile:
             row |= {
                 "status": result.status,
                 "outcome": result.word,
-                "method": "simulation" if result.simulated else "multipliers",
+                "method": "settled"
+                if result.stage is Stage.STEADY
+                else "simulation"
+                if result.simulated
+                else "multipliers",
                 "first_separation": result.first_separation,
                 "simulated_time": result.simulated,
             }

@@ -11,8 +11,8 @@ The outcomes are those of `disc_model.data.variables.Outcome`. One test decides 
 - `quasi_periodic`, `irregular`: the motion has settled (`basins.Basins`), and no stable cycle is near. Its
   largest nontrivial Lyapunov exponent is zero, or positive (`arrival.regularity`).
 - `growing`: the motion is in contact at the horizon and departs from an unstable cycle, or its changes from one period
-  to the next have risen (`outcome.growing`). It is not followed to the horizon once it is known to stay on an
-  attracting torus in contact (`torus.TorusTest`). `separation`: contact is lost before the horizon.
+  to the next have risen (`outcome.growing`). Its simulation ends once the record shows that it has settled in contact
+  (`disc_model.analysis.settling`). `separation`: contact is lost before the horizon.
 - `undecided`: none of these.
 
 Claims and benchmarks know the times of events alone: `disc_model.analysis.classify` finds their period, and tells

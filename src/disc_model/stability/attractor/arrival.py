@@ -16,10 +16,10 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability.attractor import thresholds
 from disc_model.stability.attractor.linear_motion import NearCycle, find_cycle_near, find_near_return
-from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm
+from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm, switch_angles
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
 
 
 class Arrival(NamedTuple):
@@ -57,12 +57,6 @@ def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
     return Arrival(settling(*np.hstack([switch_angles(leg) for leg in legs])))
-
-
-def switch_angles(leg: Result) -> Array:
-    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2, n)."""
-    events = leg.events
-    return events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]].to_numpy(dtype=float).T
 
 
 def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCycle | None:

@@ -24,9 +24,16 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
-from disc_model.stability.attractor.arrival import cycle_reached, regularity, switch_angles
+from disc_model.stability.attractor.arrival import cycle_reached, regularity
 from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
-from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment, find_calm, segment_of
+from disc_model.stability.attractor.outcome import (
+    Attractor,
+    OutcomeResult,
+    Segment,
+    find_calm,
+    segment_of,
+    switch_angles,
+)
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 

@@ -12,6 +12,7 @@ from enum import Enum
 
 import numpy as np
 
+from disc_model.analysis.settling import Settled, settling
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -31,7 +32,6 @@ from disc_model.stability.attractor.linear_motion import (
     follows_multipliers,
     periods_left,
 )
-from disc_model.stability.attractor.torus import TorusTest
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
 
@@ -89,7 +89,7 @@ class Stage(Enum):
     DEPARTING = "departs from an unstable cycle"
     ON_ITS_WAY = "follows no cycle as far as is known"
     SETTLED = "approaches a stable cycle or steady sliding, or is at rest"
-    ON_TORUS = "stays on an attracting torus in contact"
+    STEADY = "has settled in contact after growth, by its record"
     SEPARATED = "has lost contact"
     HORIZON = "has come to the horizon"
     FAILED = "its simulation failed"
@@ -230,7 +230,7 @@ class _OutcomeSearch:
         self.leg = thresholds.FIRST_LEG
         self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
         self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
-        self.torus_test = TorusTest(self.map) if self.map is not None else None
+        self.angles: list[Array] = []
         self.section_point: Array | None = None  # at the end of the last leg
         if self.start_cycle is None:
             return Stage.ON_ITS_WAY
@@ -289,9 +289,9 @@ class _OutcomeSearch:
         if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
             self.cycle = near
             return Stage.NEAR_CYCLE
-        if self._stays_on_torus():
+        if self._has_settled():
             result.outcome = Outcome.GROWING
-            return Stage.ON_TORUS
+            return Stage.STEADY
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
@@ -303,9 +303,8 @@ class _OutcomeSearch:
         windows = {}
         if self.late and stop == self.horizon:
             windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
-        leg = simulate(
-            self.p, stop, windows, events=False, tol=self.tol, initial_state=result.state, stop_at="first_separation"
-        )
+        leg = simulate(self.p, stop, windows, tol=self.tol, initial_state=result.state, stop_at="first_separation")
+        self.angles.append(switch_angles(leg))
         if windows and leg.status.complete:
             result.segment = segment_of(leg)
         result.simulated += leg.final_state.time - result.time
@@ -352,21 +351,11 @@ class _OutcomeSearch:
     def _grows(self) -> bool:
         return self.departed_from is not None or growing(self.result.changes)
 
-    def _stays_on_torus(self) -> bool:
-        """Whether the motion has come to an attracting torus in contact; tested while that may save much."""
-        result, x = self.result, self.section_point
-        saves = self.horizon - result.time >= thresholds.LONGEST_LEG and result.simulated >= thresholds.TORUS_AFTER
-        if not (self.early and saves and self._grows and x is not None and self.torus_test is not None):
+    def _has_settled(self) -> bool:
+        """Whether the record shows that growth has ended in contact."""
+        if not self.early or not self._grows or self.result.time >= self.horizon:
             return False
-        if not self.torus_test.shows_torus(x):
-            return False
-        watched = thresholds.TORUS_WATCHED
-        leg, segment = final_segment(self.p, result.state, watched, watched, self.tol)
-        result.simulated += leg.final_state.time - result.time
-        if segment is None or segment.P_min < thresholds.TORUS_LEAST_FORCE * self.p.N:
-            return False
-        code, x = self.torus_test.map.next_release(leg.final_state)
-        return code == RETURNED and self.torus_test.shows_no_change(x)
+        return settling(*np.hstack(self.angles)).answer is Settled.SETTLED
 
 
 def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
@@ -421,3 +410,9 @@ def shares(result: Result) -> tuple[float, float, float, float]:
     stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
     total = stick + slip + separation
     return stick / total, slip / total, separation / total, statistics["separations"] / total
+
+
+def switch_angles(leg: Result) -> Array:
+    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2, n)."""
+    events = leg.events
+    return events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]].to_numpy(dtype=float).T

@@ -9,7 +9,7 @@ Distances and changes are on the section of the return map, relative to the norm
 FIRST_LEG = 5.0
 """s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
 LONGEST_LEG = 160.0
-"""s, of later legs. A test of a steady motion for a torus after each costs as much as 50 to 400 s of simulation."""
+"""s, of later legs. The tests after each cost little beside so much simulation."""
 SAMPLING_RATE = 4000.0
 """Hz, of described segments: above twice the highest modal frequency."""
 
@@ -50,32 +50,6 @@ LARGEST_PERIOD = 8
 """Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
 RISE = 1.5
 """Factor between changes from period to period that shows growth: rounding and beats with decaying modes cause less."""
-
-# ----------------------------------------------------------------------------------------------------
-# Attracting tori in contact
-
-TORUS_AFTER = 70.0
-"""s of simulation before the first test, which costs as much as 50 to 400 s; it also needs `LONGEST_LEG` to be left."""
-TORUS_WATCHED = 40.0
-"""s for which the motion is watched after a test: it may pass an unstable torus, or a border of its phases that no
-derivative shows."""
-TORUS_LEAST_FORCE = 0.05
-"""Least contact force in that time, over the preload: nearer to a loss of contact none can be excluded."""
-TORUS_RELEASES, TORUS_FURTHER = 200, 400
-"""Number of releases among which a near return is sought, some seconds, and how many more there are after a failure."""
-TORUS_FEWEST = 40
-"""A near return takes more releases than this: over a shorter time, rates would be less accurate."""
-TORUS_NEAREST, TORUS_PERIODIC = 0.01, 0.001
-"""Largest distance of a near return, and of a return to a cycle of at most `TORUS_FEWEST` releases, over the extent of
-the motion's points."""
-TORUS_STEADY = 0.02
-"""Largest relative change of this extent since the last test."""
-TORUS_TURNED = 1.0
-"""Largest size of the logarithm of the eigenvalue along the torus: its mean is 0 on a torus, and positive in chaos."""
-TORUS_SLOWEST = 0.005
-"""1/s, least rate at which distances from the torus must decay: above the error of rates from inexact returns."""
-TORUS_DISTANCE = 0.02
-"""Largest distance of the motion from the torus, over the static deflection."""
 
 # ----------------------------------------------------------------------------------------------------
 # Attractors of many motions of a case

@@ -116,7 +116,7 @@ def _late(point: Point, options: HorizonOutcome) -> tuple[OutcomeResult, Result 
         return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
-    # a stable cycle is known exactly; on a torus, and in steady sliding, the motion is steady
+    # a stable cycle is known exactly; elsewhere the motion is steady
     on = reached.near.cycle.state if reached.near is not None and reached.near.cycle.stable else reached.state
     return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 T = TypeVar("T")
 Place = tuple[int, int]
-METHODS = ("none", "multipliers", "simulation", "inferred")
+METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
 JOINED = ("no", "yes")
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
@@ -44,7 +44,11 @@ class Regions(Quantity):
     COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
-        "method": Variable("1", "how the outcome is known; inferred: like that cell's corners", METHODS),
+        "method": Variable(
+            "1",
+            "how the outcome is known; inferred: like that cell's corners; settled: in contact, before the horizon",
+            METHODS,
+        ),
         "first_separation": SCALARS["first_separation"],
         "simulated_time": Variable("s", "simulated time"),
         "cycle": Variable("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
