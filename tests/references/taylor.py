@@ -65,8 +65,17 @@ class Problem:
 def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
     modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
-    offset = p.h / 2 if p.friction_offset == "surface" else p.friction_offset
-    return Problem(values, modes["omega"], np.abs(modes["psi"]), modes["diameters"], rates, offset)
+    sign = np.sign(modes["psi"].to_numpy())
+    offset, tangential = surface_of(p)
+    given = None if tangential is None else sign * np.array(tangential)
+    return Problem(values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given)
+
+
+def surface_of(p):
+    """Height of friction above the middle plane (m), and amplitudes along the path if the modes' table has them."""
+    if p.friction_offset != "surface":
+        return p.friction_offset, None
+    return (p.h / 2, None) if p.disc is None else (0.0, p.disc.tangential)
 
 
 def stored_problem(data):

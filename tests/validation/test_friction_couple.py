@@ -1,9 +1,9 @@
-"""The couple of friction on the disc's surface: references that know it, by themselves and against each other."""
+"""The couple of friction on the disc's surface: the package against references, and these against each other."""
 
 import numpy as np
 import pytest
 
-from disc_model import Parameters, plate_modes, steady_sliding
+from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping
 from tests.contact_laws import LAWS
@@ -15,12 +15,77 @@ from tests.references.printed import MOTIONS, P, lively
 EACH_LAW = {"default": {}} | LAWS
 
 
-def eigenvalues(p, offset):
+def eigenvalues(p):
     """Of steady sliding, by the reference, with the modes of `plate_modes`."""
     modes = plate_modes(p)
     l, psi = modes["diameters"], modes["psi"]
     values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
-    return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), couple(offset, psi, l, p.r_0))
+    offset, tangential = taylor.surface_of(p)
+    tangential = couple(offset, psi, l, p.r_0) if tangential is None else tangential
+    return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), tangential)
+
+
+ORTHONORMAL = {"normalization": "orthonormal", "friction_offset": "surface"}
+BRAKE = Disc(
+    diameters=[2, 3, 0, 2], omega=[7264.0, 14880.0, 5100.0, 21000.0], amplitude=[0.83, -0.71, 0.5, 0.42],
+    damping_ratio=[1e-4] * 4, tangential=[-0.11, 0.14, 0.0, -0.05],
+)  # fmt: skip
+"""Modes as of a brake disc; signs of the amplitudes differ."""
+SLIDER = {"k": 1e6, "k_p": 1e6, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35, "r_0": 0.115}
+
+
+# ------------------------------------------------------------------------ the package
+@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("N", [50.0, 385.0, 600.0])
+def test_growth_rates_of_the_paper_s_disc(law, N):
+    """All eigenvalues of nine modes at six speeds, to 1e-8 of a growth rate of 1/s."""
+    for Omega in (2.0, 10.0, 15.1, 20.0, 50.0, 100.0):
+        p = Parameters(N=N, Omega=Omega, **ORTHONORMAL, **EACH_LAW[law])
+        compare_sliding(p)
+
+
+@pytest.mark.parametrize("offset", ["surface", 0.006])
+@pytest.mark.parametrize("law", ["default", "compliant_normal"])
+def test_growth_rates_of_a_disc_by_its_modes(law, offset):
+    """With tangential amplitudes of a table, and with a height in their place."""
+    for Omega in (5.0, 20.0, 80.0):
+        compare_sliding(Parameters(N=8000, Omega=Omega, disc=BRAKE, friction_offset=offset, **SLIDER, **EACH_LAW[law]))
+
+
+def compare_sliding(p):
+    sliding, (wanted, (_, R, _)) = steady_sliding(p), eigenvalues(p)
+    assert sliding.contact_force == pytest.approx(R, rel=1e-10)
+    apart = np.abs(sliding.eigenvalues[:, None] - wanted)
+    assert len(wanted) == len(sliding.eigenvalues)
+    assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-8
+    assert sliding.growth_rate == pytest.approx(wanted.real.max(), abs=1e-8)
+
+
+@pytest.mark.slow
+@pytest.mark.compiled
+@pytest.mark.parametrize(("N", "Omega"), [(385, 15), (200, 30), (385, 20), (600, 20)])
+def test_first_separations_are_those_of_fixed_steps(N, Omega):
+    """To 0.1 %; without the couple none of the first two separates so early."""
+    p = Parameters(N=N, Omega=Omega, **ORTHONORMAL)
+    wanted = first_separation(taylor.problem_of(p), 80)[0]
+    assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(wanted, rel=1e-3)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    "law", [pytest.param(law, marks=() if law == "default" else pytest.mark.slow) for law in EACH_LAW]
+)
+def test_events_are_those_of_the_reference(law):
+    """Of a violent piece with separations and impacts, and of slip and stick from rest."""
+    p = Parameters(N=385, Omega=15.1, friction_offset=0.02, c=0.3, c_p=0.2, **EACH_LAW[law])
+    q = taylor.problem_of(p)
+    violent = stored.rounded(taylor.violent_start(1.3))
+    for start, own, span in ((violent, stored.engine_state(violent, p), 0.012), (q.equilibrium(), None, 0.05)):
+        run = taylor.Reference(q, start).run(span)
+        events = simulate(p, span, tol=1e-15, initial_state=own).events
+        assert list(events["kind"]) == [event["kind"] for event in run.events]
+        assert len(events) >= 3
+        np.testing.assert_allclose(events["time"], [float(event["time"]) for event in run.events], rtol=0, atol=1e-13)
 
 
 # ------------------------------------------------------------------------ the references themselves
@@ -33,27 +98,18 @@ def eigenvalues(p, offset):
 )  # fmt: skip
 def test_growth_of_the_reference_is_that_of_the_prototype(Omega, offset, growth, frequency):
     """Numbers of a program that shares nothing with this one, as printed: four decimals, Hz rounded or cut off."""
-    fastest = max(eigenvalues(Parameters(N=385, Omega=Omega, normalization="orthonormal"), offset)[0], key=np.real)
+    p = Parameters(N=385, Omega=Omega, normalization="orthonormal", friction_offset=offset)
+    fastest = max(eigenvalues(p)[0], key=np.real)
     assert fastest.real == pytest.approx(growth, abs=5.1e-5)
     assert abs(fastest.imag) / (2 * np.pi) == pytest.approx(frequency, abs=0.6)
 
 
 @pytest.mark.parametrize("law", EACH_LAW)
-def test_growth_of_the_reference_without_the_couple_is_ours(law):
-    p = Parameters(N=385, Omega=20, c=0.3, c_p=0.7, normalization="orthonormal", **EACH_LAW[law])
-    found, (_, R, _) = eigenvalues(p, 0)
-    sliding = steady_sliding(p)
-    assert sliding.contact_force == pytest.approx(R, rel=1e-12)
-    # 1e4 1/s is the size of the eigenvalues, of which rounding takes 15 digits
-    assert np.sort(found.real) == pytest.approx(np.sort(sliding.eigenvalues.real), abs=1e-10)
-
-
-@pytest.mark.parametrize("law", EACH_LAW)
 def test_both_references_move_alike_about_steady_sliding(law):
     """Rates of the Taylor integrator, differentiated there, have the eigenvalues of the program of growth rates."""
-    p, offset = Parameters(N=385, Omega=20, n_diameters=2, c=0.3, c_p=0.7, D_star=1e-3, **EACH_LAW[law]), 0.01
-    q, n = taylor.problem_of(p.replace(friction_offset=offset)), 3
-    wanted, (V, R, T) = eigenvalues(p, offset)
+    small = {"n_diameters": 2, "c": 0.3, "c_p": 0.7, "D_star": 1e-3, "friction_offset": 0.01}
+    p, n = Parameters(N=385, Omega=20, **small, **EACH_LAW[law]), 3
+    q, (wanted, (V, R, T)) = taylor.problem_of(p), eigenvalues(p)
     kept = np.array([i for i in range(4 * n + (4 if q.C else 2)) if i not in (n, 3 * n)])
 
     def rate(y):
@@ -92,8 +148,8 @@ def test_both_references_move_alike_about_steady_sliding(law):
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase, direction):
     """Coefficient by coefficient: power into disc and slider across the disc, with T v_s, and along it."""
-    p, offset, order = P.replace(**EACH_LAW[law]), 0.02, 12
-    q, start = taylor.problem_of(p.replace(friction_offset=offset)), lively(phase, direction, p)
+    p, order = P.replace(friction_offset=0.02, **EACH_LAW[law]), 12
+    q, start = taylor.problem_of(p), lively(phase, direction, p)
     if q.C:
         start = start.replace(u=start.u - 500 * float(q.C), u_velocity=start.u_velocity + 0.01)
     step = taylor.Step(q, phase, direction, stored.reference_state(start, p))
@@ -107,7 +163,7 @@ def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase
     def modal(x, y):
         return sum(times(*columns) for columns in zip(x.T, y.T, strict=True))
 
-    v_s = -offset / q.r_0 * step.beta @ (q.l * q.s)
+    v_s = -p.friction_offset / q.r_0 * step.beta @ (q.l * q.s)
     height, turning = step.u.copy(), -step.f
     height[0], turning[0] = height[0] - q.u_0, turning[0] + q.Omega
     across = sum(modal(*pair) for pair in ((step.alpha, step.alpha), (step.beta, step.beta)))
@@ -132,7 +188,7 @@ def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase
 @pytest.mark.slow
 @pytest.mark.compiled
 @pytest.mark.parametrize(("N", "Omega", "time"), [(385, 15, 63.6), (200, 30, 37.9)])
-def test_first_separation_of_the_reference_is_that_of_the_prototype(N, Omega, time):
+def test_first_separation_of_fixed_steps_is_that_of_the_prototype(N, Omega, time):
     """To its last digit."""
-    q = taylor.problem_of(Parameters(N=N, Omega=Omega, normalization="orthonormal", friction_offset=1e-3))
+    q = taylor.problem_of(Parameters(N=N, Omega=Omega, **ORTHONORMAL))
     assert first_separation(q, 80)[0] == pytest.approx(time, abs=0.05)

@@ -63,6 +63,7 @@ def drawn_case(rng):
         contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
         contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
         contact_force=str(rng.choice(["vertical", "normal"])),
+        friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
     )
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
     ratio, fastest = (
