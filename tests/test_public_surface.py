@@ -56,6 +56,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {},
         {name: [*WRONG] for name in ("growth", "easy", "sharpest")} | {"scale": "None", "max_points": "huge"},
     ),
+    (dm.critical, {"p": P, "name": "mu_s", "bounds": (0.3, 0.5), "points": 2}, {"precision": "None huge"}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None"}),
     (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),

@@ -515,7 +515,9 @@ class Parameters(Checked):
     def numbers(self) -> dict[str, float]:
         """All numbers of the case that may change continuously, by name: parameters, ratios and `Disc.numbers`."""
         unused = {"D_star"} if self.damping_ratio is not None else {*PLATE} if self.disc is not None else set()
-        unused |= {"contact_compliance"} if self.contact_compliance == 0 else set()  # a model of its own
+        unused |= {
+            name for name in ("contact_compliance", "friction_offset") if getattr(self, name) == 0
+        }  # other models
         numbers = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
         ratios = {
             name: numbers[upper] / numbers[two]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from disc_model import Parameters
+from disc_model import Parameters, floquet
 from disc_model.stability import curves
 from disc_model.stability.return_map import ReturnMap
 
@@ -29,3 +29,16 @@ def test_a_fold_is_followed_across_its_line():
     fold = next(curve for curve in found if curve.kind == "fold")
     assert fold.values[:, 1].min() < 375 < fold.values[:, 1].max()
     assert len(fold.values) < 30  # short steps are a sign of a corrector that fails
+
+
+@pytest.mark.compiled
+def test_a_narrow_tongue_between_two_values_is_seen():
+    """From 20.124 to 20.169 rad/s, between the first two of eleven values from 20 to 60."""
+    p = Parameters(N=385, Omega=33, E=70e9, rho=2700, nu=0.33, h=0.004, normalization="orthonormal", mu_k_over_mu_s=0.6)
+    found = curves.critical(p, "Omega", (20, 60), points=11, precision=1e-4)
+    assert found.value == found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
+    assert found.unstable_above.tolist() == [True, False, True]
+    for crossing, unstable in zip(found.crossings, found.unstable_above, strict=True):
+        below, above = (floquet(p.replace(Omega=crossing + move)).stable for move in (-2e-4, 2e-4))
+        assert (below, above) == (unstable, not unstable)
+    assert 0 < found.resolution < 1

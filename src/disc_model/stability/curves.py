@@ -1,22 +1,25 @@
 """Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see docs/method.md."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
+from disc_model.data.variables import CycleStatus
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.branch import Branch, StepControl, free_faults, is_interval
 from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
-from disc_model.stability.cycle import find_cycle
+from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
-from disc_model.stability.return_map import Array, ReturnMap
-from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
+from disc_model.stability.return_map import Array, ReturnMap, case_faults
+from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""
@@ -241,3 +244,154 @@ def _trace(seed: _Seed, branch: Branch) -> StabilityCurve:
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
     resonance = nearest_resonance(case, float(branch.period[middle]), mu, int(branch.diameters[middle]))
     return StabilityCurve(seed.kind, branch.values, border, branch.period, leading, resonance)
+
+
+# ----------------------------------------------------------------------------------------------------
+# One parameter
+
+ROUNDS = 5
+"""Number of times that places of resonance are predicted anew, from the multipliers beside them."""
+STRONGLY_DAMPED = 0.5
+"""Modulus below which a multiplier takes part in no resonance that could make it one."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Critical:
+    """Values of a parameter at which the motion near the static start gains or loses stability.
+
+    Attributes
+    ----------
+    parameters, name : the case, and the parameter
+    value : the least value without a stable motion; nan if there is none within the bounds
+    crossings : shape (n,), all values at which stability changes, ascending
+    unstable_above : bool, (n,), whether there is no stable motion just above each
+    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
+    resolution : a tongue of instability narrower than this may have been stepped over
+    """
+
+    parameters: Parameters
+    name: str
+    value: float
+    crossings: Array
+    unstable_above: NDArray[np.bool_]
+    values: Array
+    growth_rate: Array
+    resolution: float
+
+    def __repr__(self) -> str:
+        first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
+        seen = f"{len(self.crossings)} crossings, {len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
+        return f"Critical({self.name}: {first}, {seen})"
+
+
+@compiling()
+def critical(
+    p: Parameters,
+    name: str,
+    bounds: tuple[float, float],
+    *,
+    points: int = 41,
+    precision: float | None = None,
+    tol: float = 1e-12,
+) -> Critical:
+    """The least value of a parameter at which the motion near the static start is unstable, and all later crossings.
+
+    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. Instability often lies in
+    narrow tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that these places are
+    predicted from the multipliers of neighbouring values, and computed, until the predictions no longer move.
+
+    Parameters
+    ----------
+    p : the case; its value of the parameter is not used
+    name : one of `Parameters.numbers`, such as "mu_s"
+    bounds : lowest and highest value
+    points : number of values from which the search starts
+    precision : to which crossings are bisected; a millionth of the range if not given
+    tol : as in `floquet`
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or the case does at a value within the bounds.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
+    >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
+    Critical(mu_s: unstable from 0.3, 1 crossings, ... cycles, tongues down to ... seen)
+    """
+    counts = is_whole(points) and 2 <= points <= MOST_POINTS
+    good = precision is None or (is_number(precision) and precision > 0)
+    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
+        (is_interval(bounds), "bounds", bounds, "must be two ascending finite numbers"),
+        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
+        (good, "precision", precision, "must be a number > 0"),
+    )
+    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    shortest = 1e-6 * (bounds[1] - bounds[0]) if precision is None else float(precision)
+    cycles: dict[float, FloquetResult] = {}
+
+    def stable(x: float) -> bool:
+        if x not in cycles:
+            cycles[x] = find_cycle(p.replace(**{name: x}), tol)
+        cycle = cycles[x]
+        if cycle.status is CycleStatus.OK:
+            return cycle.stable
+        sliding = cycle.status is CycleStatus.NO_STICK_SLIP and cycle.sliding.stable
+        return sliding or cycle.status is CycleStatus.AT_REST
+
+    for x in np.linspace(*bounds, points).tolist():
+        stable(x)
+    resolution = math.inf
+    for _ in range(ROUNDS):
+        gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
+        new = {a + share * (b - a): min(share, 1 - share) * (b - a) for a, b, shares in gaps for share in shares}
+        resolution = max([shortest, *new.values(), *(b - a for a, b, shares in gaps if shares is NO_CYCLES)])
+        far = sorted(x for x, distance in new.items() if distance > shortest)
+        if not far:
+            break
+        for x in far:
+            stable(x)
+    crossings = []
+    for a, b in pairwise(sorted(cycles)):
+        if (before := stable(a)) != stable(b):
+            while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
+                a, b = (middle, b) if stable(middle) == before else (a, middle)
+            crossings.append((b, before))
+    begin = float(bounds[0])
+    first = [] if stable(begin) else [begin]
+    first += [x for x, was_stable in crossings if was_stable]
+    values = sorted(cycles)
+    return Critical(
+        parameters=p,
+        name=name,
+        value=first[0] if first else math.nan,
+        crossings=np.array([x for x, _ in crossings]),
+        unstable_above=np.array([was_stable for _, was_stable in crossings], dtype=bool),
+        values=np.array(values),
+        growth_rate=np.array([cycles[x].growth_rate for x in values]),
+        resolution=resolution,
+    )
+
+
+NO_CYCLES: tuple[float, ...] = (0.5,)
+"""Where nothing is known of an interval, because one of its ends has no cycle: its middle is computed."""
+
+
+def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
+    """Shares of the way from one cycle to another at which multipliers are predicted to meet on the unit circle."""
+    if not (len(first.multipliers) and len(second.multipliers)):
+        return NO_CYCLES if len(first.multipliers) != len(second.multipliers) else ()
+    distance = np.abs(first.multipliers[:, None] - second.multipliers[None, :])
+    rows, columns = linear_sum_assignment(distance)
+    one, two = first.multipliers[rows], second.multipliers[columns]
+    chosen = (one.imag > 0) & (np.minimum(abs(one), abs(two)) > STRONGLY_DAMPED)
+    angle, turn = np.angle(one[chosen]), np.angle(two[chosen] / one[chosen])
+    i, j = np.triu_indices(len(angle))
+    # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with itself comes to 2 pi
+    begin = np.concatenate([angle[i] + angle[j], (angle[i] - angle[j])[i != j]]) / math.tau
+    end = begin + np.concatenate([turn[i] + turn[j], (turn[i] - turn[j])[i != j]]) / math.tau
+    meets = np.floor(begin) != np.floor(end)
+    level = np.maximum(np.floor(begin), np.floor(end))
+    return [float(share) for share in ((level - begin)[meets] / (end - begin)[meets]) if 0 < share < 1]
