@@ -242,6 +242,13 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     apart = other.replace(phase="separation", direction=0, u=other.u + 1e-4, u_velocity=1.0)
     moved = transfer_state(p, apart)
     assert moved.u - mode_arrays(p).psi @ other.a == pytest.approx(1e-4, rel=1e-9)
+    # on a compliant contact the slider keeps its distance, and its velocity over the disc that turns below it
+    bent = other.replace(u=other.u - 1e-5, f=5.0, u_velocity=1.0)
+    for case, distance in ((p, 0.0), (p.replace(contact_compliance=1e-7), -1e-5)):
+        modes, former, found = mode_arrays(case), mode_arrays(case.replace(r_0=0.1)), transfer_state(case, bent)
+        assert found.u - modes.psi @ bent.a == pytest.approx(distance, abs=1e-15)
+        rise = bent.alpha + bent.f * modes.diameters * bent.b
+        assert found.u_velocity - modes.psi @ rise == pytest.approx(1.0 - former.psi @ rise, rel=1e-12)
     assert simulate(p, 1e-5, initial_state=moved).final_state.phase == "separation"
 
 
