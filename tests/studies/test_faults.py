@@ -54,6 +54,7 @@ GRIDS: list[tuple[dict[str, Any], str]] = [
     ({"base": {"N": 200, "k": 5e4}}, "base.k 50000 axis not both"),
     ({"axes": {"k": [1]}}, "axes.Omega required"),
     (axes(mus=[1]), "axes.mus mu_s"),
+    (axes(k=[1, 1, 1]), "axes.k different"),
     (axes(mu_k=[1.0]), "axes.mu_k 1 <= mu_s"),
     (axes(a=[0.01, 0.06], r_0=[0.05, 0.1]), "axes.a 0.06 r_0 where"),
     (axes(c={"start": 0, "stop": 1, "step": 0.3}), "axes.c multiple step"),

@@ -245,6 +245,9 @@ class GridStudy:
         """The dimensions of the file; raises `ParameterError`."""
         faults: list[Fault] = []
         axes = self._columns(self.document.axes, ("axes",), faults, self.document.resolution)
+        for name, blocks in axes.items():
+            repeated = isinstance(getattr(self.document.axes, name), list) and len({*blocks[0]}) < len(blocks[0])
+            faults += [Fault.of(("axes", name), [*blocks[0]], "must be different values")] if repeated else []
         dims = [Dimension.of((name,), _tupled(blocks)) for name, blocks in axes.items()]
         for i, group in enumerate(self.document.zip):
             path = ("zip", str(i))
