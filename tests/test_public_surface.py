@@ -10,7 +10,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.data import dataset
-from disc_model.stability.branch import StepControl
+from disc_model.stability.continuation import StepControl
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.nan, "negative": -1.5, "huge": 10**400}

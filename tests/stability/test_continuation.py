@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.stability.branch import CorrectorFailed, CycleProblem
 from disc_model.stability.continuation import (
     BORDER,
+    CorrectorFailed,
+    CycleProblem,
     continue_border,
     continue_cycle,
 )

@@ -8,8 +8,7 @@ import pytest
 from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus
 from disc_model.simulation.states import State
-from disc_model.stability.branch import StepControl
-from disc_model.stability.continuation import continue_cycle
+from disc_model.stability.continuation import StepControl, continue_cycle
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import ReturnMap, multipliers
 from tests.stability.test_return_map import central_differences

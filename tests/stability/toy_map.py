@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.stability import branch
+from disc_model.stability import continuation
 from disc_model.stability import cycle as floquet
 from disc_model.stability.return_map import Counts, Flight
 
@@ -90,5 +90,5 @@ class ToyMap:
 @pytest.fixture
 def toy(monkeypatch: pytest.MonkeyPatch) -> None:
     """Cycles are those of the toy."""
-    for module in (branch, floquet):
+    for module in (continuation, floquet):
         monkeypatch.setattr(module, "ReturnMap", ToyMap)

@@ -21,7 +21,7 @@ from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATE
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
-    from disc_model.stability.branch import Branch
+    from disc_model.stability.continuation import Branch
     from disc_model.stability.cycle import FloquetResult
     from disc_model.stability.sliding import SteadySliding
 

@@ -1,42 +1,400 @@
 """Continuation of a cycle in one parameter, and of its stability borders in two, by pseudo-arclength.
 
-`continue_cycle` follows the cycle along F = 0 of `disc_model.stability.branch`; a fold, where two cycles meet, is a
-regular point of that curve. `continue_border` follows neutral curves and folds in the plane of two parameters.
+A cycle is a zero of F(x, q) = R(x, q) - x, in scaled unknowns.  R is the return map, x the point of the section and q
+the free parameters; the Jacobian of F by both comes from the variational equations.  Distances mix the point, over the
+norm of the static deflection, with the parameters, over their scales.
+
+`continue_cycle` follows the cycle along F = 0; a fold, where two cycles meet, is a regular point of that curve.
+`continue_border` follows neutral curves and folds in the plane of two parameters.
 """
 
+from __future__ import annotations
+
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from disc_model.display import Summarised, draw
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.parameters import DEFAULTS, Parameters, foreign_case
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import State
-from disc_model.stability.branch import (
-    Branch,
-    CorrectorFailed,
-    CyclePoint,
-    CycleProblem,
-    Place,
-    Reordered,
-    StepControl,
-    branch_of,
-    continue_curve,
-    free_faults,
-    is_interval,
-    newton_step,
-    starting_point,
+from disc_model.simulation.states import State, is_finite_array
+from disc_model.stability.cycle import FloquetResult, find_cycle, guess_faults
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Array,
+    ComplexArray,
+    Counts,
+    Flight,
+    ReturnMap,
+    bifurcation_type,
+    multipliers,
+    rounding,
 )
-from disc_model.stability.cycle import find_cycle, guess_faults
-from disc_model.stability.return_map import Array, ComplexArray, Counts, multipliers
-from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
+from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# ----------------------------------------------------------------------------------------------------
+# The equation
+
+
+USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8, "damping_ratio": 1e-3}
+"""Typical values of parameters whose value in Table 1 is missing or 0."""
+DIFFERENCE = 1e-5
+"""Step of finite differences, over a parameter's scale: flights are accurate to 1e-13, and their second derivatives
+are of order one."""
+
+
+class CorrectorFailed(Exception):
+    """The corrector found no cycle, or the motion did not return; the message says which."""
+
+
+class Reordered(CorrectorFailed):
+    """The order of events changes, in the flight from the unknowns z; the message says how often each event occurs."""
+
+    def __init__(self, message: str, z: Array) -> None:
+        super().__init__(f"the order of events changes: {message}")
+        self.z = z
+
+
+@dataclass(frozen=True)
+class CyclePoint:
+    z: Array
+    residual: Array
+    by: Array
+    flight: Flight
+    jacobian: Array
+
+
+class CycleProblem:
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``parameter_scale`` replaces the usual scales.
+
+    Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
+    `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
+    """
+
+    def __init__(
+        self,
+        p: Parameters,
+        names: tuple[str, ...],
+        parameter_scale: float | None,
+        tol: float,
+        order: Counts | None = None,
+    ) -> None:
+        self.base, self.names, self.tol, self.order = p, names, tol, order
+        self._analytic = tuple(name for name in names if name in PARAMETERS)
+        self._reference = reference = ReturnMap(p, tol)
+        self.n = reference.size
+        self.scale = reference.scale
+        self.size = reference.deflection
+        self.scales = np.array(
+            [default_scale(p, name) if parameter_scale is None else parameter_scale for name in names]
+        )
+
+    def case(self, z: Array) -> Parameters:
+        values = z[self.n :] * self.scales
+        try:
+            return self.base.replace(**dict(zip(self.names, map(float, values), strict=True)))
+        except ParameterError as error:
+            raise CorrectorFailed(str(error)) from None
+
+    def state(self, z: Array) -> State:
+        """The state at the end of stick that the unknowns z describe."""
+        map_ = ReturnMap(self.case(z), self.tol)
+        return map_.state(z[: self.n] * self.size / self.scale * map_.scale)
+
+    def unknowns(self, state: State) -> Array:
+        """Unknowns z of a state on the section in the present case."""
+        q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
+        return np.concatenate([self._reference.point(state) / self.size, q])
+
+    def evaluate(self, z: Array) -> CyclePoint:
+        p = self.case(z)
+        if min(p.Omega, p.N, p.k_p) <= 0:
+            raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
+        flight, turn, residual = self._fly(p, z, self._analytic)
+        if self.order and flight.counts != self.order:
+            counts = zip(Counts._fields, self.order, flight.counts, strict=True)
+            changes = (f"{name.replace('_', ' ')} {before} to {two}" for name, before, two in counts if before != two)
+            raise Reordered(", ".join(changes), z)
+        jacobian = flight.jacobian * turn[:, None] / turn[None, :]
+        if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
+            raise CorrectorFailed("the variational equations are singular: a switch is grazed")
+        parameters = np.zeros((self.n, len(self.names)))
+        known = [name in self._analytic for name in self.names]
+        parameters[:, known] = flight.by * turn[:, None] * self.scales[None, known] / self.size
+        for i in np.flatnonzero(np.logical_not(known)):
+            move = DIFFERENCE * np.eye(len(z))[self.n + i]
+            ends = [self._fly(self.case(z + side * move), z, tangent=False)[2] for side in (1, -1)]
+            parameters[:, i] = (ends[0] - ends[1]) / (2 * DIFFERENCE)
+        return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
+
+    def _fly(
+        self, p: Parameters, z: Array, names: tuple[str, ...] = (), *, tangent: bool = True
+    ) -> tuple[Flight, Array, Array]:
+        """The flight from the point of z, the factor to the reference's coordinates, and the residual in these."""
+        map_ = ReturnMap(p, self.tol, names, patient=self.order is not None)
+        x = z[: self.n] * self.size / self.scale * map_.scale
+        releases = self.order.releases if self.order else 1
+        flight = map_.evaluate(x, releases=releases, tangent=tangent, may_separate=self.order is not None)
+        if not flight.returned:
+            raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
+        turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
+        return flight, turn, (flight.end - x) * turn / self.size
+
+    def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:
+        """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
+        point = self.evaluate(z)
+        last = math.inf
+        for _ in range(8):
+            right = np.concatenate([point.residual, rows @ point.z - targets])
+            error = float(np.linalg.norm(right))
+            if error <= 30 * self.tol:
+                return point
+            if error > 0.8 * last:
+                if error <= rounding(self.tol, 1e4):
+                    return point
+                break
+            last = error
+            point = self.evaluate(point.z - newton_step(np.vstack([point.by, rows]), right))
+        raise CorrectorFailed("Newton's method does not converge")
+
+    def leading_diameters(self, jacobian: Array) -> int:
+        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
+        values, vectors = np.linalg.eig(jacobian)
+        energy = np.abs(vectors[: len(self._reference.diameters), np.argmax(np.abs(values))]) ** 2
+        return int(np.argmax(np.bincount(self._reference.diameters, energy)))
+
+    def tangents(self, point: CyclePoint) -> Array:
+        """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
+        _, _, rows = np.linalg.svd(point.by)
+        return np.asarray(rows[self.n :], dtype=float)
+
+
+def newton_step(matrix: Array, right: Array) -> Array:
+    """Solution of a linear system; raises `CorrectorFailed` if it has none, or more than one."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
+    except np.linalg.LinAlgError:
+        raise CorrectorFailed("Newton's method does not converge: its matrix is singular") from None
+
+
+def default_scale(p: Parameters, name: str) -> float:
+    """Change of a parameter that weighs as much as the static deflection: its value, or a fifth of a typical one."""
+    usual = USUAL.get(name, DEFAULTS.get(name, 0.0))
+    return max(abs(p.numbers[name]), 0.2 * usual)
+
+
+def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
+    """Faults of the names of free parameters."""
+    known = p.numbers
+    wrong = [name for name in names if not (isinstance(name, str) and name in known)]
+    return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
+
+
+# ----------------------------------------------------------------------------------------------------
+# The curve
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Branch(Summarised):
+    """Cycles along a curve.
+
+    Attributes
+    ----------
+    parameters : names of the free parameters
+    values : shape (n_points, n_parameters), in SI units
+    period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
+    multipliers : complex, (n_points, n), largest modulus first
+    diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
+    points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
+    folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
+        in one parameter
+    ended : reason for which the branch ends
+    """
+
+    parameters: tuple[str, ...]
+    values: Array = field(repr=False)
+    period: Array = field(repr=False)
+    stick_fraction: Array = field(repr=False)
+    growth_rate: Array = field(repr=False)
+    multipliers: ComplexArray = field(repr=False)
+    diameters: NDArray[np.int64] = field(repr=False)
+    points: Array = field(repr=False)
+    folds: Array
+    ended: str
+
+    def __len__(self) -> int:
+        return len(self.period)
+
+    def __repr__(self) -> str:
+        spans = zip(self.parameters, self.values.min(axis=0), self.values.max(axis=0), strict=True)
+        spanned = ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in spans)
+        folds = f"{len(self.folds)} fold{'s' * (len(self.folds) != 1)}"
+        return f"Branch({len(self)} cycles, {spanned}, {folds}: {self.ended})"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        for name, values in zip(self.parameters, self.values.T, strict=True):
+            yield name, f"{values.min():.6g} to {values.max():.6g}"
+        yield "cycles", f"{len(self)}, {int((self.growth_rate < 0).sum())} of them stable"
+        yield "folds", ", ".join(f"{fold:.6g}" for fold in np.ravel(self.folds))
+        yield "ended", self.ended
+
+    def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
+        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is stable.
+
+        A branch in two parameters is drawn as the second over the first.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
+        'Period (ms)'
+        """
+        axes: Axes = draw("plot_branch", self, y, ax=ax)
+        return axes
+
+    def bifurcation_types(self) -> list[str]:
+        """Bifurcation that the leading multiplier of each point indicates."""
+        return [bifurcation_type(complex(m[0])) for m in self.multipliers]
+
+
+def is_interval(bounds: Any) -> bool:
+    """Whether an argument is two ascending finite numbers."""
+    return is_finite_array(bounds, 2) and bool(bounds[0] < bounds[1])
+
+
+def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
+    """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
+    rule = (
+        "guess: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
+    )
+    if cycle.releases > 1 and not problem.order:
+        raise ParameterError("p: must have a cycle with a single release to start from")
+    if cycle.state is None:
+        raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
+    try:
+        return problem.evaluate(problem.unknowns(cycle.state))
+    except CorrectorFailed as lost:
+        raise ParameterError(f"{rule}, but {lost}") from None
+
+
+def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array, ended: str) -> Branch:
+    values = [multipliers(point.jacobian) for point in points]
+    period = np.array([point.flight.period for point in points])
+    return Branch(
+        parameters=problem.names,
+        values=np.array([point.z[problem.n :] * problem.scales for point in points]),
+        period=period,
+        stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
+        growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
+        multipliers=np.array(values),
+        diameters=np.array([problem.leading_diameters(point.jacobian) for point in points]),
+        points=np.array([point.z[: problem.n] * problem.size for point in points]),
+        folds=folds,
+        ended=ended,
+    )
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of a curve and the curve's unit tangent at that point."""
+
+    point: CyclePoint
+    tangent: Array
+
+
+AnyPlace = TypeVar("AnyPlace", bound=Place)
+
+
+@dataclass(frozen=True)
+class StepControl:
+    """Step lengths and limits of a continuation.
+
+    Parameters
+    ----------
+    step, longest, shortest : arclength of the first, the longest and the shortest step
+    max_points : largest number of points
+    scale : value of the parameter that counts as one in the arclength; by default its own. For one parameter only
+    growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
+        `easy`; below `sharpest` the step is shortened
+    """
+
+    step: float = 0.02
+    longest: float = 0.1
+    shortest: float = 1e-7
+    max_points: int = 1000
+    scale: float | None = None
+    growth: float = 1.5
+    easy: float = 0.99
+    sharpest: float = 0.9
+
+    def __post_init__(self) -> None:
+        names = ("step", "longest", "shortest", *(["scale"] if self.scale is not None else []))
+        lengths = [(name, getattr(self, name)) for name in names]
+        rules = [(is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths]
+        counts = is_whole(self.max_points) and self.max_points >= 1
+        raise_faults(violations(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1")))
+
+
+def continue_curve(
+    start: AnyPlace,
+    take: Callable[[AnyPlace, float], AnyPlace],
+    steps: StepControl,
+    ends: Callable[[list[AnyPlace], AnyPlace, float], str],
+) -> tuple[list[AnyPlace], str | CorrectorFailed]:
+    """Places along a curve, and the reason for which the curve ends: a text, or the corrector's failure.
+
+    Parameters
+    ----------
+    take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
+        step may succeed
+    ends : receives the places so far, a new one and the arclength between; returns why the curve ends at the new one,
+        "" if it continues; raises `CorrectorFailed` if it has to end before
+    """
+    places, ds = [start], steps.step
+    while len(places) < steps.max_points:
+        last = places[-1]
+        try:
+            new, ds = _step(take, last, ds, steps)
+            reason = ends(places, new, ds)
+        except CorrectorFailed as lost:
+            return places, lost
+        places.append(new)
+        if reason:
+            return places, reason
+        if new.tangent @ last.tangent > steps.easy:
+            ds = min(steps.longest, steps.growth * ds)
+    return places, "the number of points allowed is reached"
+
+
+def _step(
+    take: Callable[[AnyPlace, float], AnyPlace], point: AnyPlace, ds: float, steps: StepControl
+) -> tuple[AnyPlace, float]:
+    """The next place at arclength ``ds``, which is halved after each failure, and the arclength taken."""
+    while True:
+        try:
+            new = take(point, ds)
+            cosine = float(new.tangent @ point.tangent)
+            if abs(cosine) < steps.sharpest:
+                raise CorrectorFailed("the curve bends too sharply")
+            return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
+        except CorrectorFailed:
+            ds /= 2
+            if ds < steps.shortest:
+                raise
+
 
 # ----------------------------------------------------------------------------------------------------
 # One parameter

@@ -14,8 +14,17 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
-from disc_model.stability.branch import Branch, StepControl, free_faults, is_interval
-from disc_model.stability.continuation import BORDER, UNLOCATED, Kind, continue_border, continue_cycle
+from disc_model.stability.continuation import (
+    BORDER,
+    UNLOCATED,
+    Branch,
+    Kind,
+    StepControl,
+    continue_border,
+    continue_cycle,
+    free_faults,
+    is_interval,
+)
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap, case_faults

@@ -135,8 +135,7 @@ distinguish branches; ranges between points of a steep branch are known roughly.
 
 def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
     """Continue a cycle in both directions by arclength: the one near the static start, or one that a motion reached."""
-    from disc_model.stability.branch import StepControl
-    from disc_model.stability.continuation import continue_cycle
+    from disc_model.stability.continuation import StepControl, continue_cycle
     from disc_model.stability.return_map import ReturnMap
 
     p, name = cycle.parameters, options.parameter
