@@ -20,6 +20,7 @@ from disc_model.studies.study import load_study
 SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
 OF_GRIDS = (
     "branches",
+    "figB2",
     "fig15",
     "basins",
     "map_N",

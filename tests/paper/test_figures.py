@@ -16,6 +16,7 @@ from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, EACH_DAMAGE, damaged
 from tests.figures.reading import assert_fit_for_print
 from tests.figures.test_cases import RECORDED, said_in, simulated
+from tests.paper import made_up
 
 STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
 FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}
@@ -92,3 +93,13 @@ def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
     w = np.abs(motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))).max(axis=1)
     assert w[0] < 1e-9 * w[2], "it is clamped inside"
     assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
+
+
+def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
+    """In the maps as told all nine separate with both; then two do with the published scale only."""
+    plot = STUDY.figures["figB2"]
+    changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
+    for lost, maps in ((0, made_up.scans()), (2, made_up.scans(**changes))):
+        figure = plot.render({"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}})
+        assert_fit_for_print(figure)
+        assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"

@@ -5,6 +5,7 @@ matplotlib is imported where something is drawn, see `disc_model.figures.kind`.
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -344,6 +345,38 @@ def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float 
             ax.axvline(x, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
         side = 2 * (-1) ** (i + 1)
         say(axes[0], case, (x, height), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
+
+
+def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
+    """Draw a bar as long as the disc is thick, in a panel whose axis is a displacement in mm, if it finds room."""
+    h = json.loads(case.attrs.get("parameters", "{}")).get("h")
+    low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
+    share = 1e3 * h / (high - low) if h else 1.0
+    if share > 0.5:
+        return
+    a, b = 0.97, 0.05
+    place = ([a - share, a], [b, b]) if along == "x" else ([a, a], [b, b + share])
+    ax.plot(*place, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, zorder=5)
+    at, offset = ((a - share, b), (-3, 0)) if along == "x" else ((a, b + share / 2), (-4, 0))
+    say(ax, f"thickness {1e3 * h:g} mm", at, offset, xycoords="axes fraction", fontsize=6, path_effects=halo())
+
+
+def mark_printed(ax: Axes, time: float) -> None:
+    """Mark a time that the paper prints, at the lower edge of a panel that shows it."""
+    low, high = ax.get_xlim()
+    if not low <= time <= high:
+        return
+    look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
+    ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
+    say(
+        ax,
+        f"paper: {time:g} s",
+        (time, 0),
+        (-6, 4),
+        xycoords=("data", "axes fraction"),
+        fontsize=6,
+        path_effects=halo(),
+    )
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:

@@ -179,30 +179,35 @@ BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separa
 
 
 def draw_sections(
-    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Sequence[xr.Dataset] = ()
+    axes: Sequence[Axes],
+    case: xr.DataTree,
+    samples: xr.Dataset,
+    compared: Sequence[xr.Dataset] = (),
+    last: int | None = None,
 ) -> list[Artist]:
     """Draw velocity over displacement of slider and disc, once a turn of the drive; returns the entries of a legend.
 
-    compared : sections that the axes of the slider's panel fit too
+    compared : sections that the axes fit too
+    last : number of points that are shown at most, the last ones
     """
     first, time = float(case["first_separation"]), samples["time"].values
-    since = np.max([settling(time, samples[name].values).since for name in ("psi", "w_point")])
+    since = _settled_since(case, samples)
     masks = stages(time, samples["phase"].values, first, float(since))
     slider, disc = axes
     for ax, name in ((slider, "psi"), (disc, "w_point")):
-        fitted = [samples, *compared] if ax is slider else [samples]
         coordinates = []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
             label, factor, _ = drawing.sampled(variable, samples)
             coordinates.append(samples[variable].values * factor)
-            limits = _limits(np.concatenate([section[variable] for section in fitted]) * factor)
+            limits = _limits(np.concatenate([section[variable] for section in (samples, *compared)]) * factor)
             ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
-            mask = getattr(masks, stage)
+            mask = getattr(masks, stage) & (np.arange(len(time)) >= len(time) - (last or len(time)))
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
             ax.scatter(*(values[mask] for values in coordinates), **look)
     names = BY_SEPARATION if masks.divided_by_separation else BY_SETTLING
     names = {stage: name for stage, name in names.items() if getattr(masks, stage).any()}
+    drawing.show_thickness(disc, case, "x")
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral"
     title = "Separation ignored:" if bonded else "No separation:"
     if masks.divided_by_separation:
@@ -211,29 +216,51 @@ def draw_sections(
     return [disc.scatter([], [], s=0, label=title), *marks]
 
 
-class PoincareSections(CasePlot):
-    """The Poincaré sections of slider and disc: (a) psi' over psi, (b) velocity over displacement of the disc at r_0.
+def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
+    """Time from which a motion has settled, s, by its section; by the ranges of a window where that does not show it.
 
-    compared_with : cases that the axes of (a) fit too, so that figures of a pair can be compared
+    Points of a section may come near each other again for longer than the record.
+    """
+    window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
+    since = []
+    for name in ("psi", "w_point"):
+        answer = settling(samples["time"], samples[name])
+        if math.isnan(answer.since) and window is not None and f"{name}_min" in window:
+            ranges = window.isel(time=slice(None, -1))  # the last bin is cut
+            answer = settling(ranges["time"], ranges[f"{name}_max"] - ranges[f"{name}_min"], still=1.0)
+        since.append(answer.since)
+    return float(np.max(since))
+
+
+class PoincareSections(CasePlot):
+    """The Poincaré sections of slider and disc: psi' over psi, and velocity over displacement of the disc at r_0.
+
+    below : further cases, each in a row of its own on the same axes
+    last : number of points that are shown at most, the last ones
     """
 
     kind: Literal["poincare"] = "poincare"
-    compared_with: tuple[str, ...] = ()
+    below: tuple[str, ...] = ()
+    last: Annotated[int, Field(ge=1)] | None = None
 
     @property
     def others(self) -> tuple[str, ...]:
-        return self.compared_with
+        return self.below
 
     def needs(self) -> Iterator[Need]:
         for case in self.cases:
             yield Need("case", case, "poincare")
 
     def draw(self, *cases: xr.DataTree) -> Figure:
-        figure, axes = panels(PAGE, 2.75, 1, 2)
-        samples, *compared = (dataset.samples(case, "poincare", at_least=1) for case in cases)
-        drawing.letters(axes)
-        handles = draw_sections(axes, cases[0], samples, compared)
-        figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
+        figure = drawing.new_figure(PAGE, 2.75 * len(cases))
+        rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
+        sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
+        for i, (row, case, samples) in enumerate(zip(rows, cases, sections, strict=True)):
+            axes = row.subplots(1, 2)
+            handles = draw_sections(axes, case, samples, sections, self.last)
+            row.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
+            for ax, text in zip(axes, "abcdefgh"[2 * i :], strict=False):
+                drawing.letter(ax, text)
         return figure
 
 

@@ -444,7 +444,7 @@ def place(N: float, Omega: float) -> str:
 
 def extent(values: Iterable[float]) -> Range:
     """Least and greatest of some numbers."""
-    found = np.asarray(values)
+    found = np.asarray([*values])
     return Range(float(found.min()), float(found.max()))
 
 

@@ -11,7 +11,7 @@ from scipy.integrate import fixed_quad
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper.measures import CaseView, listed, or_none, pairs, width_ratio
+from disc_model.paper.measures import CaseView, extent, listed, or_none, pairs, width_ratio
 from disc_model.paper.model import FALSE, PART, TRUE, Answer
 from disc_model.parameters import Parameters
 
@@ -50,11 +50,12 @@ def survive(*maps: xr.Dataset) -> Answer:
     words = times.map(lambda time: or_none(time, ".0f", " s"))
     apart = (flag_names(maps[0]["outcome"]) == "separation").sum(maps[0]["outcome"].get_axis_num(["N", "Omega"]))
     counts = dict(zip(maps[0]["normalization"].values, apart, strict=True))
-    horizon = stated_in(maps[0], "options")["horizon"]
+    horizons = extent(stated_in(study, "options")["horizon"] for study in maps)
     return Answer(
         PART if 0 < lost.sum() < lost.size else not lost.any() and published.all(),
-        f"With the modes behind the published numbers, {published.sum()} of {len(times)} cases separate within "
-        f"{horizon:g} s. With modes by Eq. (17), {lost.sum()} of them do not: {', '.join(times.index[lost])}. "
+        f"With the modes behind the published numbers, {published.sum()} of {len(times)} cases separate. With modes by "
+        f"Eq. (17), {lost.sum()} of them do not within {horizons:g} s, depending on the map: "
+        f"{', '.join(times.index[lost])}. "
         + "; ".join(f"{figure}: {was} becomes {now}" for figure, was, now in words.itertuples())
         + ".",
         f"On the map of speed and preload, separation covers {counts['as_published']} points as published and "

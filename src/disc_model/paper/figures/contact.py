@@ -1,7 +1,8 @@
 """Contact and its losses, as in figures 2, 3, 10 and 23 of the paper."""
 
+import json
 from collections.abc import Sequence
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 import xarray as xr
@@ -12,6 +13,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, Axes, Figure, panels
 from disc_model.figures.kind import CasePlot, as_ranges, as_samples
+from disc_model.units import Positive, Unit
 
 
 def after(window: xr.Dataset, start: float) -> xr.Dataset:
@@ -62,8 +64,6 @@ class ContactForce(CasePlot):
             drawing.letter(whole, "a")
         with drawing.blank_if_missing(zoom):
             window = dataset.samples(case, self.zoom)
-            # a separation that the window cuts off at its start would look like a jump
-            window = window.isel(time=slice(int(np.argmin(flag_names(window["phase"]) == "separation")), None))
             start = float(window["time"][0])
             window = after(window, start)
             drawing.letter(zoom, "b")
@@ -107,6 +107,7 @@ class OneSeparation(CasePlot):
         for ax in axes:
             shade(ax, [(0.0, (stop - start) * 1e3)])
         displacements(both, part, float(case["u_0"]))
+        drawing.show_thickness(both, case, "y")
         gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
         gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
         drawing.letters(axes)
@@ -138,6 +139,7 @@ class LightSlider(CasePlot):
         if losses["time"].size:
             height = (losses["w"] - rest) * 1e3
             ax.plot(losses["time"], height, "o", color=SEPARATED, markersize=3.5, label="contact lost")
+        drawing.show_thickness(ax, case, "y")
         ax.set_xlabel(f"Time after {start:.4f} s (ms)")
         drawing.legend_above(ax)
         return figure
@@ -166,5 +168,57 @@ class WithAndWithout(CasePlot):
         drawing.envelope(ax, followed, "w_point", label="with separation")
         ax.set(xlabel="Time (s)", ylabel=drawing.sampled("w_point", ignored, followed)[0])
         drawing.headroom(ax, 0.25)
+        drawing.show_thickness(ax, cases[0], "y")
         ax.legend(loc="upper left")
         return figure
+
+
+class Histories(CasePlot):
+    """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes.
+
+    A range that hardly shows on the common axis is drawn once more, on an axis of its own.
+
+    beside : further cases
+    until : s, end of the part of the runs that is shown
+    printed : s, time of the first separation of the last case that the paper prints
+    """
+
+    shows = (("history", as_ranges),)
+
+    kind: Literal["paper.histories"] = "paper.histories"
+    beside: tuple[str, ...] = ()
+    history: str = "history"
+    until: Annotated[Positive, Unit("s")] | None = None
+    printed: Annotated[Positive, Unit("s")] | None = None
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return self.beside
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        variables = ("P", "w_point")
+        figure, axes = panels(PAGE, 3.2, 2, len(cases), sharex=True, sharey="row")
+        for k, case in enumerate(cases):
+            window = drawing.history(case, self.history, self.until)
+            p = json.loads(case.attrs["parameters"])
+            for ax, name in zip(axes[k :: len(cases)], variables, strict=True):
+                drawing.show(ax, case, window, name, named=name == "P")
+                ax.label_outer()
+            axes[k].set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right")
+        for k, case in enumerate(cases):  # when the common axes are known
+            self._closer(axes[k], drawing.history(case, self.history, self.until))
+            drawing.show_thickness(axes[k + len(cases)], case, "y")
+        if self.printed is not None:
+            drawing.mark_printed(axes[len(cases) - 1], self.printed)
+        drawing.letters(axes)
+        figure.align_ylabels()
+        return figure
+
+    def _closer(self, ax: Axes, window: xr.Dataset) -> None:
+        """Draw a range of the contact force that is less than a twentieth of the axis once more."""
+        low, high = float(window["P_min"].min()), float(window["P_max"].max())
+        if high - low < 0.05 * np.ptp(ax.get_ylim()):
+            inset = ax.inset_axes((0.3, 0.62, 0.66, 0.3))
+            drawing.envelope(inset, window, "P")
+            inset.set_ylim(low - 1, high + 1)
+            inset.tick_params(labelsize=6, labelbottom=False)

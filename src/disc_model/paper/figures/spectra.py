@@ -1,6 +1,7 @@
 """A vibration over a run and its spectra in time, as in figures 24 to 29 of the paper."""
 
 from collections.abc import Iterator
+from textwrap import fill
 from typing import Annotated, Literal
 
 import numpy as np
@@ -12,39 +13,14 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, PAGE, SKY, Axes, Figure, new_figure, panels
+from disc_model.figures.drawing import BLACK, PAGE, SKY, Axes, Figure, new_figure
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
-from disc_model.figures.motion import draw_power, draw_scale, draw_spectrogram, span_of, spectrum_of
+from disc_model.figures.motion import draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.units import Finite, Positive, Unit
 
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
-
-
-class Stretches(CasePlot):
-    """Range of the disc's displacement at r_0 and a fixed angle, with the stretches of `paper.four_stretches`.
-
-    until : s, end of the part of the run that is shown
-    """
-
-    shows = (("history", as_ranges), ("spectra", as_spectrum))
-
-    kind: Literal["paper.stretches"] = "paper.stretches"
-    history: str = "history"
-    spectra: Annotated[tuple[str, ...], Field(min_length=1)] = WINDOWS
-    until: Annotated[Positive, Unit("s")] | None = None
-
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        [case] = cases
-        figure, [ax] = panels(PAGE, 2.2)
-        for name, letter in zip(self.spectra, "abcdef", strict=False):
-            start, stop = span_of(spectrum_of(case, name, "w_point", hop=0.5))
-            ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
-            ax.text(start + 0.4, 0.97, f"({letter})", transform=ax.get_xaxis_transform(), ha="left", va="top")
-        drawing.show(ax, case, drawing.history(case, self.history, self.until), "w_point")
-        drawing.headroom(ax, 0.15)
-        return figure
 
 
 CLOSE = 300.0
@@ -60,39 +36,95 @@ TABLE_2 = {
 
 
 class FourStretches(CasePlot):
-    """Power of the disc's displacement at r_0 and a fixed angle over time and frequency, in several stretches.
+    """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in several stretches.
 
-    The lower row is the same up to `CLOSE` Hz, with the lines of Table 2 named.
+    The lines of Table 2 are named. The last row is the case in which separation is ignored, over the same times.
+
+    until : s, end of the part of the run that is shown
+    ignored : the case with bilateral contact, with the same windows but the first
     """
 
-    shows = (("spectra", as_spectrum),)
+    shows = (("history", as_ranges), ("spectra", as_spectrum))
 
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
+    history: str = "history"
     spectra: Annotated[tuple[str, ...], Field(min_length=1)] = WINDOWS
+    until: Annotated[Positive, Unit("s")] | None = None
+    ignored: str = ""
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return (self.ignored,) if self.ignored else ()
+
+    def needs(self) -> Iterator[Need]:
+        for need in super().needs():
+            if need.case == self.case or need.name in self.spectra[1:]:
+                yield need
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         from matplotlib.ticker import MaxNLocator
 
-        [case] = cases
-        figure = new_figure(PAGE, 4.6)
-        axes = figure.subplots(2, len(self.spectra), sharex="col", sharey="row", squeeze=False)
-        spectra: dict[str, TimeFrequency] = {}
-        for name, column in zip(self.spectra, axes.T, strict=True):
-            with drawing.blank_if_missing(*column):
-                spectra[name] = spectrum_of(case, name, "w_point")
+        figure = new_figure(PAGE, 6.2)
+        top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
+        whole = top.subplots()
+        names = list(self.spectra)
+        axes = below.subplots(
+            1 + len(cases),
+            len(names),
+            sharex="col",
+            sharey="row",
+            squeeze=False,
+            height_ratios=(1, *[1.6] * len(cases)),
+        )
+        spectra: dict[tuple[int, str], TimeFrequency] = {}
+        for i, case in enumerate(cases):
+            for name, column in zip(names[i:] if i else names, axes[:, i:].T if i else axes.T, strict=True):
+                with drawing.blank_if_missing(*(column[1 + i :] if i else column[:2])):
+                    spectra[i, name] = spectrum_of(case, name, "w_point")
         reference = max((float(spectrum.power.max()) for spectrum in spectra.values()), default=1.0)
-        for name, spectrum in spectra.items():
-            column = axes[:, self.spectra.index(name)]
-            for ax, highest in zip(column, (HIGHEST, CLOSE), strict=True):
-                mesh = draw_power(ax, case, spectrum, reference, highest)
-            drawing.letter(column[0], "abcdef"[self.spectra.index(name)])
-            column[1].set_xlabel("Time (s)")
-            column[1].xaxis.set_major_locator(MaxNLocator(3))
-        for ax in axes[:, 0]:
-            ax.set_ylabel("Frequency (Hz)")
+        for (i, name), spectrum in spectra.items():
+            column, case = axes[:, names.index(name)], cases[i]
+            if not i:
+                draw_power(column[0], case, spectrum, reference, HIGHEST)
+                column[0].set_ylim(CLOSE, HIGHEST)
+                drawing.letter(column[0], "bcdef"[names.index(name)])
+            mesh = draw_power(column[1 + i], case, spectrum, reference, CLOSE)
+        for ax in axes[-1]:
+            ax.set_xlabel("Time (s)")
+            ax.xaxis.set_major_locator(MaxNLocator(3))
+        for row, text in zip(axes, ("", "with\nseparation", "separation\nignored"), strict=False):
+            row[0].set_ylabel("Frequency (Hz)")
+            if text and len(cases) > 1:
+                row[-1].annotate(
+                    text, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top", color="white", fontsize=6
+                )
+        if len(cases) > 1:
+            axes[2, 0].set_facecolor("white")
+            axes[2, 0].text(
+                0.5,
+                0.5,
+                "as above:\nno separation yet",
+                ha="center",
+                va="center",
+                transform=axes[2, 0].transAxes,
+                fontsize=7,
+            )
         if spectra:
             _name_lines(axes[1, -1])
-            draw_scale(figure, mesh, list(axes.flat))
+            draw_scale(below, mesh, list(axes.flat))
+        with drawing.blank_if_missing(whole):
+            for (i, _), spectrum, text in zip(spectra, spectra.values(), "bcdef", strict=False):
+                if not i:
+                    start, stop = span_of(spectrum)
+                    whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
+                    whole.text(
+                        start + 0.4, 0.97, f"({text})", transform=whole.get_xaxis_transform(), ha="left", va="top"
+                    )
+            drawing.show(whole, cases[0], drawing.history(cases[0], self.history, self.until), "w_point")
+            drawing.headroom(whole, 0.15)
+            whole.set_ylabel(fill(whole.get_ylabel(), 40))
+            drawing.show_thickness(whole, cases[0], "y")
+            drawing.letter(whole, "a")
         return figure
 
 
@@ -114,6 +146,8 @@ class Response(CasePlot):
     """(a) Range over the run, with closer looks below it if there are any, (b) spectrum in time in a window.
 
     zooms : windows, and times in s at which closer looks begin
+    ignored : the case with bilateral contact, whose spectrum is drawn below
+    printed : s, time of the first separation that the paper prints
     highest : whether the disc's highest natural frequency is marked
     until : s, end of the part of the run that (a) shows
     """
@@ -127,9 +161,15 @@ class Response(CasePlot):
     zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = ()
     highest: bool = False
     until: Annotated[Positive, Unit("s")] | None = None
+    ignored: str = ""
+    printed: Annotated[Positive, Unit("s")] | None = None
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return (self.ignored,) if self.ignored else ()
 
     def needs(self) -> Iterator[Need]:
-        yield from super().needs()
+        yield from (need for need in super().needs() if need.case == self.case or need.key == "window")
         for name, start in self.zooms:
 
             def contains(window: Window, start: float = start) -> Iterator[str]:
@@ -139,24 +179,36 @@ class Response(CasePlot):
             yield Need("zooms", self.case, name, [as_samples, contains])
 
     def draw(self, *cases: xr.DataTree) -> Figure:
-        [case] = cases
-        figure = new_figure(PAGE, 2.7)
+        case, *ignored = cases
+        figure = new_figure(PAGE, 2.7 + 1.3 * len(ignored))
         left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
         letters = "cd"[: len(self.zooms)]
         axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(self.zooms), 1), letters])))
-        shown = right.subplots()
+        shown, *beneath = np.atleast_1d(right.subplots(len(cases), 1, sharex=True))
         marked = None
         with drawing.blank_if_missing(shown):
             spectrum = spectrum_of(case, self.window, self.variable)
             marked = span_of(spectrum)
-            draw_spectrogram(right, shown, case, spectrum, HIGHEST)
-            drawing.letter(shown, "b")
+            reference = float(spectrum.power.max())
+            mesh = draw_power(shown, case, spectrum, reference, HIGHEST)
+            drawing.letter(shown, "b", "with separation" if ignored else "")
+            for ax, other in zip(beneath, ignored, strict=True):
+                draw_power(ax, other, spectrum_of(other, self.window, self.variable), reference, HIGHEST)
+                drawing.letter(ax, "e", "separation ignored")
+            for ax in (shown, *beneath):
+                ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+                ax.label_outer()
+            draw_scale(right, mesh, [shown, *beneath])
             if self.highest:
                 p = Parameters.model_validate_json(case.attrs["parameters"])
                 natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
                 shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
         with drawing.blank_if_missing(axes["a"]):
             drawing.show(axes["a"], case, drawing.history(case, self.history, self.until), self.variable)
+            if self.variable == "w_point":
+                drawing.show_thickness(axes["a"], case, "y")
+            if self.printed is not None:
+                drawing.mark_printed(axes["a"], self.printed)
             if marked is not None:
                 _mark(axes["a"], *marked)
             drawing.letter(axes["a"], "a")
