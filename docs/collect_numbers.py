@@ -230,7 +230,7 @@ class Sources:
         words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
         return int((words == word).sum()) if word else words.size
 
-    def critical_speed(self, N: float, horizon: float = 2000) -> float:
+    def critical_speed(self, N: float, horizon: float = 1000) -> float:
         return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
 
     def all_critical_speeds(self, horizon: float) -> np.ndarray:
