@@ -1,7 +1,7 @@
 """Complex eigenvalues: modes of steady sliding along a parameter, root loci, and what the motion really does."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
 import xarray as xr
@@ -12,9 +12,12 @@ from disc_model.figures.campbell import colour_of
 from disc_model.figures.cells import Look, edges_of, fill, patches
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Axes, Figure, Line2D, panels
 from disc_model.figures.kind import Plot, Role, Roles
+from disc_model.units import Positive, Unit
 
 THIN, THICK = 0.8, 2.4
 """Widths of the lines of modes that decay and grow."""
+ROUNDING = 1e-9
+"""1/s, growth rates of undamped modes by rounding."""
 
 
 def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
@@ -48,9 +51,13 @@ class SlidingPlot(Plot):
 
 
 class SlidingModes(SlidingPlot):
-    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce."""
+    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce.
+
+    highest : Hz, highest frequency shown
+    """
 
     kind: Literal["sliding_modes"] = "sliding_modes"
+    highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw (a) frequencies, (b) growth rates, by nodal diameters; thick where a mode grows."""
@@ -61,9 +68,11 @@ class SlidingModes(SlidingPlot):
         for l, mode in modes_of(study):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
             for ax, values in ((top, frequency), (bottom, rate)):
-                draw_line(ax, along, values, rate > 0, colour_of(l))
+                draw_line(ax, along, values, rate > ROUNDING, colour_of(l))
         bottom.axhline(0, color=BLACK, linewidth=0.5)
         top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=(along[0], along[-1]))
+        if self.highest is not None:
+            top.set_ylim(0, self.highest)
         # the sign matters: decay of high modes may be much faster
         low, high = (float(end(study["mode_growth_rate"])) for end in (np.nanmin, np.nanmax))
         bottom.set(
@@ -169,5 +178,5 @@ def agreement(growth_rate: np.ndarray, outcome: np.ndarray) -> np.ndarray:
     quiet = np.isin(outcome, ("quiet", "steady_sliding", "at_rest"))
     grows = np.isin(outcome, ("growing", "other_cycle"))
     motion = np.select([outcome == "separation", grows, quiet], ["separates", "grows", "quiet"], "")
-    words = np.char.add(np.where(growth_rate > 0, "unstable_", "stable_"), motion)
+    words = np.char.add(np.where(growth_rate > ROUNDING, "unstable_", "stable_"), motion)
     return np.where(np.isfinite(growth_rate) & (motion != ""), words, "unknown")
