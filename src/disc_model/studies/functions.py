@@ -26,7 +26,6 @@ from disc_model.simulation.result import Result
 from disc_model.studies.merge import merge_batches, merge_cases
 from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
-from disc_model.studies.study import load_study, parse_study
 from disc_model.units import is_whole
 
 # ----------------------------------------------------------------------------------------------------
@@ -400,6 +399,8 @@ def run_study(
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
     """
+    from disc_model.studies.study import load_study, parse_study  # of the extra `workflow`
+
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])
