@@ -79,7 +79,9 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
         if name not in known:
             faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
         else:
-            in_si(f"1 {unit}", _si_unit(name), faults, (name,))
+            wrong: list[Fault] = []
+            in_si(f"1 {unit}", _si_unit(name), wrong, (name,))
+            faults += (Fault.of((name,), unit, fault.rule.replace("a number", "a unit", 1)) for fault in wrong)
     raise_faults(faults)
     return units
 
