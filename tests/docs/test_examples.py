@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from matplotlib import pyplot
 
 import disc_model
 from disc_model import Parameters
@@ -42,6 +43,18 @@ def test_examples_of_docstrings_print_what_they_say(name, tmp_path, monkeypatch)
 def test_every_example_is_in_a_block_that_is_run(page):
     text = page.read_text(encoding="utf-8")
     assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem)
+def test_notebooks_run(page, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    cells = re.findall(r"^```{code-cell}\n(?::tags:.*\n)?(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    names = {}
+    for cell in cells:
+        exec(compile(cell, page.name, "exec"), names)
+    pyplot.close("all")
+    assert len(cells) > 3
 
 
 def test_everything_public_is_in_the_reference_with_an_example():

@@ -200,8 +200,21 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
 
 
 @by_itself
-def plot_modes(p: Parameters, most: int, ax: Any = None) -> np.ndarray:
-    """Draw the shapes of the modes from above with their nodal lines."""
+def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
+    """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
+
+    Parameters
+    ----------
+    p : the case; a disc that is given by its modes needs shapes at two radii or more
+    most : number of modes that are drawn, by ascending frequency
+    ax : axes to draw on, one for each mode
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
+    5
+    """
     disc.needs_shapes(p)
     count = min(most, len(disc.mode_arrays(p).omega))
     columns = min(count, 5)
