@@ -28,6 +28,7 @@ OF_GRIDS = (
     "sensitivity",
     "campbell",
     "sliding_modes",
+    "sliding_coalescence",
     "sliding_outcome",
     "ramps",
 )
