@@ -355,7 +355,8 @@ class _OutcomeSearch:
         """Whether the record shows that growth has ended in contact."""
         if not self.early or not self._grows or self.result.time >= self.horizon:
             return False
-        return settling(*np.hstack(self.angles)).answer is Settled.SETTLED
+        settled = settling(*np.hstack(self.angles))
+        return settled.answer is Settled.SETTLED and self.result.time - settled.since >= thresholds.STEADY_FOR
 
 
 def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:

@@ -51,6 +51,10 @@ LARGEST_PERIOD = 8
 RISE = 1.5
 """Factor between changes from period to period that shows growth: rounding and beats with decaying modes cause less."""
 
+STEADY_FOR = 360.0
+"""s for which a motion must have settled in contact until it is left. Of about 190 such motions of
+`map_N`, 2 lost contact before 1000 s, both in the last 30 s; after 200 s about 5 would have."""
+
 # ----------------------------------------------------------------------------------------------------
 # Attractors of many motions of a case
 
