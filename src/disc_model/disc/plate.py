@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import SURFACE, Disc, Parameters, foreign_case
@@ -441,6 +440,8 @@ def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
 
     Y and K are infinite where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius.
     """
+    from scipy import special  # takes 0.2 s, and merges and figures do without
+
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
     exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])
     return value, exponent
