@@ -49,7 +49,7 @@ def test_every_example_is_in_a_block_that_is_run(page):
 @pytest.mark.parametrize("page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem)
 def test_notebooks_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    cells = re.findall(r"^```{code-cell}\n(?::tags:.*\n)?(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    cells = re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
     names = {}
     for cell in cells:
         exec(compile(cell, page.name, "exec"), names)
