@@ -127,14 +127,6 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
             yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
 
 
-def _beginnings(speed: xr.Dataset, load: float) -> tuple[Array, float]:
-    """Upper ends of the intervals of speed in which separation begins, and their width, rad/s."""
-    one = speed.sel(N=load).isel(horizon=0)
-    _require_ok(one, "survival_speed")
-    begins = flag_names(one["crossing_kind"]) == "begins"
-    return one["crossing"].values[begins], float(stated_in(speed, "options")["precision"])
-
-
 def _require_ok(grid: xr.Dataset, name: str) -> None:
     if not np.all(flag_names(grid["status"]) == "ok"):
         raise Missing(f"study {name} has points that failed")
