@@ -298,7 +298,7 @@ def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
     width, n0 = len(model.shift), len(model.mode_amplitude0)
     modes, slider, y, g, amplitudes, roots = aligned_pieces(
-        (2 * ROWS + 5) * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
+        (2 * ROWS + 6) * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
         ROOT_ROWS * (padded(order + 1) + WIDTH),
     )  # fmt: skip
     rows = slider.reshape(-1, ROWS)

@@ -69,8 +69,8 @@ from .layout import (
 )
 
 # Rows of the scratch array: inner terms (e, z) of a pair's second order, s_k, the constant C, and in a-lanes that of
-# the displacements, in b-lanes f_0 bend.
-_E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT = range(5)
+# the displacements, in b-lanes f_0 bend; FORCES times T / V, where that is constant, in b-lanes.
+_E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT, _PUSHED = range(6)
 
 
 @inlined
@@ -244,7 +244,7 @@ def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
     part = mul(_row(model, SLOPE_RATE + k, b), high_halves(z_inner, e_inner))
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
-    e = fma(push, _row(model, FORCES, b), e)
+    e = fma(push, _kept(s, _PUSHED, width, b) if model.coupled else _row(model, FORCES, b), e)
     turned = swap_halves(fma(f, _z(s, b), carried))
     z_next = mul(fma(shift, turned, e), up)
     carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
@@ -268,8 +268,10 @@ def _order_from_memory(model, s, width, b, k, f, f0, push):
 
 
 @inlined
-def _order_zero(model, s, width, b, f0):
+def _order_zero(model, s, width, b, f0, braked):
     """One block of order 0: finds z_1, and e_1 without P_0.  Returns what it leaves pending for order 1."""
+    if model.coupled:
+        _keep(s, _PUSHED, width, b, mul(low_halves(splat(1.0), splat(braked)), _row(model, FORCES, b)))
     shift, z, e = _row(model, SHIFT, b), _z(s, b), _e(s, width, b)
     first, up = splat(f0), splat(s.slider[UP])
     z_next = mul(fma(first, mul(shift, swap_halves(z)), e), up)
@@ -312,8 +314,10 @@ def _axisymmetric(model, s, k, impulse):
 
 
 @inlined
-def _begin_orders(model, s, f0):
+def _begin_orders(model, s, f0, braked):
     """Order 0 of all modes; ``_next_order`` takes the second value returned and the last four.
+
+    ``braked`` is T / V, or 1 where that is not constant: under the normal force.
 
     Returns u'' without P and f', the part of u'' pending for order 1 (lanes), the factors of f_k and of (k + 1) f_k in
     u'', and e_1 without P_0, s_1, e_0 and z_1 of the first block.
@@ -321,7 +325,7 @@ def _begin_orders(model, s, f0):
     width, zero = lane_count(model), splat(0.0)
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
     for b in range(0, width, WIDTH):
-        pending = add(pending, _order_zero(model, s, width, b, f0))
+        pending = add(pending, _order_zero(model, s, width, b, f0, braked))
         z, e = _z(s, b), _e(s, width, b)
         now = add(now, _pending(s, width, b, e, z, zero))
         by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
@@ -344,7 +348,7 @@ def _next_order(model, s, k, f, f0, impulse, friction, pending, e, carried, e_la
     Returns the parts of u'' of the pairs (lanes) and of the other modes, and the last five arguments for the next
     order. The last four are handed over one by one: as one argument they cost a slip under the normal force 6 %.
     """
-    width, push = lane_count(model), _push(model, impulse, friction)
+    width, push = lane_count(model), _push(model, impulse, friction) if model.normal else splat(-impulse)
     part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, push, e, carried, e_last, z_last)
     part = add(pending, part)
     for b in range(WIDTH, width, WIDTH):
@@ -423,7 +427,7 @@ def slip_series(model, s, order, direction):
     spring, damper = model.k_p / model.m, model.c_p / model.m
     braked, damped = direction * model.mu_k, _damped(model, f0, direction * model.mu_k)
 
-    acceleration, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
+    acceleration, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, braked)
     pull = spring * psi + damper * (drive(model, s) - f0)
     vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     P = (vertical + model.m * (acceleration + dw_dtheta * pull)) * inverse
@@ -560,7 +564,7 @@ def separation_series(model, s, order):
     """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
     n, f0, weight = len(model.mode_amplitude0), s.slider[F_SERIES], load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (drive(model, s) - f0)
-    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
+    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 0.0)
     for k in range(order + 1):
         if k > 0:
             # not by _spring: in the branches there, sums would be rounded otherwise
@@ -656,7 +660,7 @@ def compliant_slip_series(model, s, order, direction):
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse, braked = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
-    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
+    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 1.0 if model.normal else friction)
     for k in range(order):
         f = s.slider[F_SERIES + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -762,7 +766,7 @@ def normal_slip_series(model, s, order, direction):
     denominator = slip_denominator(model, model.m, direction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
-    inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0)
+    inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 1.0)
     h, impulse, braked = 0.0, 0.0, 0.0
     for k in range(order):
         f = s.slider[F_SERIES + k]
