@@ -9,7 +9,7 @@ import pandas as pd
 from disc_model.data.texts import fill
 from disc_model.paper import conclusions, section2, section41, section42, section43, section44
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import NOT_COMPUTED, VERDICTS, Row, judge, read_texts, rows_of
+from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read_texts, rows_of
 
 MODULES = (section2, section41, section42, section43, section44, conclusions)
 ROWS = tuple(row for module in MODULES for row in rows_of(module))
@@ -72,18 +72,19 @@ def _data(row: Row) -> dict[str, str]:
 
 
 def summary(table: pd.DataFrame) -> dict[str, Any]:
-    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers."""
+    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers.
+
+    A sentence is said only if its row has the verdict that it speaks of.
+    """
     texts = read_texts("ledger.yaml")
     counted = table[table["counts"] != "error in print"]
     parts = pd.crosstab(counted["section"], counted["verdict"]).reindex(
         index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0
     )
-    here = table.set_index("id")["here"]
-    known = {row.id: numbers(here[row.id]) for row in ROWS}
-    computed = table.set_index("id")["verdict"] != NOT_COMPUTED
-    for name in ("headline", "stands", "falls"):
-        items = [(row, text) for row, text in texts[name].items() if computed[row]]
-        texts[name] = [{"id": row, "text": fill(text, n=known[row])} for row, text in items]
+    verdicts, here = (table.set_index("id")[column] for column in ("verdict", "here"))
+    for name, verdict in (("headline", PART), ("stands", TRUE), ("falls", FALSE)):
+        items = [(row, text) for row, text in texts[name].items() if verdicts[row] == verdict]
+        texts[name] = [{"id": row, "text": fill(text, n=numbers(here[row]))} for row, text in items]
     links = {name: _link(name) for name in texts["pictures"]}
     counts = {"counts": parts.sum().to_dict(), "parts": parts, "errors": len(table) - len(counted)}
     return {**texts, **counts, "links": links}
