@@ -71,7 +71,7 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
 @pytest.mark.parametrize(
     ("given", "values"),
     [
-        ([0.3, "1e-1", 0.2, 0.20], [0.1, 0.2, 0.3]),
+        ([0.3, "1e-1", 0.20], [0.1, 0.2, 0.3]),
         ({"start": 0, "stop": 0.3, "step": 0.1}, [0.0, 0.1, 0.2, 0.3]),
         ({"start": 0.1, "stop": 10, "count": 3, "scale": "log"}, [0.1, 1.0, 10.0]),
         ({"blocks": [[1, 2], {"start": 1, "stop": 3, "count": 5}]}, [1.0, 1.5, 2.0, 2.5, 3.0]),
