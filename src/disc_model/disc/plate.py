@@ -185,12 +185,12 @@ def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _inverse_squares(p: Parameters, compliance: float, kept: Any = slice(None), **how: bool) -> Any:
+def _inverse_squares(p: Parameters, compliance: float, taking_part: Any = slice(None), **how: bool) -> Any:
     """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
     from scipy import linalg  # takes 0.3 s, and most jobs do without
 
     modes = mode_arrays(p)
-    omega, psi = modes.omega[kept], modes.psi[kept]
+    omega, psi = modes.omega[taking_part], modes.psi[taking_part]
     try:
         with np.errstate(all="ignore"):
             matrices = _coupling(omega, psi, p.m, p.k, compliance)

@@ -69,10 +69,10 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     except Exception as error:  # pyuff raises what the text of the file happens to lead to
         raise _fault(path, f"must be a universal file that can be read ({error})") from None
     places = {
-        int(number): place
+        int(number): position
         for data in sets
         if data["type"] in (15, 2411)
-        for number, *place in zip(*(data[name] for name in ("node_nums", "x", "y", "z")), strict=True)
+        for number, *position in zip(*(data[name] for name in ("node_nums", "x", "y", "z")), strict=True)
     }
     modes = [_uff_mode(data, places, r_0, path) for data in sets if data["type"] == 55]
     pairs: list[list[dict[str, Any]]] = []
@@ -128,18 +128,18 @@ def _uff_mode(data: dict[str, Any], places: dict[int, list[float]], r_0: float, 
     amplitude, turn, scale = math.hypot(cosine, sine), math.atan2(sine, cosine), 1 / math.sqrt(mass)
     shape = {}
     for r in np.unique(np.round(radius, 6)):
-        here = np.abs(radius - r) < SAME_RADIUS * r_0
-        if here.sum() > 2 * l:
-            wave = np.cos(l * angle[here] - turn)
-            shape[float(r)] = scale * float(wave @ moves[here] / (wave @ wave))
+        on_radius = np.abs(radius - r) < SAME_RADIUS * r_0
+        if on_radius.sum() > 2 * l:
+            wave = np.cos(l * angle[on_radius] - turn)
+            shape[float(r)] = scale * float(wave @ moves[on_radius] / (wave @ wave))
     return {"diameters": l, "omega": omega, "damping": float(damping), "amplitude": scale * amplitude, "shape": shape}
 
 
 def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[tuple[float, float], float]:
     """Cosine and sine of a harmonic around the axis, and the sum of squares that it leaves."""
     waves = np.stack([np.cos(l * angle), np.sin(l * angle)], axis=1)[:, : 1 if l == 0 else 2]
-    found = np.linalg.lstsq(waves, moves, rcond=None)[0]
-    return (float(found[0]), float(found[1]) if l else 0.0), float(np.sum((moves - waves @ found) ** 2))
+    solution = np.linalg.lstsq(waves, moves, rcond=None)[0]
+    return (float(solution[0]), float(solution[1]) if l else 0.0), float(np.sum((moves - waves @ solution) ** 2))
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -355,10 +355,10 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
     if share > 0.5:
         return
     a, b = 0.97, 0.05
-    place = ([a - share, a], [b, b]) if along == "x" else ([a, a], [b, b + share])
-    ax.plot(*place, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, zorder=5)
-    at, offset = ((a - share, b), (-3, 0)) if along == "x" else ((a, b + share / 2), (-4, 0))
-    say(ax, f"thickness {1e3 * h:g} mm", at, offset, xycoords="axes fraction", fontsize=6, path_effects=halo())
+    points = ([a - share, a], [b, b]) if along == "x" else ([a, a], [b, b + share])
+    ax.plot(*points, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, zorder=5)
+    point, offset = ((a - share, b), (-3, 0)) if along == "x" else ((a, b + share / 2), (-4, 0))
+    say(ax, f"thickness {1e3 * h:g} mm", point, offset, xycoords="axes fraction", fontsize=6, path_effects=halo())
 
 
 def mark_printed(ax: Axes, time: float) -> None:

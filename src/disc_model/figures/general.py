@@ -82,42 +82,42 @@ class General(Plot):
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
-        own = {name: dims[name] for name in variables[self.variable] if name in dims}
+        dims_of_variable = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
-        for place, name in places.items():
-            yield from self._wrong_place(place, name, own)
+        for role, name in places.items():
+            yield from self._wrong_place(role, name, dims_of_variable)
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
-            place = "y" if self.axes.get("y") == name else "by"
-            yield Fault.of((place,), name, "must differ from the other dimensions shown")
-        left = {name: values for name, values in own.items() if name not in used}
+            role = "y" if self.axes.get("y") == name else "by"
+            yield Fault.of((role,), name, "must differ from the other dimensions shown")
+        free_dims = {name: values for name, values in dims_of_variable.items() if name not in used}
         for name, value in self.at.items():
-            if name not in left:
-                rule = f"is no dimension that remains (known: {', '.join(left) or 'none'})"
+            if name not in free_dims:
+                rule = f"is no dimension that remains (known: {', '.join(free_dims) or 'none'})"
                 yield Fault.of(("at", name), value, rule)
-            elif left[name] and not any(_same(value, one) for one in left[name]):
-                yield Fault.of(("at", name), value, f"must be one of {_listed(left[name])}")
-        for name, values in left.items():
+            elif free_dims[name] and not any(_same(value, known) for known in free_dims[name]):
+                yield Fault.of(("at", name), value, f"must be one of {_listed(free_dims[name])}")
+        for name, values in free_dims.items():
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
                 yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
 
-    def _wrong_place(self, place: str, name: str, own: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
-        if name not in own:
-            yield Fault.of((place,), name, f"is no dimension of {self.variable}{suggestion(name, own)}")
-        elif place == "by":
-            if len(own[name]) > self.room:
-                yield Fault.of((place,), name, f"has {len(own[name])} values, and there is room for {self.room}")
-        elif any(isinstance(value, str | tuple) for value in own[name]):
-            yield Fault.of((place,), name, "must be one parameter, and a number")
-        elif len(own[name]) == 1:
-            yield Fault.of((place,), name, "must have two values or more")
+    def _wrong_place(self, role: str, name: str, dims: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
+        if name not in dims:
+            yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims)}")
+        elif role == "by":
+            if len(dims[name]) > self.room:
+                yield Fault.of((role,), name, f"has {len(dims[name])} values, and there is room for {self.room}")
+        elif any(isinstance(value, str | tuple) for value in dims[name]):
+            yield Fault.of((role,), name, "must be one parameter, and a number")
+        elif len(dims[name]) == 1:
+            yield Fault.of((role,), name, "must have two values or more")
 
 
-def _same(one: Any, other: Any) -> bool:
-    if isinstance(one, str) or isinstance(other, str | tuple):
-        return bool(one == other)
-    return math.isclose(one, other, rel_tol=1e-12)
+def _same(value: Any, other: Any) -> bool:
+    if isinstance(value, str) or isinstance(other, str | tuple):
+        return bool(value == other)
+    return math.isclose(value, other, rel_tol=1e-12)
 
 
 def _listed(values: Sequence[Any]) -> str:
@@ -174,7 +174,7 @@ def draw_maps(
     handles: list[Patch] = []
     if variable == "growth_rate" and not log:
         names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
-        grids = [one.transpose(y, x, ...) for _, one in drawing.slices(study[names], by)]
+        grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study[names], by)]
         handles = patches(CYCLE_LOOKS, growth_panels(figure, axes, grids))
     elif variable == "outcome":
         used = [outcome_cells(ax, panel) for ax, panel in zip(axes, shown, strict=True)]
@@ -293,8 +293,8 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     if words:
         ax.set_yticks(range(len(words)), labels=words)
     for (name, gone), mark in zip(drawing.gaps(study, array).items(), "x+|12", strict=False):
-        there = gone.any([dim for dim in gone.dims if dim != x]).values
-        drawing.mark_failed(ax, along[there], name=name, mark=mark)
+        mask = gone.any([dim for dim in gone.dims if dim != x]).values
+        drawing.mark_failed(ax, along[mask], name=name, mark=mark)
     if numbers is not None:
         label, factor = drawing.label_of(numbers)
         steps = ScalarMappable(**in_steps(colours))

@@ -75,7 +75,7 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
     """The units, if each is one of its parameter or variable; raises `ParameterError`."""
     faults: list[Fault] = []
     for name, unit in units.items():
-        known = [one for one in SHOWN if _si_unit(one) not in ("", "1")]
+        known = [shown for shown in SHOWN if _si_unit(shown) not in ("", "1")]
         if name not in known:
             faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
         else:

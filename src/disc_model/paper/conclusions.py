@@ -89,8 +89,8 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
 
 def stiffer_inplane(case: CaseView) -> Answer:
     """Whether growth rises with each stiffness up to its largest value."""
-    found = stiffened(case.parameters, "k_p", 20, 50).values()
-    known = [rates[np.isfinite(rates)] for rates in found]
+    results = stiffened(case.parameters, "k_p", 20, 50).values()
+    known = [rates[np.isfinite(rates)] for rates in results]
     rising = [bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0)) for rates in known]
     return Answer(all(rising), f"At {case['N']:g} N growth is {stiffened_text(case.parameters, 'k_p', 20, 50)}.")
 
@@ -149,6 +149,6 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
 def _level(case: CaseView, frequency: float) -> float:
     """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
     signal = case.signal("late", 0.0, np.inf)
-    found, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
-    near, every = (float(amplitude[at].max()) for at in (np.abs(found - frequency) < 1, found > 1))
+    frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
+    near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - frequency) < 1, frequencies > 1))
     return measures.ratio(near, every, f"the spectrum of case {case.name}")

@@ -51,12 +51,12 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     )
     time, force, drive, u, velocity = (np.asarray(samples[0][name]) for name in ("time", "P", "psi", "u", "u_velocity"))
     shapes = _waves(theta, p.n_diameters).T
-    place, speed = (
+    angle, speed = (
         np.linalg.solve(shapes, np.stack([np.asarray(each[name]) for each in samples]))
         for name in ("w_point", "w_point_velocity")
     )
     power = force * (velocity - np.sum(speed * _waves(p.Omega * time - drive, p.n_diameters), axis=0))
-    energy = np.sum((speed / psi) ** 2 + (omega * place / psi) ** 2, axis=0)
+    energy = np.sum((speed / psi) ** 2 + (omega * angle / psi) ** 2, axis=0)
     energy += p.m * velocity**2 + p.k * (u - u_0) ** 2 + 2 * p.N * (u - u_0)
     damped = np.sum(damping * (speed / psi) ** 2, axis=0) + p.c * velocity**2
     pushes, pulls, taken = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
@@ -84,26 +84,26 @@ def course(p: Parameters, until: float) -> tuple[Powers, ...]:
     from disc_model.simulation.case import Window
 
     theta = 2 * np.pi * np.arange(2 * p.n_diameters + 1) / (2 * p.n_diameters + 1)
-    state, found = None, []
+    state, courses = None, []
     for begin, end in pairwise(np.linspace(0.0, until, STAGES + 1).tolist()):
         start = max(begin, end - LENGTH)
-        windows = {f"at {at:g}": Window(start=start, stop=end, rate=RATE, theta=at) for at in theta.tolist()}
+        windows = {f"at {angle:g}": Window(start=start, stop=end, rate=RATE, theta=angle) for angle in theta.tolist()}
         run = simulate(p, end, windows, initial_state=state).raise_for_status()
         state = run.final_state
-        found.append(powers(p, run.u_0, theta, [*run.samples.values()]))
-    return tuple(found)
+        courses.append(powers(p, run.u_0, theta, [*run.samples.values()]))
+    return tuple(courses)
 
 
-def in_the_end(found: Sequence[Powers]) -> Powers:
+def in_the_end(courses: Sequence[Powers]) -> Powers:
     """Means over the last quarter of the stages, for the steady state."""
-    return Powers(*np.mean(found[-len(found) // 4 :], axis=0).tolist())
+    return Powers(*np.mean(courses[-len(courses) // 4 :], axis=0).tolist())
 
 
-def at_width(found: Sequence[Powers], width: float) -> Powers:
+def at_width(courses: Sequence[Powers], width: float) -> Powers:
     """Powers of a growing motion where it first has a width, which they follow as its square; raises `Absent`."""
-    beyond = next((i for i, each in enumerate(found) if i and each.width > width), 0)
+    beyond = next((i for i, each in enumerate(courses) if i and each.width > width), 0)
     if not beyond:
-        raise Absent(f"maintained contact comes to {1e3 * found[-1].width:.3g} mm only")
-    low, high = found[beyond - 1 : beyond + 1]
+        raise Absent(f"maintained contact comes to {1e3 * courses[-1].width:.3g} mm only")
+    low, high = courses[beyond - 1 : beyond + 1]
     share = (width**2 - low.width**2) / (high.width**2 - low.width**2)
     return Powers(*((1 - share) * a + share * b for a, b in zip(low, high, strict=True)))

@@ -248,11 +248,11 @@ class CaseView:
 
     def intervals(self, kind: str = "stick_to_slip") -> Array:
         """Times between successive releases, or separations, among the stored events, s; raises `Missing`."""
-        found = np.diff(self.times_of(kind))
-        if found.size < FEWEST:
+        intervals = np.diff(self.times_of(kind))
+        if intervals.size < FEWEST:
             what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
             raise Missing(f"case {self.name} keeps fewer than {FEWEST} {what}")
-        return found
+        return intervals
 
     def rate_of(self, kind: str) -> float:
         """Rate of one kind of event within the stored events, 1/s."""
@@ -286,10 +286,10 @@ class CaseView:
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> Signal:
         """A variable between two times, from the samples of a window; raises `Missing` without any."""
-        found = self.samples(window).sel(time=slice(start, stop))
-        if found.sizes["time"] < 100:
+        samples = self.samples(window).sel(time=slice(start, stop))
+        if samples.sizes["time"] < 100:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
-        return Signal(self.name, window, start, stop, found["time"].values, found[name].values)
+        return Signal(self.name, window, start, stop, samples["time"].values, samples[name].values)
 
     def late_section(self, last: int) -> Array:
         """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
@@ -339,10 +339,10 @@ class Signal:
 
     def lines(self, **options: float) -> list[Line]:
         """Lines, as by `disc_model.analysis.spectra`; raises `Missing` without any."""
-        found = spectra.lines(self.time, self.values, **options)
-        if not found:
+        peaks = spectra.lines(self.time, self.values, **options)
+        if not peaks:
             raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
-        return found
+        return peaks
 
     def strongest(self, near: float, within: float) -> Line:
         """The strongest line within `within` Hz of a frequency; raises `Absent`."""
@@ -444,8 +444,8 @@ def place(N: float, Omega: float) -> str:
 
 def extent(values: Iterable[float]) -> Range:
     """Least and greatest of some numbers."""
-    found = np.asarray([*values])
-    return Range(float(found.min()), float(found.max()))
+    numbers = np.asarray([*values])
+    return Range(float(numbers.min()), float(numbers.max()))
 
 
 def facts(study: xr.Dataset) -> dict[str, Any]:
@@ -466,9 +466,9 @@ def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> s
     return without if math.isnan(value) else f"{value:{spec}}{unit}"
 
 
-def loudest(found: Iterable[Line], count: int) -> list[Line]:
+def loudest(lines: Iterable[Line], count: int) -> list[Line]:
     """The strongest lines, at most `count`, the strongest first."""
-    return sorted(found, key=lambda line: -line.amplitude)[:count]
+    return sorted(lines, key=lambda line: -line.amplitude)[:count]
 
 
 @cache
@@ -483,10 +483,10 @@ def cycle_of(p: Parameters) -> FloquetResult:
     """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
     from disc_model.data.variables import CycleStatus
 
-    found = _search_of(p)
-    if found.status is not CycleStatus.OK:
-        raise Missing(f"no stick-slip cycle: {found.message}")
-    return found
+    search = _search_of(p)
+    if search.status is not CycleStatus.OK:
+        raise Missing(f"no stick-slip cycle: {search.message}")
+    return search
 
 
 def growth_or_nan(p: Parameters) -> float:

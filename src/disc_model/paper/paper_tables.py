@@ -45,11 +45,11 @@ def table_2(case: CaseView) -> pd.DataFrame:
         symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is (`UNNAMED` if no
         combination is within `COMBINED` of the line), predicted_Hz (of the nearest combination), paper_says
     """
-    rate, found = stick_slip_rate(case), table_2_lines(case)
-    names = [spectra.identify(line.frequency, rate, case.drive) for line in found]
+    rate, lines = stick_slip_rate(case), table_2_lines(case)
+    names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
     return TABLE_2.assign(
-        ours_Hz=[line.frequency for line in found],
-        level_dB=[20 * np.log10(line.amplitude / found[0].amplitude) for line in found],
+        ours_Hz=[line.frequency for line in lines],
+        level_dB=[20 * np.log10(line.amplitude / lines[0].amplitude) for line in lines],
         ours_is=[str(name) if abs(name.deviation) <= COMBINED else UNNAMED for name in names],
         predicted_Hz=[name.frequency for name in names],
     )[COLUMNS]

@@ -72,11 +72,11 @@ def norms(p: Parameters) -> Array:
 
 
 def normalised(*, within: float) -> Answer:
-    found = norms(BASE)
+    norms_of_base = norms(BASE)
     squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
     return Answer(
-        np.max(np.abs(found - 1)) <= within,
-        f"The left side is {listed(found, '.2f')} for the modes of 0 to 4 nodal diameters that give "
+        np.max(np.abs(norms_of_base - 1)) <= within,
+        f"The left side is {listed(norms_of_base, '.2f')} for the modes of 0 to 4 nodal diameters that give "
         "the paper's frequencies with the slider attached. With one nodal diameter the squared amplitude under the "
         "slider "
         f"is {squares[0]:.2f} instead of {squares[1]:.2f} 1/kg.",
@@ -113,7 +113,7 @@ def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
     nine, *others = (
         (case.rate_of("separation"), case.phase_share("separation"), case.phase_share("stick")) for case in followed
     )
-    more, *circles = [bool(np.allclose(found, nine, rtol=share)) for found in others]
+    more, *circles = [bool(np.allclose(norm, nine, rtol=share)) for norm in others]
     names = ("nine modes", "8 nodal diameters", "one nodal circle", "two nodal circles")
     rows = [
         f"{name}: {rate:.0f} separations/s, separated {100 * apart:.1f} % and sticking {100 * stick:.1f} % of the time"

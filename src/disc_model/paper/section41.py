@@ -168,11 +168,11 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     rows, withheld = [], []
     for free, bonded in pairs(cases):
         held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
-        kept = energy.course(bonded.parameters, bonded["time_reached"])
-        there, cycle = energy.at_width(kept, held.width), float(free.intervals("separation").mean())
-        withheld.append(measures.ratio(there.supplied - held.supplied, there.gained, f"the surplus of {bonded.name}"))
+        course = energy.course(bonded.parameters, bonded["time_reached"])
+        powers, cycle = energy.at_width(course, held.width), float(free.intervals("separation").mean())
+        withheld.append(measures.ratio(powers.supplied - held.supplied, powers.gained, f"the surplus of {bonded.name}"))
         with_, without, damped, impacts = (
-            1e3 * cycle * power for power in (held.supplied, there.supplied, held.damped, held.impacts)
+            1e3 * cycle * power for power in (held.supplied, powers.supplied, held.damped, held.impacts)
         )
         rows.append(
             f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "

@@ -51,8 +51,8 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
     study = _scanned(study)
-    found = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
-    falls, last = all(each.falls for each in found), found[-1]
+    lowest = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
+    falls, last = all(each.falls for each in lowest), lowest[-1]
     again = f"Up to {last.top:g} N it does. At larger preloads it falls again, to {', '.join(last.again)}."
     return Answer(
         PART if falls and last.again else falls,

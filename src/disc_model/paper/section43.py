@@ -253,15 +253,15 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     lost = case.switches("separation")
     if not starts.size or not lost.sizes["event"]:
         raise Missing(f"no separation in the window of case {case.name}")
-    found = separation_location(time, height, starts, share)
+    location = separation_location(time, height, starts, share)
     # by its events: samples come late, and the velocity of a light slider changes fast
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     return Answer(
-        found.kind == "at the lowest position" and above <= share,
-        f"Contact is lost at {1e3 * (where - case['u_0']):.1f} mm, {100 * found.height:.0f} % of the swing above its "
-        "lowest point, "
+        location.kind == "at the lowest position" and above <= share,
+        f"Contact is lost at {1e3 * (where - case['u_0']):.1f} mm, {100 * location.height:.0f} % of the swing above "
+        "its lowest point, "
         f"at {speed:+.2f} m/s. The lowest point of all is at {1e3 * height.min():.1f} mm.",
         f"In {starts.size} of {swings} swings only." if starts.size < 0.9 * swings else "",
     )
@@ -320,8 +320,8 @@ def _map(study: xr.Dataset, *names: str) -> tuple[measures.Array, measures.Array
     words = flag_names(outcome)
     if np.any(words == "failed"):
         raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
-    one, other = (outcome[name].values for name in names)
-    return one, other, words == "separation"
+    first, other = (outcome[name].values for name in names)
+    return first, other, words == "separation"
 
 
 def stiffened(p: Parameters, name: str, *speeds: float) -> dict[float, measures.Array]:

@@ -44,16 +44,18 @@ def _drift(case: CaseView) -> float:
 
 def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     """Whether lines come to rest, and not without separation."""
-    here, there = _drift(case), _drift(bonded)
-    text = f"From 100 to 110 s lines move by {here:.0e} Hz at most with separation, and by {there:.0e} Hz without."
-    return Answer(FALSE if here > within else PART if there <= within else TRUE, text)
+    drift, bonded_drift = _drift(case), _drift(bonded)
+    text = (
+        f"From 100 to 110 s lines move by {drift:.0e} Hz at most with separation, and by {bonded_drift:.0e} Hz without."
+    )
+    return Answer(FALSE if drift > within else PART if bonded_drift <= within else TRUE, text)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
-    found, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
+    lines, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
-    chance = max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in found)
-    floor = min(line.amplitude for line in found) / max(line.amplitude for line in found)
+    chance = max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in lines)
+    floor = min(line.amplitude for line in lines) / max(line.amplitude for line in lines)
     others = [
         f"{line.frequency:.2f}"
         for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
@@ -62,9 +64,9 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     named = (table["ours_is"] != UNNAMED).sum()
     rows = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
     return Answer(
-        off.max() <= bound and chance * len(found) <= 1e-3,
+        off.max() <= bound and chance * len(lines) <= 1e-3,
         f"{rows} Hz, with f_s = {stick_slip_rate(case):.2f} Hz: {off.max():.2f} Hz away at most. {named} of "
-        f"{len(found)} are "
+        f"{len(lines)} are "
         "combinations of the stick-slip rate and the drive's frequency.",
         f"As strong as the weakest of them, but not in the table: {listed(others)} Hz." if others else "",
     )
@@ -74,11 +76,11 @@ def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away = [], [], []
     for case in cases:
-        found = sorted(measures.loudest(case.signal(*EARLY).lines(above=100, below=300, apart=1.0), 6))
+        lines = sorted(measures.loudest(case.signal(*EARLY).lines(above=100, below=300, apart=1.0), 6))
         rate = stick_slip_rate(case)
-        off += [_from_combination(case, line, rate) for line in found]
-        away += [_from_natural(case, line) / case.drive for line in found]
-        found_text = ", ".join(f"{line.frequency:.1f}" for line in found)
+        off += [_from_combination(case, line, rate) for line in lines]
+        away += [_from_natural(case, line) / case.drive for line in lines]
+        found_text = ", ".join(f"{line.frequency:.1f}" for line in lines)
         rows.append(
             f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s, f_s = {rate:.2f} Hz: {found_text} Hz"
         )
@@ -101,10 +103,10 @@ def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answe
 
 
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
-    natural, found = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
-    nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in found])
-    far = np.abs(nearest - found) > within
-    rows = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(found, nearest, strict=True))
+    natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
+    nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
+    far = np.abs(nearest - computed) > within
+    rows = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(computed, nearest, strict=True))
     return Answer(
         graded(~far) if not far.any() else FALSE,
         f"{rows} Hz, in brackets the nearest natural frequency: {far.sum()} of {far.size} are more than {within:g} Hz "
@@ -128,9 +130,9 @@ def higher(
     (before, after), (ignored, control) = (
         [each.signal(window, *span).high for span in spans] for each in (case, bonded)
     )
-    here, there = after > max(factor * before, floor), control > max(factor * ignored, floor)
+    grows, grows_in_control = after > max(factor * before, floor), control > max(factor * ignored, floor)
     return Answer(
-        TRUE if here and not there else PART if here else FALSE,
+        TRUE if grows and not grows_in_control else PART if grows else FALSE,
         f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after; without "
         "separation "
         f"{control:.1e} then.",
@@ -155,7 +157,7 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
     length = first - 50
     begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
     (before, after, _), (ignored, control, late) = (
-        [case.signal(window, at, at + length, "psi").filled for window, at in begins] for case in pair
+        [case.signal(window, begin, begin + length, "psi").filled for window, begin in begins] for case in pair
     )
     cleared, alike = after < share * before, min(control, late) < share * ignored
     return Answer(
@@ -220,12 +222,12 @@ def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate = stick_slip_rate(case)
-    found = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in found if _from_combination(case, line, rate) <= COMBINED]
-    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, found))
+    lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
+    made = [line for line in lines if _from_combination(case, line, rate) <= COMBINED]
+    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, lines))
     return Answer(
         theirs / power > share,
-        f"{case.place}, 0 to 10 s: {len(made)} of {len(found)} lines above {LOW:g} Hz, with "
+        f"{case.place}, 0 to 10 s: {len(made)} of {len(lines)} lines above {LOW:g} Hz, with "
         f"{100 * theirs / power:.0f} % of their "
         f"power, are n f_s + m f_Ω with f_s = {rate:.2f} Hz.",
     )

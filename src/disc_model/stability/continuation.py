@@ -500,10 +500,10 @@ def changed_event(cycle: Result, other: Result) -> str:
     return "what grazes was not found"
 
 
-def _next(problem: CycleProblem, here: Place, ds: float) -> Place:
+def _next(problem: CycleProblem, current: Place, ds: float) -> Place:
     """The place at arclength ds along the tangent."""
-    tangent = here.tangent
-    new = problem.correct(here.point.z + ds * tangent, tangent[None, :], np.array([tangent @ here.point.z + ds]))
+    tangent = current.tangent
+    new = problem.correct(current.point.z + ds * tangent, tangent[None, :], np.array([tangent @ current.point.z + ds]))
     return Place(new, problem.tangents(new)[0])
 
 
@@ -641,18 +641,18 @@ def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
     """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
     value, mu = _evaluate_test(kind, point.jacobian, mu)
     for _ in range(REACHES):
-        here = _place(problem, point, kind, mu)
+        new = _place(problem, point, kind, mu)
         if abs(value) < 1e-10:
-            return here
-        move = -value * here.gradient / (here.gradient @ here.gradient)
-        turn = abs(complex(here.turning @ move))
+            return new
+        move = -value * new.gradient / (new.gradient @ new.gradient)
+        turn = abs(complex(new.turning @ move))
         move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
-        rows = np.vstack([here.tangent, here.gradient / np.linalg.norm(here.gradient)])
+        rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
         for halvings in range(6):
-            guess = here.point.z + move * 0.5**halvings
+            guess = new.point.z + move * 0.5**halvings
             try:
                 point = problem.correct(guess, rows, rows @ guess)
-                value, mu = _evaluate_test(kind, point.jacobian, here.predicted(move * 0.5**halvings))
+                value, mu = _evaluate_test(kind, point.jacobian, new.predicted(move * 0.5**halvings))
                 break
             except CorrectorFailed:
                 if halvings == 5:
@@ -660,27 +660,27 @@ def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
     raise CorrectorFailed("no point of the curve was found near the first cycle")
 
 
-def _next_on_border(problem: CycleProblem, kind: Kind, here: _OnBorder, ds: float) -> _OnBorder:
+def _next_on_border(problem: CycleProblem, kind: Kind, start: _OnBorder, ds: float) -> _OnBorder:
     """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-    expected = here.predicted(ds * here.tangent)
-    if abs(expected - here.mu) > 2 * LARGEST_TURN:
+    expected = start.predicted(ds * start.tangent)
+    if abs(expected - start.mu) > 2 * LARGEST_TURN:
         raise CorrectorFailed("the multiplier turns too fast")
-    guess = here.point.z + ds * here.tangent
-    rows = here.tangent[None, :]
+    guess = start.point.z + ds * start.tangent
+    rows = start.tangent[None, :]
     point = problem.evaluate(guess)
-    value, found = _evaluate_test(kind, point.jacobian, expected)
-    gradient = here.gradient
+    value, mu = _evaluate_test(kind, point.jacobian, expected)
+    gradient = start.gradient
     errors = [math.inf, math.inf]
     for _ in range(12):
         right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
         errors.append(float(np.linalg.norm(right)))
         if errors[-1] < 1e-10:
-            return _place(problem, point, kind, found)
+            return _place(problem, point, kind, mu)
         if errors[-1] > 0.9 * errors[-3]:
             break
         before, last = point, value
         point = problem.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
-        value, found = _evaluate_test(kind, point.jacobian, found)
+        value, mu = _evaluate_test(kind, point.jacobian, mu)
         # Broyden's update: a gradient by differences would take four flights at each correction
         move = point.z - before.z
         gradient = gradient + (value - last - gradient @ move) / (move @ move) * move

@@ -394,9 +394,9 @@ def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
         return NO_CYCLES if len(first.multipliers) != len(second.multipliers) else ()
     distance = np.abs(first.multipliers[:, None] - second.multipliers[None, :])
     rows, columns = linear_sum_assignment(distance)
-    one, two = first.multipliers[rows], second.multipliers[columns]
-    chosen = (one.imag > 0) & (np.minimum(abs(one), abs(two)) > STRONGLY_DAMPED)
-    angle, turn = np.angle(one[chosen]), np.angle(two[chosen] / one[chosen])
+    before, after = first.multipliers[rows], second.multipliers[columns]
+    chosen = (before.imag > 0) & (np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED)
+    angle, turn = np.angle(before[chosen]), np.angle(after[chosen] / before[chosen])
     i, j = np.triu_indices(len(angle))
     # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with itself comes to 2 pi
     begin = np.concatenate([angle[i] + angle[j], (angle[i] - angle[j])[i != j]]) / math.tau

@@ -211,8 +211,8 @@ def find_cycle(
         where = f"of {releases} releases near the given state"
     else:
         x, where = guess, "near the given point of the section"
-    found = newton(map_, x, releases=releases, may_separate=near_state)
-    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {where}") if found is None else cycle_of(map_, found)
+    solution = newton(map_, x, releases=releases, may_separate=near_state)
+    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {where}") if solution is None else cycle_of(map_, solution)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -222,9 +222,9 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     sought from the end of that motion; without one, the status is the kind of the motion.
     """
     p, tol, x = map_.parameters, map_.tol, map_.static
-    found = newton(map_, x)
-    if found is not None:
-        return cycle_of(map_, found)
+    solution = newton(map_, x)
+    if solution is not None:
+        return cycle_of(map_, solution)
     for _ in range(TRANSIENT):
         flight = map_.evaluate(x, tangent=False)
         if not flight.returned:
@@ -232,9 +232,9 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
             return _none(p, tol, status, why.format(flight.period))
         x = flight.end
     for releases in RETURNS_TRIED:
-        found = newton(map_, x, releases=releases)
-        if found is not None:
-            return cycle_of(map_, run_through_once(map_, found))
+        solution = newton(map_, x, releases=releases)
+        if solution is not None:
+            return cycle_of(map_, run_through_once(map_, solution))
     tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
     return _none(p, tol, CycleStatus.NO_CYCLE, tried)
 

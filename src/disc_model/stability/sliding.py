@@ -283,7 +283,7 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     l, omega = modes.diameters, modes.omega[:, None]
     (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
     energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
-    by_l = np.array([energy[l == one].sum(axis=0) for one in range(int(l.max(initial=0)) + 1)])
+    by_l = np.array([energy[l == each_l].sum(axis=0) for each_l in range(int(l.max(initial=0)) + 1)])
     diameters = by_l.argmax(axis=0)
     of_l = l[:, None] == diameters
     # a + i b and a - i b are the waves that travel in opposite directions
@@ -351,18 +351,18 @@ def _numbered(
         if changed and len((half := sliding_modes(between)).frequency):
             _numbered(shapes, before, between, half, halvings - 1)
             return _numbered(shapes, between, p, modes, halvings - 1)
-    own, likeness = np.full(len(modes.frequency), -1), np.full(len(modes.frequency), math.nan)
-    own[places], likeness[places] = numbers, mac[numbers, places]
-    own[own < 0] = len(shapes) + np.arange(np.sum(own < 0))
-    for number, shape in sorted(zip(own, scaled.T, strict=True), key=lambda one: one[0]):
+    matched, likeness = np.full(len(modes.frequency), -1), np.full(len(modes.frequency), math.nan)
+    matched[places], likeness[places] = numbers, mac[numbers, places]
+    matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
+    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda one: one[0]):
         shapes[number : number + 1] = [shape]
-    return own, likeness
+    return matched, likeness
 
 
 def _energy_weights(p: Parameters) -> Array:
     """Weights of squared rows of the Jacobian in the energy of a motion."""
     modes, compliance = mode_arrays(p), contact_compliance(p)
-    stiffness, one = modes.omega**2, np.ones(len(modes.omega))
+    stiffness, ones = modes.omega**2, np.ones(len(modes.omega))
     slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
     height = [p.k + 1 / compliance, p.m] if compliance else []
-    return np.asarray(join_rows(modes, (stiffness, one, stiffness, one), slider, height), np.float64)
+    return np.asarray(join_rows(modes, (stiffness, ones, stiffness, ones), slider, height), np.float64)

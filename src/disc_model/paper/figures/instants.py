@@ -78,9 +78,9 @@ def motion_of(case: xr.DataTree) -> Motion:
     angles = np.array([window.attrs["theta"] for window in windows])
     turns = harmonics * angles[:, None]
     values = np.array([window["w_point"].values for window in windows])
-    found = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
-    at_slider = found[: len(harmonics)].astype(complex)
-    at_slider[1:] += 1j * found[len(harmonics) :]
+    solution = np.linalg.lstsq(np.hstack([np.cos(turns), np.sin(turns)[:, 1:]]), values, rcond=None)[0]
+    at_slider = solution[: len(harmonics)].astype(complex)
+    at_slider[1:] += 1j * solution[len(harmonics) :]
     amplitudes = at_slider / mode_arrays(p).psi[:, None]
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))

@@ -88,12 +88,12 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
             ax.plot(point["Omega"], point["N"], "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
             side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
             drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
-    for words, place in (
+    for words, corner in (
         ("only as\npublished", (0.68, 0.2)),
         ("both", (0.68, 0.62)),
         ("only by\nEq. (17)", (0.29, 0.93)),
     ):
-        ax.text(*place, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
+        ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 

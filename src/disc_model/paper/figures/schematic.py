@@ -55,8 +55,8 @@ def _side(ax: Axes) -> None:
 
     x = np.linspace(-2.5, 4.4, 300)
 
-    def surface(at: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        return np.asarray(0.22 * np.sin(1.15 * np.asarray(at) + 0.55))
+    def surface(angle: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        return np.asarray(0.22 * np.sin(1.15 * np.asarray(angle) + 0.55))
 
     ax.plot(x, surface(x), color=DISC, lw=2.5)
     ax.axhline(0, color=SOFT, lw=0.8, ls="--")
@@ -94,8 +94,8 @@ def _side(ax: Axes) -> None:
     _arrow(ax, (-0.4, 1.3), (-1.15, 1.3), style="<|-", colour=SLIDER)
     ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=SLIDER)
     _arrow(ax, (0, -0.55), (drive, -0.55), r"$r_0\,\psi$", (-0.4, -0.17), SLIDER, "<|-|>")
-    for place in (0.0, drive):
-        ax.plot([place, place], [-0.65, -0.1], color=SLIDER, lw=0.7)
+    for angle in (0.0, drive):
+        ax.plot([angle, angle], [-0.65, -0.1], color=SLIDER, lw=0.7)
     _arrow(ax, (-2.45, -0.72), (-1.85, -0.72), r"$\theta$", (0.42, 0))
     ax.set(xlim=(-2.6, 4.6), ylim=(-0.85, 2.45))
     ax.set_title("(a) from the side, along the circle of radius $r_0$", loc="left")
@@ -121,8 +121,8 @@ def _above(ax: Axes, p: Parameters) -> None:
     _angle(ax, 0.0, phi, r"$\varphi$")
     _angle(ax, phi, ahead, r"$\psi$")
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
-    place = _at(fixed, 1.3, (0.38, -0.06))
-    _write(ax, place, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
+    point = _at(fixed, 1.3, (0.38, -0.06))
+    _write(ax, point, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
     ax.text(1.62, 0, r"$\theta = 0$", va="center", fontsize=SMALL)
     for degrees, radius, text in ((170, a, "$a$"), (212, r_0, "$r_0$"), (250, b, "$b$")):
         angle = np.radians(degrees)
@@ -177,9 +177,9 @@ def _arrow(
         _write(ax, middle, text, color=colour)
 
 
-def _write(ax: Axes, place: Point, text: str, **look: Any) -> None:
+def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
     """Write a text centred at a point."""
-    ax.text(float(place[0]), float(place[1]), text, ha="center", va=look.pop("va", "center"), **look)
+    ax.text(float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
 def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -> None:
@@ -208,9 +208,9 @@ DAMPER: Strokes = [
 def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:
     """Draw a spring or a damper between two points."""
     first, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
-    left = np.array([-way[1], way[0]]) / np.hypot(*way)
+    normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for along, side in strokes:
-        x, y = first[:, None] + way[:, None] * np.array(along) + left[:, None] * (width * np.array(side))
+        x, y = first[:, None] + way[:, None] * np.array(along) + normal[:, None] * (width * np.array(side))
         ax.plot(x, y, color=BLACK, lw=1.2)
 
 

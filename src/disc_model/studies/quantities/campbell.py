@@ -124,8 +124,8 @@ class Campbell(Quantity):
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
         axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
-        found = chain.from_iterable(crossings(axis, self) for axis in axes)
-        rows = sorted(found, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
+        every = chain.from_iterable(crossings(axis, self) for axis in axes)
+        rows = sorted(every, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
         return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
 

@@ -60,12 +60,12 @@ class Sliding(Quantity):
         columns = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims == _EACH}
         for i, (_, modes, numbers, mac) in enumerate(followed):
             room = numbers < self.modes
-            found = {
+            row = {
                 "frequency": modes.frequency, "mode_growth_rate": modes.growth_rate, "mac": mac,
                 "damping_ratio": modes.damping_ratio, "diameters": modes.diameters,
                 "forward_wave_fraction": modes.forward,
             }  # fmt: skip
-            for name, column in found.items():
+            for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
         states = [sliding for sliding, *_ in followed]
         absent = [
