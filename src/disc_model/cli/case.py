@@ -410,4 +410,6 @@ def _summary(result: Any, choice: ModeChoice | None) -> list[tuple[str, str]]:
         ("wall time", f"{s['wall_time']:.3g} s ({ratio} simulated seconds a second)"),
         ("energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"),
     ]
+    if not math.isnan(s["surface_speed"]):
+        lines.append(("surface speed", f"{s['surface_speed']:.3g} (largest, over that of the drive)"))
     return lines if result.status.complete else [*lines, ("advice", result.status.advice)]

@@ -243,6 +243,8 @@ class Result(Summarised, Pictures):
         yield "separations", f"{s['separations']} of {s['events']} events"
         for phase in PHASES:
             yield f"time in {phase}", number_text(s[f"time_{phase}"], "s")
+        if not math.isnan(s["surface_speed"]):
+            yield "surface speed over the drive's", f"{s['surface_speed']:.3g}"
         yield "windows", ", ".join(self.samples)
 
     def raise_for_status(self) -> Result:
