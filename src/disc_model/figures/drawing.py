@@ -352,7 +352,7 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
     h = json.loads(case.attrs.get("parameters", "{}")).get("h")
     low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
     share = 1e3 * h / (high - low) if h else 1.0
-    if share > 0.5:
+    if share > 0.8:
         return
     a, b = 0.97, 0.05
     points = ([a - share, a], [b, b]) if along == "x" else ([a, a], [b, b + share])
