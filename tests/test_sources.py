@@ -118,8 +118,9 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert {"config/paper.yaml", "paper/section42.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {"benchmarks/methods/compiled.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
-        SCRIPTS / "measure.py", "benchmarks.methods"
+        SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"
     )
+    assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.truncation")
 
 
 def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:

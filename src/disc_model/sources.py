@@ -134,7 +134,8 @@ def _file(module: str, name: str) -> Iterator[Path]:
 @functools.cache
 def _data(path: Path) -> frozenset[Path]:
     """Files of data that a module reads."""
-    texts = re.findall(r'"(\w[\w./-]*)"', path.read_text(encoding="utf-8"))
+    constants = (node.value for node in ast.walk(ast.parse(path.read_bytes())) if isinstance(node, ast.Constant))
+    texts = {text for text in constants if isinstance(text, str) and re.fullmatch(r"\w[\w./-]*", text)}
     named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
     files = {*named, *path.parent.glob(f"{path.stem}.*")}
     files |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}

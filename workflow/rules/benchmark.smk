@@ -14,6 +14,23 @@ FAILURE_MAPS = [
     for method in sorted(MEASURED, key=lambda method: "stick_slip" not in method.maps)
     for scene in method.maps
 ]
+# Module and function of each study; a change of one measures only what it is part of.
+STUDIES = {
+    "work_precision": "work_precision.work_precision",
+    "truncation": "truncation.truncation_study",
+    "contact_truncation": "truncation.contact_study",
+    "answers": "answers.answers",
+    "answer_maps": "maps.answer_map",
+    "failure_maps": "maps.failure_map",
+}
+
+
+def measured_of(part):
+    """Hash of the sources of a part of the benchmark."""
+    name, _, _ = STUDIES[part.partition("/")[0]].partition(".")
+    return made_of("measure", "benchmarks.methods", f"benchmarks.{name}")
+
+
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
@@ -51,12 +68,14 @@ rule measure:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=made_of("measure", "benchmarks.methods"),
+        made_of=lambda wildcards: measured_of(wildcards.part),
+        study=lambda wildcards: STUDIES[wildcards.part.partition("/")[0]],
+        of=lambda wildcards: wildcards.part.partition("/")[2].replace("_", " ", 1),
         compiled=lambda wildcards: (
             "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
         ),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure {wildcards.part} {output} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure {params.study} {output} {params.of} > {log} 2>&1"
 
 
 rule tabulate_work_precision:
@@ -71,7 +90,11 @@ rule tabulate_work_precision:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("tabulate_work_precision", "benchmarks.methods"),
+        made_of=made_of(
+            "tabulate_work_precision",
+            "benchmarks.methods",
+            of=measured_of("work_precision"),
+        ),
     shell:
         "job tabulate_work_precision {output} {input} > {log} 2>&1"
 
@@ -87,7 +110,9 @@ rule merge_answers:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("merge_answers", "benchmarks.methods"),
+        made_of=made_of(
+            "merge_answers", "benchmarks.methods", of=measured_of("answers")
+        ),
     shell:
         "job merge_answers {output} {input} > {log} 2>&1"
 
@@ -105,6 +130,6 @@ rule draw_benchmark:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("draw_benchmark"),
+        made_of=made_of("draw_benchmark", of=[*map(measured_of, STUDIES)]),
     shell:
         "job draw_benchmark {wildcards.figure} {output} {input} > {log} 2>&1"

@@ -8,6 +8,7 @@ rule simulate_case:
         case_file("{case}"),
     log:
         f"{RESULTS}/logs/simulate_case/{{case}}.log",
+    priority: 1  # short, and first figures need no more
     conda:
         "../envs/disc_model.yaml"
     params:

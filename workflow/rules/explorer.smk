@@ -29,9 +29,7 @@ rule compute_motions:
         "../envs/disc_model.yaml"
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
-        made_of=lambda wildcards: made_of(
-            "compute_motions", *GRIDS[wildcards.study].sources
-        ),
+        made_of=lambda wildcards: motions_made_of(wildcards.study),
     shell:
         "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
 
@@ -65,7 +63,12 @@ rule build_explorer:
             }
         ),
         made_of=made_of(
-            "build_explorer", of=[*map(grid_made_of, EXPLORED), cases_made_of()]
+            "build_explorer",
+            of=[
+                *map(grid_made_of, EXPLORED),
+                *map(motions_made_of, EXPLORED),
+                *map(figure_made_of, FIGURES),
+            ],
         ),
     shell:
         "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"

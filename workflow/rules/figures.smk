@@ -24,6 +24,7 @@ rule draw_figure:
     wildcard_constraints:
         study="|".join(sorted({*GRIDS, STUDY.name})),
         figure="|".join(sorted({name for _, name in FIGURES})) or "none",
+    priority: 2  # shown as soon as their data are there
     conda:
         "../envs/disc_model.yaml"
     params:
@@ -33,7 +34,7 @@ rule draw_figure:
         ),
         title=lambda wildcards: json.dumps(figure_of(wildcards).caption),
         caption=lambda wildcards: figure_of(wildcards).caption,
-        made_of=lambda wildcards: figure_made_of(wildcards),
+        made_of=lambda wildcards: figure_made_of((wildcards.study, wildcards.figure)),
         files=lambda wildcards: [
             f"{name}={file}" for name, file in files_of(wildcards).items()
         ],

@@ -58,8 +58,8 @@ def files_of(wildcards):
     return {role: file(name) for role, name in figure.inputs.items()}
 
 
-def figure_made_of(wildcards):
-    figure = figure_of(wildcards)
+def figure_made_of(entry):
+    figure = FIGURES[entry]
     inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
     of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
     return made_of("draw_figure", figure.plot.module, of=of)
@@ -80,6 +80,10 @@ def motion_file(study, key):
 def motions_of(study):
     """The one file of motions of a study, or none."""
     return [motion_file(study, key) for key in GRIDS[study].motions]
+
+
+def motions_made_of(study):
+    return made_of("compute_motions", *GRIDS[study].sources, of=[*GRIDS[study].motions])
 
 
 def explorer_pictures():

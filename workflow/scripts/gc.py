@@ -9,7 +9,7 @@ from pathlib import Path
 
 from disc_model.errors import script
 
-FOLDERS = ("batches", "merged", "motions", "logs/compute_batch", "logs/merge_batches", "logs/compute_motions")
+FOLDERS = ("batches", "motions", "logs/compute_batch", "logs/compute_motions")
 
 
 @script
