@@ -41,7 +41,7 @@ def test_every_option_reaches_the_parameters(command: Command) -> None:
 def test_help_shows_units_defaults_choices_and_the_version(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "200")
     out = command.out("run", "--help")
-    for part in ("(N m s)", "as_published|orthonormal", "separable|bonded", "first_separation"):
+    for part in ("(N m s)", "as_published|orthonormal", "unilateral|bilateral", "first_separation"):
         assert part in out
     assert "-1 for a rigid disc, auto: as many as" in out
     assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
