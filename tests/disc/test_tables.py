@@ -123,7 +123,7 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
 
 def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
     """With a byte order mark, rows without text, and blanks around names; a radius has the digits that it needs."""
-    disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3, tangential=[0.0, -0.02, 0.03])
+    disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3)
     text = disc_table(P.replace(disc=disc))
     assert "shape_at_0.073_m" in text
     (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")

@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 import numpy as np
+import pytest
 import xarray as xr
 from matplotlib.collections import LineCollection
 
@@ -93,6 +94,20 @@ def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -
     assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
     phrase = {"quiet", "separation", "no cycle found", "paper: quiet", "paper: separation"}
     assert phrase <= set(labels(figure))
+
+
+def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
+    dims = ("Omega", "N", "disc", "contact")
+    axes = {"Omega": [10.0, 20], "N": [8000.0], "disc": ["a", "b"], "contact": ["unilateral", "bilateral"]}
+    study = outcomes(dims, axes, np.full((2, 1, 2, 2), 3))
+    top = np.full((2, 1, 2, 2), 0.01)
+    top[..., 1] = 0.05
+    study = study.assign(u_max=(dims, top), u_min=(dims, -top)).assign_attrs(base='{"disc": "table"}')
+    figure = draw("late_range", study, by="disc", thickness=0.01)
+    lines = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
+    assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
+    assert len(figure.axes) == 2
+    assert {"8 kN", "unilateral contact", "separates"} <= set(labels(figure))
 
 
 # ---- growth
