@@ -23,14 +23,6 @@ STUDIES = {
     "answer_maps": "maps.answer_map",
     "failure_maps": "maps.failure_map",
 }
-
-
-def measured_of(part):
-    """Hash of the sources of a part of the benchmark."""
-    name, _, _ = STUDIES[part.partition("/")[0]].partition(".")
-    return made_of("measure", "benchmarks.methods", f"benchmarks.{name}")
-
-
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
@@ -69,8 +61,10 @@ rule measure:
     threads: 1024
     params:
         made_of=lambda wildcards: measured_of(wildcards.part),
-        study=lambda wildcards: STUDIES[wildcards.part.partition("/")[0]],
-        of=lambda wildcards: wildcards.part.partition("/")[2].replace("_", " ", 1),
+        study=lambda wildcards: benchmark_study(wildcards.part),
+        of=lambda wildcards: " ".join(Path(wildcards.part).parts[1:]).replace(
+            "_", " ", 1
+        ),
         compiled=lambda wildcards: (
             "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
         ),

@@ -98,6 +98,17 @@ def explorer_pictures():
             }
 
 
+def benchmark_study(part):
+    """Module and function of the study to which a part of the benchmark belongs."""
+    return STUDIES[Path(part).parts[0]]
+
+
+def measured_of(part):
+    """Hash of the sources of a part of the benchmark."""
+    name = benchmark_study(part).partition(".")[0]
+    return made_of("measure", "benchmarks.methods", f"benchmarks.{name}")
+
+
 @cache
 def unrecorded():
     """Results without a record of Snakemake, which would take them for up to date."""
