@@ -8,6 +8,7 @@ results. An expression is made of the methods of `Sources`. This script evaluate
 from __future__ import annotations
 
 import json
+import math
 import re
 from functools import cache
 from pathlib import Path
@@ -23,7 +24,7 @@ import disc_model as dm
 from disc_model.analysis.sobol import share
 from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.errors import script
 from disc_model.paper.measures import CaseView
 
@@ -239,6 +240,30 @@ class Sources:
         speeds = np.concatenate([np.ravel(study.sel(horizon=horizon)) for study in studies])
         return speeds[np.isfinite(speeds)]
 
+    def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
+        """Range of the slider late in the motion on the brake-like disc, in thicknesses."""
+        point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
+        return float(point["u_max"] - point["u_min"]) / 0.012
+
+    def brake_separation(self, disc: str, N: float, Omega: float) -> float:
+        """Time of the first separation on the brake-like disc, s."""
+        point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact="unilateral")
+        return float(point["first_separation"])
+
+    def brake_mode(self, Omega: float) -> float:
+        """Frequency of the mode of steady sliding that grows fastest on the brake-like disc at 8 kN, Hz."""
+        rows = self.grid("brake_convergence").sel(disc="11 modes", contact_compliance=0)
+        rows = rows.isel(value=int(abs(rows["value"] - Omega).argmin()))
+        return float(rows["frequency"][int(rows["mode_growth_rate"].fillna(-np.inf).argmax())])
+
+    def couple_speed(self, N: float) -> float:
+        """Critical speed within 500 s with orthonormal modes and friction on the surface, rad/s."""
+        return float(self.grid("critical_speed_couple")["critical_speed"].sel(N=N))
+
+    def orthonormal_speed(self, N: float) -> float:
+        """The same with friction in the middle plane."""
+        return float(self.grid("critical_speed_orthonormal")["critical_speed"].sel(N=N, horizon=500))
+
     def crossings(self, normalization: str, effect: str = "") -> int:
         """Number of crossings in the Campbell diagram, all or those with an effect on the cycle's growth rate."""
         names = flag_names(self.grid("campbell").sel(normalization=normalization)["crossing_effect"])
@@ -391,6 +416,34 @@ class Sources:
 
     def growth(self, **changed: float) -> float:
         return dm.floquet(_parameters(**changed)).growth_rate
+
+    def sliding(self, **changed: Any) -> float:
+        """Largest growth rate of steady sliding at 385 N with orthonormal modes, 1/s."""
+        case = {"N": 385, "normalization": "orthonormal"} | changed
+        return dm.steady_sliding(_parameters(**case)).growth_rate
+
+    def stiffening(self, thicknesses: float) -> float:
+        """Static stiffness of the lowest mode without nodal diameters at a deflection, over that of linear theory.
+
+        One mode by von Karman's equations, its radial displacement by polynomials, clamped inside and free outside.
+        """
+        p = _parameters(N=385, normalization="orthonormal")
+        modes, (x, weights) = mode_arrays(p), np.polynomial.legendre.leggauss(60)
+        width = p.b - p.a
+        r = p.a + width * (x + 1) / 2
+        fine = np.linspace(p.a, p.b, 2001)
+        shape = mode_shapes(p, fine)[0] / modes.psi[0]
+        slope = np.interp(r, fine, np.gradient(shape, fine, edge_order=2))
+        powers, part = np.arange(1, 9), ((r - p.a) / width)[:, None]
+        strains = np.stack([powers * part ** (powers - 1) / width, part**powers / r[:, None]])
+        law = p.E * p.h / (1 - p.nu**2) * np.array([[1, p.nu], [p.nu, 1]])
+        area = weights * width / 2 * math.tau * r
+        bent = np.stack([slope**2 / 2, 0 * slope])
+        matrix = np.einsum("k,ab,aki,bkj->ij", area, law, strains, strains)
+        free = np.linalg.solve(matrix, -np.einsum("k,ab,ak,bki->i", area, law, bent, strains))
+        strain = strains @ free + bent
+        energy = np.einsum("k,ab,ak,bk->", area, law, strain, strain) / 2
+        return float(1 + 4 * energy * (p.h * thicknesses) ** 2 * modes.psi[0] ** 2 / modes.omega[0] ** 2)
 
     def stick_slip_frequency(self) -> float:
         return 1 / dm.floquet(_parameters(N=385, Omega=15)).period

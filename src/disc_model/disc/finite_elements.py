@@ -86,7 +86,7 @@ def disc_of_section(
 ) -> Disc:
     """Find the modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
     skfem = _skfem()
-    iron = Parameters(N=0, Omega=0, E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
+    iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     raise_faults(
         violations(
