@@ -10,7 +10,7 @@ import pytest
 
 from disc_model.data.variables import Variable, flag_names
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import STATUS, STATUSES, Point, quantity_names, quantity_of
+from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity, quantity_names, quantity_of
 from tests.studies.conftest import compute, computed
 from tests.studies.refused import parse_grid
 
@@ -81,7 +81,7 @@ def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> N
     options = quantity.model_validate(OPTIONS[name])
     assert 0 < options.seconds < 600
     assert options.batch_size >= 1
-    assert bool(quantity.motions) == bool(quantity.motion) == ("state_at" in vars(quantity))
+    assert bool(quantity.motions) == bool(quantity.motion) == (quantity.state_at is not Quantity.state_at)
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
     assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)
 
