@@ -65,7 +65,8 @@ def reproduced(expression: str, text: str, value: Value, spec: str) -> bool:
         if re.match(tolerance["expression"], expression):
             relative, absolute = tolerance.get("relative", 0.0), tolerance.get("absolute", 0.0)
             words, numbers = zip(*(_parts(one) for one in (text, shown(value, spec))), strict=True)
-            return words[0] == words[1] and bool(np.allclose(*numbers, rtol=relative, atol=absolute * (1 + 1e-9)))
+            first, second = numbers
+            return words[0] == words[1] and np.allclose(first, second, rtol=relative, atol=absolute * (1 + 1e-9))
     return False
 
 
@@ -226,8 +227,8 @@ class Sources:
         from disc_model.figures.sliding import agreement, common_points
 
         studies = (self.grid("map_c_p"), self.grid("sliding").rename(value="c_p"))
-        order = (each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies)
-        plane, linear = common_points(*order, ("N", "c_p"))
+        moved, slid = (each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies)
+        plane, linear = common_points(moved, slid, ("N", "c_p"))
         words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
         return int((words == word).sum()) if word else words.size
 
@@ -253,8 +254,8 @@ class Sources:
     def brake_mode(self, Omega: float) -> float:
         """Frequency of the mode of steady sliding that grows fastest on the brake-like disc at 8 kN, Hz."""
         rows = self.grid("brake_convergence").sel(disc="11 modes", contact_compliance=0)
-        rows = rows.isel(value=int(abs(rows["value"] - Omega).argmin()))
-        return float(rows["frequency"][int(rows["mode_growth_rate"].fillna(-np.inf).argmax())])
+        row = rows.isel(value=int(np.abs(rows["value"].values - Omega).argmin()))
+        return float(row["frequency"].values[np.nanargmax(row["mode_growth_rate"].values)])
 
     def couple_speed(self, N: float) -> float:
         """Critical speed within 500 s with orthonormal modes and friction on the surface, rad/s."""

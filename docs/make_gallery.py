@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 from matplotlib.animation import FuncAnimation, PillowWriter
@@ -102,7 +103,7 @@ def page_of(shown: list[tuple[str, str]]) -> str:
 @script
 def main() -> None:
     results, docs = Path("results"), Path("docs")
-    axes = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
+    axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
     axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
