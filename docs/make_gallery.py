@@ -32,6 +32,9 @@ OF_GRIDS = (
     "sliding_coalescence",
     "sliding_outcome",
     "ramps",
+    "brake_range",
+    "brake_growth",
+    "map_couple",
 )
 """Figures of grid studies; where they are not there, the pictures of an earlier run stay."""
 OF_BENCHMARK = {
