@@ -455,7 +455,7 @@ MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal con
 
 
 def _parameters(**changed: Any) -> dm.Parameters:
-    return dm.Parameters(**({"N": 200, "Omega": 20} | changed))
+    return dm.Parameters(**({"N": 200, "Omega": 20, "normalization": "as_published"} | changed))
 
 
 @cache
