@@ -83,7 +83,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     cases = STUDIES[SMALL].replace("N: 385, Omega: 15}", "Omega: 1.50e+1, N: 385.0}")
     listed = re.findall(r"  [FX]\w*: .*\n", cases)
     (project.folder / SMALL).write_text(cases.replace("".join(listed), "".join(listed[::-1])))
-    project.edit(MAP, "[100, 200.0, 300]", "[3.0e+2, 100, '200', 100.00]")
+    project.edit(MAP, "[100, 200.0, 300]", "[3.0e+2, 100.00, '200']")
     project.edit(MAP, "[10, 15, 20, 25]", "[25, 20, 15, 10]")
     for path in [*(project.folder / "src").rglob("*.py"), *(project.folder / "workflow/scripts").glob("*.py")]:
         path.write_text(path.read_text() + "\n# a comment\n")

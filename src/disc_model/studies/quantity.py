@@ -21,7 +21,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, Status, sug
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.ranges import Blocks, Ruled
-from disc_model.units import Seconds, Tolerance, must
+from disc_model.units import Tolerance, must
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -187,25 +187,6 @@ class EarlyEnd(Quantity):
 
     tol: Tolerance = 1e-10
     early_end: bool = True
-
-
-class AfterTransient(Start, Quantity):
-    """A quantity of the motion after a transient.
-
-    transient : s, left out
-    """
-
-    tol: Tolerance = 1e-10
-    transient: Seconds
-
-    motions: ClassVar = 8
-    motion: ClassVar = "After the transient."
-
-    def state_at(self, point: Point) -> State:
-        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
-        from disc_model.simulation.api import state_after
-
-        return state_after(point.parameters, point.start, self.transient, self.tol)
 
 
 def quantity_names() -> list[str]:

@@ -12,8 +12,9 @@ from disc_model.analysis.settling import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import raise_faults, violations
 from disc_model.simulation.case import Poincare
-from disc_model.studies.quantity import SIMULATED, STATUS, AfterTransient, Coordinate, Point
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point
 from disc_model.studies.ranges import MOST
+from disc_model.studies.transient import AfterTransient
 from disc_model.units import Count, Finite, Seconds, Unit
 
 if TYPE_CHECKING:

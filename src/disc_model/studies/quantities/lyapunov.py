@@ -9,7 +9,8 @@ from pydantic import Field
 
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
-from disc_model.studies.quantity import SIMULATED, STATUS, AfterTransient, Coordinate, Point
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point
+from disc_model.studies.transient import AfterTransient
 from disc_model.units import Count, Seconds
 
 CONVERGED = ("unknown", "no", "yes")
