@@ -455,7 +455,8 @@ MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal con
 
 
 def _parameters(**changed: Any) -> dm.Parameters:
-    return dm.Parameters(**({"N": 200, "Omega": 20, "normalization": "as_published"} | changed))
+    values: dict[str, Any] = {"N": 200, "Omega": 20, "normalization": "as_published"}
+    return dm.Parameters(**(values | changed))
 
 
 @cache
