@@ -16,7 +16,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
-from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
+from disc_model.errors import Fault, raise_faults, suggestion
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.progress import counting
@@ -248,11 +248,8 @@ def sweep(
     >>> growth["status"].sel(Omega=10).values.tolist()
     ['ok', 'ok']
     """
-    numbers = foreign_case(case) or (
-        case.numbers.keys() | RATIOS | {"n_diameters", "n_circles", "disc", "normalization"}
-    )
-    if isinstance(numbers, list):
-        raise ParameterError(*numbers)
+    raise_faults(foreign_case(case))
+    numbers = case.numbers.keys() | RATIOS | {"n_diameters", "n_circles", "disc", "normalization"}
     arguments = inspect.signature(function).parameters
     takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
     axes = {name: [*values] if np.iterable(values) and not isinstance(values, str) else [values]
