@@ -5,16 +5,15 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
-from matplotlib.animation import FuncAnimation, PillowWriter
-from matplotlib.artist import Artist
+from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 from PIL import Image
 
 import disc_model as dm
-from disc_model.data.dataset import load_cases
+from disc_model.data.dataset import load_cases, samples
 from disc_model.errors import script
-from disc_model.figures.disc import colour_of, draw_circle, draw_disc, scale_of
-from disc_model.figures.drawing import BLACK, styled
+from disc_model.figures.disc import film
+from disc_model.figures.drawing import styled
 from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 
@@ -64,30 +63,17 @@ def shrink(source: Path, target: Path) -> Path:
     return target
 
 
-def film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
-    """Write the motion of disc and slider as an animated picture, .gif or .webp, with at most `frames` frames.
+def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
+    """Write the motion of disc and slider as an animated picture, with at most `frames` frames.
 
     Raises `Missing` if the case does not hold the windows `around0`, ...
     """
-    motion = motion_of(case)
-    step = max(1, motion.time.size // frames)
+    whole, window = motion_of(case), samples(case, "around0")
+    part = slice(None, None, max(1, whole.time.size // frames))
+    arrays = {name: getattr(whole, name)[..., part] for name in ("time", "amplitudes", "slider", "u", "phase")}
     with styled():
-        figure = Figure(figsize=(6.0, 2.5))
-        figure.set_layout_engine("none")  # panels keep their places in all frames
-        disc, circle = (figure.add_axes(box) for box in ((0.01, 0.05, 0.38, 0.9), (0.48, 0.19, 0.5, 0.68)))
-        scale = scale_of(motion)
-
-        def draw(i: int) -> list[Artist]:
-            for ax in (disc, circle):
-                ax.cla()
-            draw_disc(disc, motion, i, scale)
-            draw_circle(circle, motion, i, 7)
-            circle.set_ylim(scale.vmin, scale.vmax)
-            text = f"{1e3 * (motion.time[i] - motion.time[0]):5.1f} ms, {motion.phase[i]}"
-            circle.set_title(text, color=colour_of(motion, i, BLACK))
-            return [disc, circle]
-
-        animation = FuncAnimation(figure, draw, frames=range(0, motion.time.size, step), blit=False)
+        figure = Figure(figsize=(6.4, 2.7))
+        animation = film(figure, whole._replace(**arrays), window["time"].values, window["P"].values)
         path.parent.mkdir(parents=True, exist_ok=True)
         animation.save(path, writer=PillowWriter(fps=12), dpi=100)
 
@@ -116,7 +102,7 @@ def main() -> None:
         small = shrink(results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png")
         shown.append((small.name, " ".join(entry.title.split())))
     (case,) = load_cases([results / "paper" / "cases" / "F02.nc"]).values()
-    film(case, docs / "gallery" / "film.webp")
+    write_film(case, docs / "gallery" / "film.webp")
     shown.append(("film.webp", FILM))
     texts = {name: (entries[name][0], entries[name][1].plot.caption) for name in OF_GRIDS}
     texts |= {name: ("bench", text) for name, text in OF_BENCHMARK.items()}

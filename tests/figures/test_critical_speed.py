@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
-from disc_model.figures.growth_map import Curve
+from disc_model.figures.curves import Curve
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed
 
@@ -26,7 +26,7 @@ def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
     scanned = computed(quantity="critical_speed", options=options, axes={"N": LOADS, "normalization": ["as_published"]})
     monkeypatch.setattr(critical_speed, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
     curves = xr.Dataset({"n_continuation_failures": 2})
-    return lambda **others: draw("thresholds", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS)
+    return lambda **others: draw("critical_speed", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS)
 
 
 def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[..., Figure]) -> None:

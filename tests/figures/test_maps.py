@@ -12,7 +12,6 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.drawing import save
 from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
-from tests.studies.conftest import growth_over
 
 NORMS = ["as_published", "orthonormal"]
 STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
@@ -108,22 +107,3 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
     assert len(figure.axes) == 2
     assert {"8 kN", "unilateral contact", "separates"} <= set(labels(figure))
-
-
-# ---- growth
-
-
-def test_a_growth_map_names_curves_and_gaps(plane: xr.Dataset) -> None:
-    growth = growth_over(LOADS, SPEEDS)
-    growth["growth_rate"] /= 100  # to the rates of the paper
-    growth.attrs = {"title": "Growth", "base": '{"c_p": 0.5}'}
-    mapped = draw("growth_map", growth, {"curves": plane})
-    assert mapped.get_suptitle() == "Growth\n$c_p$ = 0.5 N s/m"
-    assert mapped.axes[0].get_xlim() == (5, 18)
-    assert {"cycle loses stability", "no cycle found"} <= set(labels(mapped))
-    assert [text.get_text() for text in mapped.axes[-1].get_yticklabels()] == ["−0.1", "−0.01", "0", "0.01", "0.1"]
-    both = xr.concat([growth, growth.assign_coords(normalization=NORMS[1:])], "normalization")
-    assert len(draw("growth_map", both).axes) == 3  # two panels and the colour bar
-    assert not draw("growth_map", growth.assign(growth_rate=xr.full_like(growth["growth_rate"], 0.1))).legends
-    none = growth.assign(growth_rate=growth["growth_rate"] * np.nan)
-    assert labels(draw("growth_map", none)) == ["no cycle found"]

@@ -6,8 +6,8 @@ import xarray as xr
 from matplotlib.text import Annotation
 
 from disc_model.figures import ramps as drawn
+from disc_model.figures.curves import Curve
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.growth_map import Curve
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -141,5 +141,5 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
         assert np.isfinite(shown[label].get_xdata()).tolist() == [True, False]
     # nothing is known of any
     growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
-    (ax,) = draw("thresholds", with_failed(lost, N=400), {"curves": plane, "cycle": growth}).axes
+    (ax,) = draw("critical_speed", with_failed(lost, N=400), {"curves": plane, "cycle": growth}).axes
     assert crosses(ax) == [[200, 400]]

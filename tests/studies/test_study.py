@@ -101,8 +101,14 @@ def test_keys_given_twice(tmp_path: Path) -> None:
 
 
 def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
-    figure = {"f": {"kind": "growth_map", "overlays": {"curves": "elsewhere"}}}
-    plane = {"study": "three", "quantity": "floquet", "axes": {"N": [1], "Omega": [1]}, "figures": figure}
+    figure = {"f": {"kind": "region_map", "x": "Omega", "y": "N", "overlays": {"curves": "elsewhere"}}}
+    plane = {
+        "study": "three",
+        "quantity": "regions",
+        "options": {"horizon": 1},
+        "axes": {"N": [1], "Omega": [1]},
+        "figures": figure,
+    }
     texts = {"one": "study: one\nquantity: outcome\n", "three": json.dumps(plane)}
     texts["five"] = json.dumps({"study": "five", "cases": {"A": CASE}})
     for name, text in texts.items():

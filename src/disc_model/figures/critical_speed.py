@@ -12,6 +12,7 @@ from pydantic import Field
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
 from disc_model.figures.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
+from disc_model.figures.curves import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -29,7 +30,6 @@ from disc_model.figures.drawing import (
     Figure,
     panels,
 )
-from disc_model.figures.growth_map import LOAD, SPEED, curves_of, draw_curves, parted, span
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
 from disc_model.units import Finite
 
@@ -58,8 +58,6 @@ class CriticalSpeed(Plot):
         "basins": Role("basins", ("Omega",)),
     }
 
-    one_horizon: ClassVar[bool] = False
-
     kind: Literal["critical_speed"] = "critical_speed"
     paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
@@ -85,9 +83,6 @@ class CriticalSpeed(Plot):
             shown = curves if cycle is None else parted(curves, cycle)[0]
             handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
         horizons = sorted(study["horizon"].values)[::-1]
-        if self.one_horizon:  # that of the map behind, if any, else the longest
-            behind = stated_in(cycle, "options")["horizon"] if cycle is not None and "outcome" in cycle else None
-            horizons = [behind] if behind in horizons else horizons[:1]
         _starts(axes[0], study, horizons)
         if self.paper_points:
             load, speed = np.transpose([*self.paper_points.values()])
@@ -109,16 +104,6 @@ class CriticalSpeed(Plot):
             handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0
         )
         return figure
-
-
-class Thresholds(CriticalSpeed):
-    """Where the cycle becomes unstable and where separation follows, on one chart."""
-
-    roles: ClassVar[Roles] = {"curves": CURVES._replace(required=True), "cycle": CYCLE}
-
-    one_horizon = True
-
-    kind: Literal["thresholds"] = "thresholds"  # type: ignore[assignment]
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -9,8 +9,8 @@ import xarray as xr
 
 from disc_model.data.variables import stated_in
 from disc_model.figures import drawing
+from disc_model.figures.curves import crossings, curves_of
 from disc_model.figures.drawing import Figure, panels
-from disc_model.figures.growth_map import crossings, curves_of
 from disc_model.figures.kind import CURVES, Plot, Roles
 
 

@@ -11,8 +11,8 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault
 from disc_model.figures import cells, drawing
 from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
+from disc_model.figures.curves import curves_of, draw_curves, parted, span
 from disc_model.figures.drawing import BORDERS, MODES, PAGE, Artist, Axes, Figure, Line2D, panels
-from disc_model.figures.growth_map import curves_of, draw_curves, parted, span
 from disc_model.figures.kind import CURVES, Roles, Values
 from disc_model.figures.stability_map import StabilityMap, finish, legend_above, planes
 

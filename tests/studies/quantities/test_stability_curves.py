@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.growth_map import curves_of
+from disc_model.figures.curves import curves_of
 from tests.stability.toy_map import fold_at, outside
 
 

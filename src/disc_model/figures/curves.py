@@ -1,8 +1,8 @@
-"""Growth maps: the growth rate of the stick-slip cycle over speed and preload, its neutral curves and folds."""
+"""Neutral curves and folds of the stick-slip cycle over speed and preload, as maps and charts draw them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,59 +10,12 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, typeset
 from disc_model.figures import drawing
-from disc_model.figures.cells import CYCLE_LOOKS, growth_panels, patches
-from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, Artist, Axes, Figure, Line2D, panels
-from disc_model.figures.kind import CURVES, Plot, Roles
+from disc_model.figures.drawing import BLACK, Axes, Line2D
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
 
-OTHER: dict[str, Any] = {
-    "color": GREY,
-    "linewidth": 1.0,
-    "label": "end of another cycle's stability",
-}
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
-
-
-class GrowthMap(Plot):
-    """Growth rate of the stick-slip cycle over speed and preload, a panel for each normalization.
-
-    Of the quantity `regions` it is that of the cycle that the static start follows.
-    """
-
-    quantities = ("floquet", "regions")
-    needs = ("N", "Omega")
-    several = True
-    named_above = True
-    roles: ClassVar[Roles] = {"curves": CURVES}
-
-    kind: Literal["growth_map"] = "growth_map"
-
-    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each normalization, with the further study ``curves`` if it is given."""
-        other_look = OTHER | {"path_effects": drawing.halo(2.0)}
-        norms = drawing.normalizations(study)
-        figure, axes = panels(PAGE if len(norms) > 1 else COLUMN, 2.9, 1, len(norms), sharey=True)
-        grids = [drawing.of(study, norm).transpose("N", "Omega", ...) for norm in norms]
-        gaps = growth_panels(figure, axes, grids)
-        data = [drawing.of(overlays["curves"], norm) for norm in norms] if "curves" in overlays else []
-        curves = [curves_of(dataset) for dataset in data] or [[] for _ in norms]
-        shown, others = zip(*map(parted, curves, grids), strict=True)
-        for ax, grid, other in zip(axes, grids, others, strict=True):
-            ax.set(xlabel=SPEED, xlim=span(grid["Omega"].values), ylim=span(grid["N"].values))
-            for curve in other:
-                ax.plot(curve.Omega, curve.N, **other_look)
-        drawing.letters(axes, [drawing.MODES[norm] for norm in norms], pad=12)
-        axes[0].set_ylabel(LOAD)
-        handles: list[Artist] = [
-            *draw_curves(axes, shown, data),
-            *([drawing.sample(**other_look)] if any(others) else []),
-        ]
-        handles += patches(CYCLE_LOOKS, gaps)
-        if handles:
-            figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(norms) > 1 else 1)
-        return figure
 
 
 @dataclass(frozen=True, eq=False)
