@@ -17,7 +17,10 @@ from disc_model.figures.drawing import styled
 from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 
-SHOWN = tuple(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1"))
+SHOWN = (
+    "composite",
+    *(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1")),
+)
 OF_GRIDS = (
     "branches",
     "figB2",
@@ -48,7 +51,7 @@ COLUMNS = 3
 """Pictures in a row of the page."""
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
-PAGE = 2161
+PAGE = 2055
 """Pixels of such a figure as it was drawn."""
 
 

@@ -22,7 +22,11 @@ STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
 FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}
 ONE_OF_EACH = list({plot.kind: name for name, plot in FIGURES.items()}.values())
 """A figure of each kind."""
-ZOOMS = {"fig26": (("spectrum_c", 54.0), ("spectrum_d", 57.0)), "fig28": (("spectrum_d", 56.5), ("spectrum_d", 57.0))}
+MOVED = {
+    "fig26": {"zooms": (("spectrum_c", 54.0), ("spectrum_d", 57.0))},
+    "fig28": {"zooms": (("spectrum_d", 56.5), ("spectrum_d", 57.0))},
+    "composite": {"force": ("spectrum_d", 57.0)},
+}
 """Closer looks at times that the made-up case has."""
 
 
@@ -33,9 +37,7 @@ def holding_less(damage: str) -> xr.DataTree:
 
 
 def drawn(name: str, case: xr.DataTree) -> Figure:
-    plot = FIGURES[name]
-    if name in ZOOMS:
-        plot = plot.model_copy(update={"zooms": ZOOMS[name]})
+    plot = FIGURES[name].model_copy(update=MOVED.get(name, {}))
     return plot.render(dict.fromkeys(plot.cases, case))
 
 

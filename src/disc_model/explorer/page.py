@@ -162,7 +162,7 @@ def _format(value: Any) -> str:
 
 PICTURE_WIDTH = 1100
 """Width of a page-wide figure, pixels; narrower ones are scaled alike."""
-PAGE_WIDTH = 2161
+PAGE_WIDTH = 2055
 """Width of such a figure as drawn, pixels."""
 QUALITY = 80
 SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")

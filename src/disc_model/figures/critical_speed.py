@@ -100,9 +100,7 @@ class CriticalSpeed(Plot):
             ax.set_xlabel(SPEED)
             handles += ax.get_legend_handles_labels()[0]
         axes[0].set_ylabel(LOAD)
-        figure.legend(
-            handles=handles, loc="outside lower center", ncols=2 * len(axes) - (len(axes) > 1), columnspacing=1.0
-        )
+        figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(axes) > 1 else 1, columnspacing=1.0)
         return figure
 
 

@@ -52,9 +52,9 @@ else:  # names for annotations, without matplotlib
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
-COLUMN = 89 / 25.4
+COLUMN = 84 / 25.4
 """Width of one column, inch."""
-PAGE = 183 / 25.4
+PAGE = 174 / 25.4
 """Width of both columns, inch."""
 
 BLUE, SKY = "#0072B2", "#56B4E9"

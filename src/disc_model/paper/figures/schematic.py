@@ -3,16 +3,21 @@
 The page docs/model.md shows the same drawing.
 """
 
-from collections.abc import Sequence
-from typing import Any, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SLIDER, Axes, Figure
-from disc_model.figures.kind import CasePlot
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import flag_names
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SEPARATED, SLIDER, STICK, Axes, Figure, panels
+from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
 from disc_model.parameters import Parameters
+from disc_model.units import Finite, Positive, Unit
 
 Point = tuple[float, float] | NDArray[np.float64]
 SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
@@ -21,6 +26,13 @@ SMALL = 8.0
 """Size of the text that is no symbol, in points."""
 OUTER = 1.2
 """Radius of the disc as drawn."""
+STRETCH, PALE, DARK = 0.04, "0.72", "#8a5a00"
+"""Of the composite: its stretch of contact force, s; colours of ignored separation, and of words on the slider."""
+PHASES: dict[str, dict[str, Any]] = {
+    "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
+    "separation": {"facecolor": SEPARATED, "alpha": 0.35},
+}
+"""Looks of phases that differ in grey print as well; slip is white."""
 
 
 class Schematic(CasePlot):
@@ -30,6 +42,99 @@ class Schematic(CasePlot):
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         return sketch(Parameters.model_validate_json(cases[0].attrs["parameters"]))
+
+
+class Composite(CasePlot):
+    """The whole in one picture: the model, the disc's vibration with separation and without, and the contact force.
+
+    ignored : the case with bilateral contact
+    force : window of the contact force, and the time in s at which the stretch shown begins
+    until : s, end of the part of the runs that is shown
+    """
+
+    shows = (("history", as_ranges),)
+
+    kind: Literal["paper.composite"] = "paper.composite"
+    ignored: str
+    history: str = "history"
+    force: tuple[str, Finite]
+    until: Annotated[Positive, Unit("s")]
+
+    @property
+    def others(self) -> tuple[str, ...]:
+        return (self.ignored,)
+
+    def needs(self) -> Iterator[Need]:
+        yield from super().needs()
+        yield Need("force", self.case, self.force[0], [as_samples])
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
+        model, growth, force = axes
+        _small(model)
+        with drawing.blank_if_missing(growth):
+            self._growth(growth, *cases)
+        with drawing.blank_if_missing(force):
+            self._force(force, cases[0])
+        drawing.letters(axes)
+        return figure
+
+    def _growth(self, ax: Axes, case: xr.DataTree, other: xr.DataTree) -> None:
+        followed, ignored = (drawing.history(each, self.history, self.until) for each in (case, other))
+        drawing.envelope(ax, ignored, "w_point", color=PALE)
+        drawing.envelope(ax, followed, "w_point")
+        top = 1e3 * float(ignored["w_point_max"].max()) or 1.0
+        for share, text, colour in ((1.24, "separation ignored", "0.35"), (1.06, "with separation", DISC)):
+            ax.text(ax.get_xlim()[1], share * top, text, ha="right", color=colour, fontsize=7, fontweight="bold")
+        ax.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.4 * top))
+        if (lost := float(case["first_separation"])) <= ax.get_xlim()[1]:
+            ax.axvline(lost, ymax=0.86, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
+            drawing.say(ax, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED)
+        drawing.show_thickness(ax, case, "y")
+
+    def _force(self, ax: Axes, case: xr.DataTree) -> None:
+        name, start = self.force
+        part = dataset.samples(case, name).sel(time=slice(start, start + STRETCH))
+        if part.sizes["time"] < 2:
+            raise Missing(f"has no samples from {start:g} s on")
+        time, words = 1e3 * (part["time"].values - start), flag_names(part["phase"])
+        half = (time[1] - time[0]) / 2
+        for word, look in PHASES.items():
+            for i, (a, b) in enumerate(drawing.stretches(words == word)):
+                label = "_nolegend_" if i else word
+                ax.axvspan(max(time[a] - half, 0), time[b - 1] + half, label=label, linewidth=0, **look)
+        ax.plot(time, part["P"], color=BLACK, linewidth=1.1)
+        ax.set(xlabel="Time (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH), ylim=(0, None))
+        if ax.patches:
+            drawing.legend_above(ax)
+
+
+def _small(ax: Axes) -> None:
+    """Draw the model from the side with the fewest words."""
+    from matplotlib.patches import Rectangle
+
+    x = np.linspace(-2.0, 2.6, 200)
+    ax.plot(x, 0.2 * np.sin(1.6 * x + 0.5) - 0.1, color=DISC, lw=3)
+    ax.text(-2.0, -0.75, "elastic disc", color=DISC, fontsize=7)
+    ax.add_patch(Rectangle((-0.55, 0.05), 1.1, 0.55, fc=BODY, ec=BLACK, lw=1.2))
+    ax.text(0, 0.31, "slider", ha="center", va="center", fontsize=7)
+    _wall(ax, (-0.6, 1.6), (0.6, 1.6), (0.12, 0.14))
+    _join(ax, SPRING, (0, 0.6), (0, 1.6))
+    _arrow(ax, (0, 2.35), (0, 1.8))
+    ax.text(0.15, 2.1, "preload", fontsize=7)
+    _wall(ax, (1.8, 0.05), (1.8, 0.65), (0.13, 0.12))
+    _join(ax, SPRING, (0.55, 0.32), (1.8, 0.32))
+    _arrow(ax, (1.85, 0.95), (2.6, 0.95))
+    ax.text(2.6, 1.08, "drive", ha="right", fontsize=7)
+    _arrow(ax, (-0.65, 0.22), (-1.45, 0.22), colour=FORCE)
+    ax.text(-2.0, 0.38, "friction", color=FORCE, fontsize=7)
+    _arrow(ax, (-0.8, 0.8), (-0.8, 1.35), style="<|-|>", colour=SLIDER)
+    ax.text(-0.95, 1.07, "bounces", ha="right", va="center", color=DARK, fontsize=7)
+    _arrow(ax, (0.4, 0.8), (1.2, 0.8), style="<|-|>", colour=SLIDER)
+    ax.text(0.8, 0.95, "sticks,\nslips", ha="center", color=DARK, fontsize=7)
+    ax.set(xlim=(-2.1, 2.7), ylim=(-0.95, 2.5))
+    ax.set_box_aspect(1.05)
+    ax.axis("off")
 
 
 def sketch(p: Parameters) -> Figure:
