@@ -21,7 +21,7 @@ import xarray as xr
 import yaml
 
 import disc_model as dm
-from disc_model.analysis.sobol import share
+from disc_model.analysis.classify import share
 from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays, mode_shapes
@@ -313,26 +313,23 @@ class Sources:
         value, low, high = (float(point[f"probability_{event}{end}"]) for end in ("", "_low", "_high"))
         return f"{value:.2f} ({low:.2f} to {high:.2f})"
 
-    def largest_indices(self, study: str, N: float) -> str:
-        """The three parameters with the largest total indices of instability."""
-        indices = self.uncertain(study, N)["sobol_total"].sel(output="instability").to_series().round(2)
-        return ", ".join(f"{name} {index:.2f}" for name, index in indices.nlargest(3).items())
-
-    def largest_sum(self) -> float:
-        """Largest sum of the first-order indices of instability at a point."""
-        grids = [self.grid(study)["sobol_first"].sel(output="instability") for study in STUDIES]
-        return max(float(grid.sum("parameter").max()) for grid in grids)
-
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
         """Probability of instability in thirds of a parameter's range."""
         from disc_model.figures.sensitivity import probabilities
 
-        return probabilities(self.uncertain(study, N), parameter)[1]
+        return probabilities(self.uncertain(study, N), parameter)[:, 0]
 
     def largest_change(self, study: str, N: float) -> float:
         """By how much a parameter changes the probability of instability at most."""
         names = self.uncertain(study, N)["parameter"].values
         return max(float(np.ptp(self.thirds(study, N, name))) for name in names)
+
+    def most_changing(self, study: str, N: float) -> str:
+        """The three parameters that change the probability of instability most, between thirds of their ranges."""
+        names = map(str, self.uncertain(study, N)["parameter"].values)
+        changes = {name: float(np.ptp(self.thirds(study, N, name))) for name in names}
+        largest = sorted(changes, key=lambda name: -changes[name])[:3]
+        return ", ".join(f"{name} {changes[name]:.2f}" for name in largest)
 
     # ---- docs/model_sensitivity.md, which `make survival` writes, and other pages
 
@@ -450,7 +447,6 @@ class Sources:
         return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
 
 
-STUDIES = ("sensitivity", "sensitivity_orthonormal")
 MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal contact force")
 
 

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from disc_model.analysis import classify
-from disc_model.analysis.classify import motion_of, separation_location, zero_one
+from disc_model.analysis.classify import motion_of, separation_location, share, zero_one
 from disc_model.data.variables import Outcome
 
 
@@ -105,3 +106,25 @@ def test_where_a_sine_loses_contact(angle: float, kind: str, height: float) -> N
     assert found.height == pytest.approx(height, abs=0.01)
     ahead = np.sin(angle + np.linspace(0, np.pi, 10_000))
     assert found.to_lowest == pytest.approx((ahead[0] - ahead.min()) / 2, abs=1e-3)
+
+
+# ---- shares
+
+
+def test_a_share_has_wilsons_interval() -> None:
+    z = stats.norm.ppf(0.95)  # two-sided, 0.9
+    for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
+        centre, half = (k + z**2 / 2) / (n + z**2), z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+        # the ends at 0 and 1 cancel to roundings here
+        expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
+        assert share(k, n, confidence=0.9) == expected
+    assert share(0, 40).low == 0
+    assert share(40, 40).high == 1
+
+
+def test_what_is_unknown_counts_against_both_ends() -> None:
+    found = share(9, 40, unknown=5)
+    assert found.value == 9 / 40
+    assert found.low == share(9, 45).low < share(9, 40).low
+    assert found.high == share(14, 45).high > share(9, 40).high
+    assert share(0, 0, unknown=3)[1:] == (0, 1)

@@ -71,7 +71,7 @@ def test_a_number_that_is_not_that_of_the_results_is_corrected() -> None:
         ("basin(10, 'quiet')", "0.40 (0.26 to 0.55)", "0.42 (0.28 to 0.58)", True),
         ("basin(10, 'quiet')", "0.40 (0.26 to 0.55)", "0.50 (0.35 to 0.65)", False),
         ("verdicts('holds')", "two", 4.0, False),
-        ("largest_indices('sensitivity', 200)", "h 0.64, E 0.50", "h 0.65, k 0.50", False),
+        ("most_changing('sensitivity', 200)", "h 0.64, E 0.50", "h 0.65, k 0.50", False),
     ],
 )
 def test_results_of_another_processor_may_differ_where_a_last_bit_decides(expression, text, value, right) -> None:

@@ -15,22 +15,17 @@ from tests.studies.quantities import test_sensitivity as uncertain
 def test_instability_against_each_parameter() -> None:
     """Made up so that a sample is unstable where mu_s is above its middle: k does not matter."""
     study = uncertain.made_up()
-    drawn = study["parameter_values"].transpose("N", "sample", "sample_matrix", "parameter").values
-    middle = np.median(drawn[..., 1])
-    pick = [0, 1, 0, 1]  # of A, B, A with k from B, A with mu_s from B
+    drawn = study["parameter_values"].transpose("N", "sample", "parameter").values
     words = study["cycle"].attrs["flag_meanings"].split()
-    states = np.where(drawn[..., pick, 1] > middle, words.index("unstable"), words.index("stable"))
-    states[..., 2:] = words.index("unstable")  # the probability at all values is that of A and B, as the thirds are
-    study["cycle"] = (("N", "sample", "variant"), states.astype(np.int8), study["cycle"].attrs)
+    states = np.where(drawn[..., 1] > np.median(drawn[..., 1]), words.index("unstable"), words.index("stable"))
+    study["cycle"] = (("N", "sample"), states.astype(np.int8), study["cycle"].attrs)
     for N in range(study.sizes["N"]):
-        _, share, error = sensitivity.probabilities(study.isel(N=N), "mu_s")
-        np.testing.assert_allclose([share[0], share[-1], error[0], error[-1]], [0, 1, 0, 0], atol=1e-12)
-        _, share, error = sensitivity.probabilities(study.isel(N=N), "k")
-        assert np.all(np.abs(share - 0.5) < 5 * error)
+        of_mu, of_k = (sensitivity.probabilities(study.isel(N=N), name) for name in ("mu_s", "k"))
+        assert of_mu[[0, -1], 0].tolist() == [0, 1]
+        assert np.all((of_k[:, 1] < 0.5) & (of_k[:, 2] > 0.5))
     figure = draw("sensitivity", study)
-    assert len(figure.axes) == 2 * study.sizes["N"]
-    assert figure.subfigs[0].get_suptitle().startswith("Preload N = 200 N, unstable ")
-    assert [ax.get_xlabel() for ax in figure.axes[-2:]] == ["k\n(kN/m)", "$μ_s$"]
+    assert len(figure.axes) == study.sizes["N"]
+    assert [text.get_text() for text in figure.axes[0].get_yticklabels()] == ["k", "$μ_s$"], "what matters is above"
 
 
 def made_up_crossings() -> xr.Dataset:

@@ -1,1 +1,1 @@
-"""Analysis of recorded signals: Poincaré sections, spectra, classification of motions; and Sobol indices of samples."""
+"""Analysis of recorded signals: Poincaré sections, spectra, classification of motions, and shares of samples."""

@@ -213,3 +213,29 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     else:
         kind = "rising" if moving > 0 else "falling"
     return Location(kind, where, drop)
+
+
+# ----------------------------------------------------------------------------------------------------
+# Shares of samples
+
+
+class Share(NamedTuple):
+    """A share and the ends of its interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> Share:
+    """Share of hits among trials with a known result, with its Wilson interval.
+
+    unknown : number of further trials; they count as misses at the lower end of the interval and as hits at the upper
+    """
+    from scipy.stats import binomtest
+
+    if trials == 0:
+        return Share(np.nan, 0.0, 1.0)
+    low = binomtest(hits, trials + unknown).proportion_ci(confidence, "wilson").low
+    high = binomtest(hits + unknown, trials + unknown).proportion_ci(confidence, "wilson").high
+    return Share(hits / trials, float(low), float(high))

@@ -34,8 +34,7 @@ from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 from scipy.signal import find_peaks
 
-from disc_model.analysis.classify import shortest_period
-from disc_model.analysis.sobol import share
+from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored

@@ -8,18 +8,18 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from disc_model.analysis.classify import share
 from disc_model.data.variables import (
     EXCLUDED,
     SAMPLE,
     STABLE_CYCLES,
     flag_names,
     presentation_of,
-    stated_in,
     typeset,
 )
 from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, PAGE, Axes, Figure, new_figure
+from disc_model.figures.drawing import BLACK, BLUE, GREY, PAGE, Figure, panels
 from disc_model.figures.kind import Plot, Values
 
 MOST_PANELS = 4
@@ -29,7 +29,7 @@ BINS = 3
 
 
 class Sensitivity(Plot):
-    """Probabilities with their intervals, and Sobol indices of each distributed parameter; for up to four points."""
+    """Probability of instability in the lowest and in the highest third of each parameter; for up to four points."""
 
     quantities = ("sensitivity",)
     several = True
@@ -43,63 +43,43 @@ class Sensitivity(Plot):
             yield Fault.of(("kind",), self.kind, rule)
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a row for each point and a panel for each parameter: probability of instability in thirds of its values.
+        """Draw a panel for each point and a row for each parameter, those above that change most somewhere.
 
         Bars are 95 % intervals; the dashed line is the probability at all values.
         """
-        cells, names = list(cells_of(study)), [str(name) for name in study["parameter"].values]
-        figure = new_figure(PAGE, 0.6 + 1.5 * len(cells))
-        separates = f"separates within {stated_in(study, 'options')['horizon']:g} s"
-        for part, (title, cell) in zip(figure.subfigures(len(cells), 1, squeeze=False)[:, 0], cells, strict=True):
-            axes = part.subplots(1, len(names), sharey=True, squeeze=False)[0]
-            for ax, name in zip(axes, names, strict=True):
-                _panel(ax, cell, name)
-            phrase = "; ".join(
-                f"{what} {float(cell[key]):.2f} ({float(cell[f'{key}_low']):.2f} to {float(cell[f'{key}_high']):.2f})"
-                for what, key in (("unstable", "probability_unstable"), (separates, "probability_separation"))
-                if np.isfinite(cell[key])
-            )
-            part.suptitle(f"{title}, {phrase}", x=0.01, ha="left", fontsize=8)
-            axes[0].set_ylabel("P(unstable)")
+        cells = list(cells_of(study))
+        names = [str(name) for name in study["parameter"].values]
+        names.sort(
+            key=lambda name: max(abs(float(np.diff(probabilities(cell, name)[[0, -1], 0])[0])) for _, cell in cells)
+        )
+        figure, axes = panels(PAGE, 1.2 + 0.2 * len(names), 1, len(cells), sharey=True)
+        for ax, (title, cell) in zip(axes, cells, strict=True):
+            ax.axvline(float(cell["probability_unstable"]), color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
+            thirds = np.array([probabilities(cell, name) for name in names])
+            rows = np.arange(len(names), dtype=float)
+            ax.hlines(rows, thirds[:, 0, 0], thirds[:, -1, 0], color=GREY, linewidth=0.8)
+            for end, up, face, label in ((0, -0.12, "white", "lowest third"), (-1, 0.12, BLUE, "highest third")):
+                value, low, high = thirds[:, end].T
+                look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markerfacecolor": face, "markersize": 4}
+                bars = np.maximum([value - low, high - value], 0.0)  # rounding
+                ax.errorbar(value, rows + up, xerr=bars, elinewidth=0.8, label=f"{label} of its values", **look)
+            ax.set(xlabel="P(unstable)", xlim=(-0.03, 1.03), ylim=(-0.6, len(names) - 0.4))
+            ax.set_title("\n".join(title.replace("Preload ", "").replace("Speed ", "").split(", ")), loc="left")
+        axes[0].set_ylabel("Parameter")
+        axes[0].set_yticks(rows, labels=[typeset(presentation_of(name)[1]) or name.replace("_", " ") for name in names])
+        axes[0].minorticks_off()
         figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
         return figure
 
 
 def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
-    """Probability of instability in each part of a parameter's values: middle, probability, standard error; (3, parts).
-
-    The draws A and B count, as in the probability at all values; errors are those of samples.
-    """
-    draws = cell["parameter_values"].sel(parameter=name).transpose(SAMPLE, "sample_matrix").values
-    words = flag_names(cell["cycle"].sel(variant=["A", "B"]).transpose(SAMPLE, "variant"))
-    known = words != "failed"
-    unstable = ~np.isin(words, STABLE_CYCLES)
-    edges = np.quantile(draws, np.linspace(0, 1, BINS + 1))
-    part = np.clip(np.searchsorted(edges, draws, side="right") - 1, 0, BINS - 1)
-    handles = []
-    for i in range(BINS):
-        mask = known & (part == i)
-        count, hits = mask.sum(axis=1), (mask & unstable).sum(axis=1)
-        share = hits.sum() / count.sum()
-        handles.append((edges[i : i + 2].mean(), share, np.sqrt(np.sum((hits - share * count) ** 2)) / count.sum()))
-    return np.transpose(handles)
-
-
-def _panel(ax: Axes, cell: xr.Dataset, name: str) -> None:
-    middle, share, error = probabilities(cell, name)
-    whole = float(cell["probability_unstable"])
-    ax.axhline(whole, label="all values", color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
-    look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markersize": 2.5, "capsize": 1.5}
-    half = np.minimum(1.96 * error, [share, 1 - share])
-    ax.errorbar(middle, share, half, label="a third of the values, with its interval", **look)
-    ends = np.quantile(cell["parameter_values"].sel(parameter=name), [0, 1])
-    _, symbol, unit, factor = presentation_of(name)
-    label = typeset(symbol) or name.replace("_", " ")
-    ax.set_xticks(ends, labels=[f"{end * factor:.3g}" for end in ends], fontsize=6)
-    for text, side in zip(ax.get_xticklabels(), ("left", "right"), strict=True):  # clear of the neighbours
-        text.set(horizontalalignment=side)
-    ax.minorticks_off()
-    ax.set(xlabel=f"{label}\n({unit})" if unit else label, ylim=(-0.03, 1.03))
+    """Probability of instability in each part of a parameter's values, and the ends of its interval: (parts, 3)."""
+    values, words = cell["parameter_values"].sel(parameter=name).values, flag_names(cell["cycle"])
+    known, unstable = words != "failed", ~np.isin(words, STABLE_CYCLES)
+    edges = np.quantile(values, np.linspace(0, 1, BINS + 1))
+    part = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, BINS - 1)
+    counts = [(int((unstable & known & (part == i)).sum()), int((known & (part == i)).sum())) for i in range(BINS)]
+    return np.array([share(*count) for count in counts])
 
 
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:

@@ -109,7 +109,7 @@ class AttractorBasins(Start, Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
-        from disc_model.analysis.sobol import share
+        from disc_model.analysis.classify import share
 
         sample = _Sample(point, self)
         results = sample.found
@@ -192,7 +192,7 @@ class _Sample:
 
 def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
     """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
-    from disc_model.analysis.sobol import share
+    from disc_model.analysis.classify import share
 
     shares = [
         [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]

@@ -1,15 +1,9 @@
-"""Sensitivity: the stick-slip cycle at samples of distributed parameters.
+"""Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol' sequence.
 
-Each sample is drawn twice, as A and as B, from one scrambled Sobol' sequence. The sequence has twice as many dimensions
-as there are distributed parameters. For each parameter, a variant of A takes this parameter from B: the design of
-Saltelli et al. (2010) for first-order and total indices, see `disc_model.analysis.sobol`. A sample depends only on the
-seed and its own number.
-
-Probabilities of instability and separation among the samples, and the parameters that decide them.
-
-Fractions of the cycles refer to all draws, A and B, and fractions of the outcomes to the simulated ones. The Wilson
-intervals assume independent samples. Quasi-random samples are more even, so that their errors are mostly smaller. A
-failed sample is neither stable nor unstable: the lower and upper ends of an interval count it as one and as the other.
+A sample depends only on the seed and its own number. Fractions of the cycles refer to all samples, and fractions of the
+outcomes to the simulated ones. The Wilson intervals assume independent samples. Quasi-random samples are more even, so
+that their errors are mostly smaller. A failed sample is neither stable nor unstable: the lower and upper ends of an
+interval count it as one and as the other.
 """
 
 from __future__ import annotations
@@ -44,12 +38,11 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Row,
-    listed,
     tried,
     with_ends,
 )
 from disc_model.studies.ranges import Blocks, Ruled, Rules
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Unit, Units, is_number
+from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,7 +54,6 @@ SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
 sticks and slips, immediate separation, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
-DRAWS = ("A", "B")
 # ----------------------------------------------------------------------------------------------------
 # Distributions of uncertain parameters
 
@@ -132,9 +124,6 @@ Array = NDArray[np.float64]
 FAILED = "failed"
 FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_simulated", FAILED))
 KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
-OUTPUTS = ("instability", "growth_rate")
-"""Outputs with Sobol indices: absence of a stable motion (1, else 0), and the cycle's growth rate, capped."""
-_INDEX = ("output", "parameter")
 
 
 def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Variable]:
@@ -151,7 +140,6 @@ class Sensitivity(Quantity):
     seed : whole number; a sample depends only on it and on the sample's own number
     simulated_samples : number of samples, from the first on, whose motion is simulated as well
     horizon : s, of this simulation
-    growth_rate_cap : 1/s; larger growth rates count as this in their indices, since a few would dominate the variance
     tol : tolerance of the cycles; motion_tol : tolerance of the motions
     """
 
@@ -161,7 +149,6 @@ class Sensitivity(Quantity):
     seed: Annotated[Count, Field(ge=0)] = 0
     simulated_samples: Annotated[Count, Field(ge=0)] = 0
     horizon: Seconds = 500.0
-    growth_rate_cap: Annotated[Positive, Unit("1/s")] = 0.5
     tol: CycleTolerance = 1e-12
     motion_tol: Tolerance = 1e-10
 
@@ -177,48 +164,33 @@ class Sensitivity(Quantity):
     over: ClassVar = SAMPLE
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "parameter_values": Variable(
-            "", "values of the distributed parameters, SI units", dims=("sample_matrix", "parameter")
-        ),
-        "cycle": Variable("1", "class of the cycle near the static start", SAMPLE_CYCLES, dims=("variant",)),
-        "growth_rate": Variable(
-            "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one", dims=("variant",)
-        ),
-        "outcome": Variable("1", "what becomes of the static start of A within the horizon", SAMPLE_OUTCOMES),
+        "parameter_values": Variable("", "values of the distributed parameters, SI units", dims=("parameter",)),
+        "cycle": Variable("1", "class of the cycle near the static start", SAMPLE_CYCLES),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"),
+        "outcome": Variable("1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES),
         "first_separation": SCALARS["first_separation"],
     }
     COORDINATES: ClassVar = {
-        "sample_matrix": Coordinate("", "one of the two draws of a sample", lambda o: DRAWS),
         "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
-        "variant": Coordinate(
-            "", "draw A, draw B, or A with this parameter taken from B", lambda o: (*DRAWS, *sorted(o.distributions))
-        ),
     }
     SUMMARY_COLUMNS: ClassVar = {
-        "n_known_cycles": Variable("1", "number of draws, A and B, whose cycle is known", whole=True),
-        "n_known_outcomes": Variable("1", "number of draws whose outcome is known", whole=True),
+        "n_known_cycles": Variable("1", "number of samples whose cycle is known", whole=True),
+        "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
         **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
         **_with_interval(
-            "cycle_fraction", "share of the draws near whose static start there is this", ("cycle_class",)
+            "cycle_fraction", "share of the samples near whose static start there is this", ("cycle_class",)
         ),
-        **_with_interval("outcome_fraction", "share of the followed draws that have this outcome", ("outcome_class",)),
-        **_with_interval("sobol_first", "first-order Sobol index", _INDEX),
-        **_with_interval("sobol_total", "total Sobol index", _INDEX),
-        "excluded_fraction": Variable(
-            "1", "share of samples that the indices leave out: an output is missing", dims=("output",)
-        ),
+        **_with_interval("outcome_fraction", "share of the simulated samples with this outcome", ("outcome_class",)),
     }
     SUMMARY_COORDINATES: ClassVar = {
         "cycle_class": Coordinate("", "class of the cycle near the static start", lambda o: KNOWN),
         "outcome_class": Coordinate("", "what becomes of the static start", lambda o: FOLLOWED),
-        "output": Coordinate("", "of what the indices are", lambda o: OUTPUTS),
-        "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
     }
 
     @property
     def seconds(self) -> float:
-        return CYCLE * (2 + len(self.distributions)) + SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
+        return CYCLE + SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:
@@ -277,46 +249,36 @@ class Sensitivity(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one sample about the point's own parameters."""
         p, names = point.parameters, sorted(self.distributions)
-        shares = unit_draws(self.seed, len(names), point.sample)
         numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
-        marginals = [(self.distributions[name], float(numbers[name])) for name in names]
-        drawn = np.array([[quantile(*of_name, x) for of_name, x in zip(marginals, row, strict=True)] for row in shares])
-        rows = [dict(zip(names, row, strict=True)) for row in variants(drawn).tolist()]
-        cycles, messages = zip(*(tried("cycle", evaluate, p, row, self.tol) for row in rows), strict=True)
-        values = listed(cycles) | {"status": "ok", "parameter_values": drawn, "outcome": "not_simulated"}
+        row = unit_draw(self.seed, len(names), point.sample)
+        drawn = [
+            quantile(self.distributions[name], float(numbers[name]), x) for name, x in zip(names, row, strict=True)
+        ]
+        p = p.replace(**dict(zip(names, drawn, strict=True)))
+        cycle, message = tried("cycle", evaluate, p, self.tol)
+        values = {"status": "ok", "parameter_values": np.array(drawn), "outcome": "not_simulated", **cycle}
+        messages = [message]
         if point.sample < self.simulated_samples:
-            more, message = tried("outcome", _followed, p.replace(**rows[0]), self)
+            more, message = tried("outcome", _followed, p, self)
             values |= more
-            messages += (message,)
+            messages.append(message)
         return values, "; ".join(dict.fromkeys(filter(None, messages)))
 
     def summarise(self, cell: xr.Dataset) -> dict[str, Any]:
         """Summarise over the samples that no rule of the grid leaves out."""
-        from disc_model.analysis.sobol import Indices, sobol_intervals
-
         cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
         if not cell.sizes["sample"]:
             return {}
-        words = flag_names(cell["cycle"].transpose("sample", "variant"))
-        drawn = words[:, : len(DRAWS)].ravel()
-        outcomes = flag_names(cell["outcome"])
+        cycles, outcomes = flag_names(cell["cycle"]), flag_names(cell["outcome"])
         outcomes = outcomes[outcomes != "not_simulated"]
         values: dict[str, Any] = {
-            "n_known_cycles": np.count_nonzero(drawn != FAILED),
+            "n_known_cycles": np.count_nonzero(cycles != FAILED),
             "n_known_outcomes": np.count_nonzero(outcomes != FAILED),
         }
-        values |= _shares("cycle_fraction", drawn, [(word,) for word in KNOWN])
+        values |= _shares("cycle_fraction", cycles, [(word,) for word in KNOWN])
         values |= _shares("outcome_fraction", outcomes, [(word,) for word in FOLLOWED])
-        values |= _shares("probability_unstable", drawn, [UNSTABLE])
+        values |= _shares("probability_unstable", cycles, [UNSTABLE])
         values |= _shares("probability_separation", outcomes, [("separation",)])
-        # of the indices: (samples, variants), nan where not known
-        unstable = np.where(words == FAILED, np.nan, np.isin(words, UNSTABLE))
-        growth_rate = cell["growth_rate"].transpose("sample", "variant").values
-        outputs = unstable, np.minimum(growth_rate, self.growth_rate_cap)
-        indices = [sobol_intervals(output, self.seed) for output in outputs]
-        for name in Indices._fields:
-            values[f"sobol_{name}"] = np.array([getattr(index, name) for index in indices])
-        values["excluded_fraction"] = np.array([np.mean(~np.isfinite(output).all(axis=1)) for output in outputs])
         return values
 
 
@@ -345,17 +307,17 @@ EDGE = 1e-10
 """Fraction of a normal distribution that is cut off, in both tails together."""
 
 
-def unit_draws(seed: int, count: int, number: int) -> Array:
-    """A and B of one sample, shape (2, count), in the unit cube."""
+def unit_draw(seed: int, count: int, number: int) -> Array:
+    """Point of one sample in the unit cube, shape (count,)."""
     block, row = divmod(number, BLOCK)
-    return _block(seed, count, block)[row].reshape(2, count)
+    return np.asarray(_block(seed, count, block)[row], dtype=float)
 
 
 @lru_cache(maxsize=8)
 def _block(seed: int, count: int, block: int) -> Array:
     from scipy.stats import qmc
 
-    sequence = qmc.Sobol(2 * count, scramble=True, rng=np.random.default_rng(seed))
+    sequence = qmc.Sobol(count, scramble=True, rng=np.random.default_rng(seed))
     if block:  # scipy rejects 0
         sequence.fast_forward(block * BLOCK)
     return np.asarray(sequence.random(BLOCK), dtype=float)
@@ -377,21 +339,15 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     return float(scale * min(max(value, low), high))
 
 
-def variants(drawn: Array) -> Array:
-    """A, B, and A with each parameter in turn taken from B: shape (2 + n, n), of draws of shape (2, n)."""
-    a, b = drawn
-    return np.vstack([a, b, np.where(np.eye(len(a), dtype=bool), b, a)])
-
-
 # ----------------------------------------------------------------------------------------------------
 # Results of one sample
 
 
-def evaluate(p: Parameters, values: Mapping[str, float], tol: float) -> tuple[Row, str]:
-    """Compute the cycle of a case with some parameters replaced: its class and growth rate (1/s), and a message."""
+def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
+    """Compute the cycle of a sample: its class and growth rate (1/s), and a message."""
     from disc_model.stability.cycle import floquet
 
-    cycle = floquet(p.replace(**values), tol=tol)
+    cycle = floquet(p, tol=tol)
     word = cycle_word(cycle)
     return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == "failed" else ""
 
@@ -415,7 +371,7 @@ def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
 
 def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
     """Fraction of each class of words among those that are known, with its interval."""
-    from disc_model.analysis.sobol import share
+    from disc_model.analysis.classify import share
 
     known = words[words != FAILED]
     shares = np.array([share(int(np.isin(known, word).sum()), len(known), len(words) - len(known)) for word in classes])
