@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Status, Window
+from disc_model import ParameterError, Status
 from disc_model.data.variables import CycleStatus
 from disc_model.errors import DiscModelError, Fault, StatusBase, script
 from disc_model.stability.sliding import SlidingStatus
@@ -48,13 +48,6 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     for error in (ParameterError(fault, "k=nan: must be finite"), StudyError("a: b", "c: d", source="x.yaml")):
         again = pickle.loads(pickle.dumps(error))
         assert (str(again), again.faults) == (str(error), error.faults)
-
-
-def test_a_changed_copy_is_checked() -> None:
-    window = Window(**WINDOW)
-    assert window.replace(theta=2).rate == window.rate
-    assert faults_of(window.replace, theta="x") == ["theta='x': must be a number"]
-    assert faults_of(window.model_copy, update={"rate": 0}) == ["rate=0: must be > 0"]
 
 
 # ---- statuses

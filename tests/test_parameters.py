@@ -1,6 +1,5 @@
 """Parameters: validation, one error for all faults, hashing, copies."""
 
-import inspect
 import json
 import pickle
 import re
@@ -12,19 +11,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pydantic import BaseModel, ValidationError
 
 from disc_model import Disc, ParameterError, Parameters
 from tests.processes import python
-
-
-def test_nested_in_another_schema_the_message_is_kept() -> None:
-    class Study(BaseModel):
-        case: Parameters
-
-    assert Study(case={"N": 1, "Omega": 2}).case == Parameters(N=1, Omega=2)
-    with pytest.raises(ValidationError, match=r"N=-1: must be >= 0"):
-        Study(case={"N": -1, "Omega": 2})
 
 
 def test_numbers_may_come_as_text_or_numpy_scalars() -> None:
@@ -70,13 +59,6 @@ def test_immutable_hashable_picklable() -> None:
         p.N = 3
     assert pickle.loads(pickle.dumps(p)) == p
     assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1
-
-
-def test_help_says_meaning_unit_range_and_default_of_each() -> None:
-    text = inspect.getdoc(Parameters)
-    assert "nu : Poisson's ratio of the disc (> -1, < 0.5, default 0.211)" in text
-    assert "N : preload pressing the slider onto the disc (N, >= 0, required)" in text
-    assert all(f"\n{name} : " in text for name in Parameters.model_fields)
 
 
 def test_a_notebook_shows_a_table() -> None:

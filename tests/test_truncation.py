@@ -3,7 +3,6 @@
 import pytest
 
 from disc_model import Parameters, choose_modes
-from disc_model.cli.case import parameters_of
 from disc_model.mode_choice import RICH, frequency_error
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
@@ -29,23 +28,6 @@ def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, toleran
     assert frequency_error(chosen, rich) == pytest.approx(choice.error, rel=1e-9)
     smaller = chosen.replace(n_diameters=chosen.n_diameters - 1)
     assert frequency_error(smaller, rich) > tolerance
-
-
-def test_files_and_command_lines_may_leave_the_choice() -> None:
-    values = {"N": 385, "Omega": 15.1}
-    p, choice = parameters_of({**values, "n_diameters": "auto", "truncation_tolerance": "1e-2"}, [])
-    assert choice == choose_modes(P, 1e-2)
-    assert p == choice.parameters
-    assert p == Parameters(**values, n_diameters=p.n_diameters, n_circles=p.n_circles)
-    assert parameters_of({**values, "n_diameters": "auto"}, [])[0] == choose_modes(P, 1e-3).parameters
-    assert parameters_of({**values, "n_diameters": 5}, []) == (Parameters(**values, n_diameters=5), None)
-
-
-def test_chosen_parameters_are_those_given_outright() -> None:
-    """They were unequal, although key and hash agreed, and a copy lost the record of the choice."""
-    chosen = choose_modes(P, 1e-3).parameters
-    assert chosen == Parameters(N=385, Omega=15.1, n_diameters=3)
-    assert chosen.model_copy() == chosen
 
 
 @pytest.mark.compiled

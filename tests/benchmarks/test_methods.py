@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 import pytest
 
-from disc_model import simulate
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, kernels, scipy_ivp
 from disc_model.benchmarks.methods.base import Problem, RunStatus
@@ -14,10 +13,9 @@ from disc_model.benchmarks.scenes import answer, problem
 from disc_model.benchmarks.work_precision import fitted_order
 from tests import needs
 from tests.benchmarks.problems import BASE, judge, task
-from tests.references.printed import MOTIONS, P, Printed, lively
+from tests.references.printed import MOTIONS, P, Printed
 
 SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
-SEPARATING = [name for name, method in METHODS.items() if method.settings.get("separating") and not method.absent()]
 UP = np.sign(Physics(P).shape)
 """Amplitudes that lift the disc under the slider."""
 
@@ -93,68 +91,8 @@ def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lift
         np.testing.assert_allclose(getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size)
 
 
-def meets(name, p, start, kind, span):
-    """A method meets one switch, and when the engine does; its final state and the engine's."""
-    right = simulate(p, span, tol=1e-13, initial_state=start)
-    result = solved(name, Problem(p, start, span), 1e-10)
-    assert result.kinds == tuple(right.events["kind"]) == (kind,)
-    assert result.times[0] == pytest.approx(right.events["time"][0], abs=1e-9)
-    return result.final, right.final_state
-
-
-@pytest.mark.parametrize("name", SHORT)
-def test_each_switch_is_met_when_it_must_be(name):
-    # stick breaks on both sides: with the spring near its limit, and a drive so slow that the contact force decides
-    slow = P.replace(Omega=0.5)
-    for side in (1, -1):
-        start = lively("stick", p=slow)
-        start = start.replace(psi=side * 0.98 * P.mu_s * Printed(slow, start).force() / (P.r_0 * P.k_p))
-        first = simulate(slow, 5e-3, tol=1e-13, initial_state=start).events["time"][0]
-        assert meets(name, slow, start, "stick_to_slip", first + 1e-6)[0].direction == side
-    # the disc, thrown up, pulls away; the run ends before it is back
-    start = lively("slip", 1)
-    start = start.replace(a=start.a + 1e-4 * UP, alpha=start.alpha + 2.0 * UP)
-    start = start.replace(u=Physics(P).disc_point(Physics(P).pack(start))[0])
-    meets(name, P, start, "separation", 1e-4)
-    # a falling slider lands
-    start = lively("separation")
-    start = start.replace(u=start.u - 1e-3 + 5e-5, u_velocity=start.u_velocity - 0.5)
-    ours, engines = meets(name, P, start, "reattachment", 4e-4)
-    assert ours.f == pytest.approx(engines.f, rel=1e-6)
-
-
 # ----------------------------------------------------------------------------------------------------
 # Orders
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "order", "margin"),
-    [
-        ("RK4", (2e-4, 1e-4, 5e-5, 2.5e-5), 4, 0.3),
-        ("RK45", (1e-5, 1e-6, 1e-7, 1e-8), 5, 0.6),
-        ("DOP853", (1e-6, 1e-7, 1e-8, 1e-9), 8, 1.2),
-        ("Radau", (1e-3, 1e-4, 1e-5), 5, 1.2),
-        *((name, (1e-5, 1e-7, 1e-9), 0, 0) for name in ("heyoka", "LSODA", "CVODE")),
-    ],
-)
-def test_theoretical_order_on_smooth_motion(name, values, order, margin):
-    """Slip without any switch: steady sliding with the disc set ringing. Methods of variable order follow their tol."""
-    if METHODS[name].absent():
-        pytest.skip(needs.RIVALS.reason)
-    physics = Physics(BASE)
-    start = scenes.static_start(BASE)
-    psi = BASE.mu_k * BASE.N / (BASE.k_p * BASE.r_0)
-    y = physics.pack(start.replace(psi=psi, f=BASE.Omega, alpha=2e-4 * physics.omega))
-    motion = Problem(BASE, physics.unpack(0.0, "slip", 1, y), 0.05)
-    exact = METHODS["series"].solve(motion, 1e-15)
-    results = [METHODS[name].solve(motion, value) for value in values]
-    assert all(result.kinds == () for result in (exact, *results))
-    off = np.array([physics.distance(result.final, exact.final) for result in results])
-    if order:
-        assert fitted_order(np.array([result.work for result in results]), off) == pytest.approx(order, abs=margin)
-    else:
-        assert off[2] < 0.1 * off[1] < 0.01 * off[0]
-        assert off[2] < 1e-5
 
 
 # ----------------------------------------------------------------------------------------------------

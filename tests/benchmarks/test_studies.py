@@ -14,12 +14,10 @@ from disc_model.benchmarks import answers, figures, maps, study
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
-from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
-from disc_model.benchmarks.scenes import Verdict, errors
+from disc_model.benchmarks.scenes import Verdict
 from disc_model.benchmarks.truncation import truncation_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import mode_arrays
 from disc_model.figures.drawing import save
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
@@ -188,16 +186,6 @@ def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_pa
     assert titles[0] == f"(a) {METHODS['RK4'].label}"
     assert len(titles) == 5
     save(figure, tmp_path / "maps.png")
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("diameters", [2, 4])
-def test_observed_stability_limit_is_the_linear_one(diameters):
-    """2 sqrt(2)/omega_max is exact for a linear undamped system; stick-slip and damping shift it by 3 % at most."""
-    problem, right = (find("stick_slip", diameters) for find in (maps.short_problem, maps.engine_answer))
-    limit = STABILITY_LIMIT / float(mode_arrays(problem.parameters).omega.max())
-    results = [METHODS["RK4"].solve(problem, share * limit) for share in (0.97, 1.03)]
-    assert [errors(problem, right, result).verdict is Verdict.UNSTABLE for result in results] == [False, True]
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -13,7 +13,6 @@ import yaml
 
 import disc_model as dm
 from disc_model import mode_choice
-from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.disc.tables import disc_table
 from disc_model.simulation.states import engine_case
@@ -94,13 +93,6 @@ def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> Non
     assert dm.Parameters.model_validate_json(p.canonical_json) == p
 
 
-def test_the_residual_compliance_is_found_from_the_static_one() -> None:
-    disc = dm.Disc(**THREE, static_compliance=1e-5)
-    given = P.replace(disc=disc, contact_compliance="residual", contact_force="normal")
-    assert contact_compliance(given) == pytest.approx(1e-5 - mode_arrays(given).flexibility)
-    assert dm.simulate(given, 0.01).status == "ok"
-
-
 def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
     """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the deflection."""
     plate, r, theta = P.replace(normalization="orthonormal"), np.linspace(P.a, P.b, 41), np.linspace(0, 6, 13)
@@ -167,12 +159,6 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             dm.simulate(p, 1e-3)
             dm.coupled_natural_frequencies(p)
     assert discs > 10
-
-
-@pytest.mark.parametrize("path", ["nowhere.csv", ".", "a\0b", 5, None])
-def test_a_file_that_cannot_be_read_is_named(path: object) -> None:
-    with pytest.raises(dm.ParameterError, match="must be a text file that can be read"):
-        dm.Disc.from_csv(path)  # type: ignore[arg-type]
 
 
 OWN = "study: own\nbase: {{disc: {}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"

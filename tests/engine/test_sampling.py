@@ -1,12 +1,9 @@
 """Samples at the very instant of a switch: the side before it, whichever way the switch is reached."""
 
 import numpy as np
-import pytest
 
-from disc_model import Parameters, Window, simulate
-from disc_model.engine import sampling
+from disc_model import Window, simulate
 from disc_model.simulation.result import EVENT_KINDS, PHASES
-from tests.contact_laws import COMPILES, by_series
 from tests.references import printed
 
 ULP = 2.0**-52
@@ -40,23 +37,3 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
         forces = [sample["P"][0] for sample in samples]
         np.testing.assert_allclose(forces[1:6], forces[0], rtol=0, atol=1e-3)
     assert seen == set(EVENT_KINDS) - {"slip_reversal"}, "a kind of switch that changes the phase is missing"
-
-
-@pytest.mark.parametrize("tol", [1e-10, 1e-14])
-@pytest.mark.parametrize("Omega", [1.0, 5.0])
-@pytest.mark.parametrize(
-    "variant",
-    [{}, {"c": 1.0, "D_star": 1e-3}, pytest.param({"n_diameters": 7, "n_circles": 1}, marks=COMPILES)],
-    ids=str,
-)
-def test_both_ways_through_stick_agree_on_the_release(variant: dict[str, float], Omega: float, tol: float) -> None:
-    """From rest stick ends at mu_s N / (r_0 k_p Omega), 0.077 s at 1 rad/s, whatever the disc; both ways round it."""
-    p = Parameters(N=385, Omega=Omega, **variant)
-    release = p.mu_s * p.N / (p.r_0 * p.k_p * Omega)
-    windows = {"on": _window(release), "behind": _window(release * (1 + 1e-9))}
-    for ramps in ((), by_series(p)):
-        result = simulate(p, release + 2e-3, windows, tol=tol, ramps=ramps)
-        # or the samples would show nothing
-        assert abs(result.events["time"].iloc[0] - release) < sampling.SAME_INSTANT * release
-        on, behind = (PHASES[int(samples["phase"][0])] for samples in result.samples.values())
-        assert (on, behind) == ("stick", "slip"), ramps

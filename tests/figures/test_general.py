@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
 from disc_model.figures.drawing import save
-from disc_model.figures.general import CurvePlot
 from tests.figures.reading import draw, labels, lines
 
 
@@ -106,22 +105,3 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert lines(ax)["no cycle found"].get_xdata() == [0.1], "a cross where one has no value"
     assert ax.get_ylabel() == "Growth rate of disturbances\n(1/s)"
     save(figure, tmp_path / "curve.png")
-
-
-@pytest.mark.parametrize(
-    ("base", "text"),
-    [
-        ({"N": 385.0, "Omega": 15.1, "mu_s": 0.4}, "N = 385 N, Ω = 15.1 rad/s"),
-        # what varies, and an N or Omega of 0, which stands for one that the quantity varies by itself
-        ({"N": 200.0, "Omega": 0.0, "k": 3.0}, "N = 200 N"),
-        ({"N": 200.0, "normalization": "orthonormal"}, "N = 200 N, orthonormal modes"),
-    ],
-)
-def test_a_title_says_what_is_fixed_with_symbols(base: dict[str, object], text: str) -> None:
-    attrs = {"title": "Made up", "base": json.dumps(base)}
-    status = ("k", [0, 0], {"flag_meanings": "ok"})
-    study = xr.Dataset({"period": ("k", [1.0, 2.0]), "status": status}, {"k": [1.0, 2.0]}, attrs)
-    plot = CurvePlot(variable="period", x="k")
-    assert plot.render({"study": xr.DataTree(study)}).get_suptitle() == f"Made up\n{text}"
-    said_below = plot.model_copy(update={"caption": "Said below."})
-    assert said_below.render({"study": xr.DataTree(study)}).get_suptitle() == ""

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib import pyplot
-from matplotlib.figure import Figure
 from PIL import Image
 
 import disc_model as dm
@@ -59,14 +58,6 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
         run().plot(ax=axes[0])
 
 
-def test_a_spectrum_names_the_lines_that_are_there() -> None:
-    ax = run().plot_spectrum(variable="psi", highest=300)
-    events = run().events["time"][run().events["kind"] == "stick_to_slip"].to_numpy()
-    rate = 1 / np.diff(events[events > 56]).mean()
-    named = [float(text.get_text().removesuffix(" Hz")) for text in ax.texts]
-    assert np.abs(np.array(named) - rate).min() < 0.2, "the window begins before the rate has settled"
-
-
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
     run().animate(tmp_path / "film.gif", frames=3)
     with Image.open(tmp_path / "film.gif") as film:
@@ -91,14 +82,6 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     assert "fold 15.095" in [text.get_text() for text in branch.plot().texts]
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (branch, "15.0949"), (P, "15.1")):
         assert text in shown._repr_html_()
-
-
-def test_modes_are_drawn_with_their_nodal_lines() -> None:
-    from disc_model.figures.results import plot_modes
-
-    axes = plot_modes(P, 12)
-    assert [ax.get_title() for ax in axes][1] == "(1, 0)  241 Hz"
-    assert isinstance(axes[0].figure, Figure)
 
 
 def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:

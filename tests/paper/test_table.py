@@ -5,9 +5,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
-import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model.paper import SCANS, SURVIVAL_GRIDS, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
@@ -17,7 +15,6 @@ from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
 from disc_model.studies.merge import merge_cases
 from disc_model.studies.study import load_study, parse_study
-from tests.paper.made_up import kept_events
 
 ROOT = Path(__file__).parents[2]
 STUDY = load_study(ROOT / "config" / "paper.yaml")
@@ -99,15 +96,3 @@ def test_parts_make_a_statement_true_in_part() -> None:
 
 # ----------------------------------------------------------------------------------------------------
 # Measures
-
-
-def test_durations_and_shares_of_phases() -> None:
-    events = [(1.0, "reattachment", "slip"), (2.0, "separation", "separation"), (2.5, "reattachment", "slip")]
-    events += [(3.0, "separation", "separation"), (3.25, "reattachment", "slip"), (4.0, "separation", "separation")]
-    groups = {"/": xr.Dataset({"time_reached": 5.0}), "/events": kept_events(events, 0.0, 5.0)}
-    case = CaseView("X", xr.DataTree.from_dict(groups))
-    durations, still_open = case.separation_durations()
-    np.testing.assert_array_equal(durations, [0.5, 0.25])
-    assert still_open == 1.0
-    assert case.rate_of("separation") == pytest.approx(3 / 5)
-    assert case.phase_share("slip") == pytest.approx((1 + 0.5 + 0.75) / 4)

@@ -10,7 +10,6 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.analysis import classify
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
 from disc_model.paper import energy, measures, normalisation, section2, section44
@@ -142,26 +141,6 @@ def test_a_verdict_follows_from_what_there_is(case: dict[str, Any]) -> None:
     result = BY_NAME[case["row"]].judge(cases)
     assert result.verdict == case["verdict"], result
     assert case.get("phrase", "") in f"{result.here} {result.notes}"
-
-
-def test_long_periods_are_told_from_quasi_periodic_motions(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Motions that repeat after 45 and 180 releases used to be called irregular."""
-    names = ("F02", "F07", "F22", "F02free", "F07free", "F02k", "F07k", "F22k")
-    repeated = np.tile(0.05 + 0.03 * np.random.default_rng(1).random(45), 40)
-    shorter = np.tile(repeated[:44], 40)
-    monkeypatch.setattr(CaseView, "intervals", lambda case, *_: shorter if case.name == "F07k" else repeated)
-    result = BY_NAME["F05"].judge(made_up.cases({name: AS_TOLD[name] for name in names}))
-    assert result.verdict == FALSE
-    assert "300 N, 20 rad/s: periodic, repeats after 45 releases" in result.here
-    assert "repeats after 44 releases" in result.notes
-
-
-def test_between_regular_and_chaotic_nothing_is_decided(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(classify, "zero_one", lambda values: 0.5)
-    monkeypatch.setattr(CaseView, "intervals", lambda case, *_: 0.1 + 0.01 * np.random.default_rng(1).random(400))
-    cases = made_up.cases(AS_TOLD)
-    for row in ("F05", "F21q", "F21i"):
-        assert BY_NAME[row].judge(cases).verdict == NOT_COMPUTED
 
 
 # ----------------------------------------------------------------------------------------------------

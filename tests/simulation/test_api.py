@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, simulate
-from disc_model.disc.plate import mode_arrays
 from disc_model.errors import StepLimit
 from tests.simulation.equal import same
 
@@ -44,26 +43,6 @@ def test_no_call_decides_how_later_ones_are_computed(given):
     usual, expected = run(), run(**plain)
     same(run(**given), expected)
     same(run(), usual)
-
-
-STATE = simulate(P, 0.0371).final_state
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"a": np.float32, "alpha": lambda x: x[::-1].copy()[::-1], "b": np.asfortranarray},
-        {"direction": np.int8, "psi": np.longdouble, "f": Fraction},
-        {"beta": lambda x: np.zeros(len(x), int), "a": lambda x: list(map(float, x))},
-    ],
-)
-def test_a_state_is_taken_as_doubles(change):
-    assert STATE.phase == "slip"
-    given = STATE.replace(**{name: convert(getattr(STATE, name)) for name, convert in change.items()})
-    u = float(mode_arrays(P).psi @ np.asarray(given.a, float))
-    plain = {name: np.array(getattr(given, name), float) for name in ("a", "b", "alpha", "beta")}
-    expected = simulate(P, 0.1, initial_state=STATE.replace(u=u, **plain))
-    same(simulate(P, 0.1, initial_state=given.replace(u=u)), expected)
 
 
 def test_a_run_stops_at_its_first_separation():

@@ -1,7 +1,5 @@
 """What a simulation keeps: windows, envelopes, samples by the drive; and which records are refused."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -42,13 +40,6 @@ def test_the_sample_at_the_very_end_is_taken(t_end, rate):
     assert len(time) == window.count
     assert time[-1] == pytest.approx(t_end, abs=1e-15)
     assert time[-1] <= t_end
-
-
-def test_samples_by_the_drive_end_with_the_run():
-    turn = 2 * math.pi / P.Omega
-    for turns in range(1, 8):
-        taken = simulate(P, turns * turn, {"turns": Poincare()}, tol=1e-9).samples["turns"]
-        assert len(taken["time"]) == turns + 1
 
 
 def test_windows_that_the_run_does_not_enter_are_warned_of():

@@ -12,7 +12,6 @@ import pytest
 
 from disc_model import ParameterError, Parameters, Ramp, Window, simulate
 from disc_model.data.dataset import load
-from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.ramps import pieces, values_at
 from tests.contact_laws import LAWS
 from tests.simulation.equal import same
@@ -34,14 +33,6 @@ def test_rate_zero_and_a_ramp_after_the_end_change_no_bit(law):
         Ramp(parameter="Omega", to=5.0, start=0.05, end=0.06),
     )
     same(simulate(p, 0.05, windows, ramps=none), constant)
-
-
-def test_until_a_ramp_begins_all_is_as_without():
-    ramped, constant = simulate(P, 0.05, ramps=BRAKE), simulate(P, 0.05)
-    before = int((constant.events["time"] < BRAKE.start).sum())
-    assert before > 0
-    np.testing.assert_array_equal(ramped.event_rows[:before], constant.event_rows[:before])
-    assert (ramped.event_rows[before] != constant.event_rows[before]).any()
 
 
 # ------------------------------------------------------------------------ pieces
@@ -108,11 +99,3 @@ def test_a_file_says_its_ramps(tmp_path: Path):
     found = load(tmp_path / "ramped.nc")
     assert json.loads(found.attrs["ramps"]) == [BRAKE.model_dump()]
     assert "ramps" not in simulate(P, 0.005).to_tree().attrs
-
-
-def test_a_case_with_ramps_is_another_case():
-    plain = CaseSpec(parameters=P, t_end=1.0)
-    ramped = CaseSpec(parameters=P, t_end=1.0, ramps=(BRAKE,))
-    assert "ramps" not in plain.canonical
-    assert plain.key != ramped.key
-    assert CaseSpec.from_canonical(ramped.canonical) == ramped

@@ -6,30 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import Execution, ParameterError, Parameters, Poincare, Ramp, Result, State, Window, load, simulate
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, load, simulate
 from disc_model.data.dataset import MissingFile, UnreadableFile
-from disc_model.simulation.states import engine_case
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
-LONG = Parameters(N=385, Omega=15.1)
-
-
-def test_a_case_seen_before_gives_the_same_to_the_last_bit() -> None:
-    seen = simulate(LONG, 0.1)
-    engine_case.cache_clear()
-    fresh = simulate(LONG, 0.1)
-    same(seen, fresh)
-
-
-def test_two_runs_of_a_case_at_a_time_do_not_meet() -> None:
-    """A run's progress may start another run of the same case."""
-    alone = simulate(LONG, 0.5)
-    inner = []
-    outer = simulate(LONG, 0.5, execution=Execution(progress=lambda _: inner.append(simulate(LONG, 0.5))))
-    assert inner
-    for result in (outer, *inner):
-        same(result, alone)
 
 
 def test_a_result_stays_what_it_is_in_later_runs() -> None:
@@ -104,27 +85,6 @@ def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Pa
     with pytest.raises(ParameterError, match=r"must be a file written by Result\.save"):
         Result.load(tmp_path / "state.nc")
     assert [path.name for path in tmp_path.iterdir()] == ["state.nc"]
-
-
-@pytest.mark.parametrize("name", ["x" * 240, "é" * 120, "a\0b", "\ud800", "", "..", 3, None, b"x"], ids=repr)
-def test_names_that_no_file_can_have_are_refused(tmp_path: Path, name: Any) -> None:
-    result = simulate(P, 0.01)
-    path = str(tmp_path) + "/" + name if isinstance(name, str) else name
-    for use in (result.save, result.final_state.save, load, State.load):
-        with pytest.raises(ParameterError, match=r"^path=.*: must be the name of a regular file, of at most 233 bytes"):
-            use(path)
-    assert not list(tmp_path.iterdir())
-
-
-def test_values_are_shown_in_a_line() -> None:
-    result = simulate(P, 0.05)
-    assert repr(result) == (
-        f"Result(N=200 N, Omega=50 rad/s: ok at 0.05 s, no separation, {result.statistics['events']} events, 0 windows)"
-    )
-    text = repr(result.final_state)
-    assert text.startswith("State(time=0.05 s, ")
-    assert text.endswith("2 modes)")
-    assert len(text) < 140
 
 
 def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import Execution, Window, deflection, floquet
+from disc_model import Window, deflection, floquet
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES, flag_names
@@ -132,24 +132,6 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
     # as far as rounding goes: the disc's deflection is some millimetres
     assert (samples["u"] - samples["w"]).min() > -1e-15
     assert samples["P"].min() >= 0
-
-
-def test_a_release_continued_under_other_parameters_is_one_of_these() -> None:
-    """Without a jump of friction f rises with the square of the time; under less friction with the time itself."""
-    p = APART.replace(mu_k=0.4)
-    states = (simulate(p, 0.1, execution=Execution(max_steps=n)).final_state for n in range(1, 100))
-    state = next(state for state in states if any(state._roots))
-    assert (state.phase, state.f, state._roots) == ("slip", 0.0, (2, 0))
-    release = state.time
-    held = simulate(p.replace(N=500), release + 1e-6, initial_state=state)
-    assert held.final_state.phase == "stick"
-    assert not len(held.event_rows)
-    looser = p.replace(mu_k=0.24)
-    slipping = simulate(looser, release + 0.03, initial_state=state)
-    begun = simulate(looser, release + 0.03, initial_state=state.replace(f=1e-12))
-    assert len(begun.event_rows)
-    times = slipping.event_rows[:, 0]
-    np.testing.assert_allclose(times[times > release + 1e-9], begun.event_rows[:, 0], rtol=0, atol=1e-12)
 
 
 @pytest.mark.compiled

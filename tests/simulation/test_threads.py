@@ -3,10 +3,9 @@
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import numpy as np
 import pytest
 
-from disc_model import Parameters, Result, floquet, simulate
+from disc_model import Parameters, Result, simulate
 from disc_model.simulation import api
 
 P = Parameters(N=385, Omega=15.1)
@@ -26,15 +25,6 @@ def test_runs_in_threads_equal_runs_in_turn() -> None:
         together = list(threads.map(run, cases))
     assert together == list(map(run, cases))
     assert any(rows for rows, _ in together)
-
-
-@pytest.mark.compiled
-def test_cycles_in_threads_equal_cycles_in_turn() -> None:
-    cases = [P.replace(N=200.0 + 10.0 * i) for i in range(8)]
-    with ThreadPoolExecutor(4) as threads:
-        together = list(threads.map(floquet, cases))
-    for cycle, alone in zip(together, map(floquet, cases), strict=True):
-        np.testing.assert_array_equal(cycle.multipliers, alone.multipliers)
 
 
 @pytest.mark.compiled

@@ -2,7 +2,6 @@
 
 import math
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,10 +14,8 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, perturb, static_start
-from disc_model.stability.attractor import outcome
 from disc_model.stability.attractor.basins import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
-from disc_model.stability.return_map import ReturnMap
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -189,17 +186,6 @@ def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settl
     kick = random_perturbation(p, static_start(p), 0.01, (1, 0, 0))
     kinds = [Basins(p, horizon).follow(kick).outcome for horizon in (300.0, 500.0)]
     assert kinds == [Outcome.UNDECIDED, Outcome.QUASI_PERIODIC]
-
-
-@pytest.mark.parametrize("before", [[], [math.nan], [2e-3, math.nan], [5e-4, math.nan]])
-def test_a_change_is_compared_with_the_last_one_known(before: list[float], monkeypatch: pytest.MonkeyPatch) -> None:
-    """A motion that has departed comes near another cycle only if it changes less than before."""
-    monkeypatch.setattr(outcome, "find_cycle_near", lambda *_, **__: SimpleNamespace(follows_cycle=True))
-    search = outcome._OutcomeSearch(P14, 100.0, 1e-10, None, True, 0.0, ReturnMap(SMALL), None, 0.1)
-    search._begin()
-    search.departed_from, search.section_point, search.near_return = SimpleNamespace(), np.zeros(1), None
-    search.result.changes = [*before, 1e-3]
-    assert (search._find_followed_cycle() is None) == (5e-4 in before)
 
 
 @pytest.mark.parametrize("tol", [1e-10, 1e-8, 1e-7])

@@ -63,15 +63,6 @@ def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters
     assert found.mac[here].min() > 0.9
 
 
-def test_modes_at_rest_are_the_frequencies_with_the_slider_attached():
-    found = modes_at_rest(BASE)
-    np.testing.assert_allclose(
-        [2 * math.pi * frequency for frequency, _, _ in found], coupled_natural_frequencies(BASE), rtol=1e-9
-    )
-    assert sum(bound for _, _, bound in found) == 5
-    assert [l for _, l, bound in found if not bound] == [1, 2, 3, 4]
-
-
 @pytest.mark.parametrize(("shift", "diameters", "sign"), [(0.0, 1, 0), (1.0, 2, 1), (-1.0, 2, -1)])
 def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
     """A mode of frequency f, seen at f + shift l Omega / 2 pi, turns the multiplier by that times the period."""

@@ -55,17 +55,6 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(reference))) / result.period, abs=1e-4)
 
 
-@pytest.mark.parametrize("p", [P, pytest.param(BASE, marks=COMPILED)], ids=["small", "base"])
-def test_the_cycle_closes_in_a_simulation(p):
-    result = floquet(p)
-    run = simulate(result.parameters, result.period, initial_state=result.state, tol=1e-13)
-    for name in ("a", "b", "alpha", "beta"):
-        scale = np.max(np.abs(getattr(result.state, name)))
-        assert np.allclose(getattr(run.final_state, name), getattr(result.state, name), atol=1e-9 * scale, rtol=0)
-    assert run.final_state.psi == pytest.approx(result.state.psi, rel=1e-10)
-    assert result.stick_fraction == pytest.approx(run.statistics["time_stick"] / result.period, abs=1e-9)
-
-
 def test_the_cycle_is_found_again_from_a_simulation():
     result = floquet(P)
     later = simulate(P, 0.5 * result.period, initial_state=result.state, tol=1e-12).final_state

@@ -25,13 +25,6 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
 
 
-def test_steady_sliding_is_told_in_a_line():
-    """Its eigenvalues and its Jacobian, 9,181 characters, came with it."""
-    assert len(repr(steady_sliding(P))) < 300
-    for force, name in (("vertical", "P"), ("normal", "R")):
-        assert steady_sliding(P.replace(contact_force=force)).message.startswith(f"steady sliding with {name} = ")
-
-
 SLIDING = {
     "base": Parameters(N=200, Omega=20),
     "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),

@@ -43,23 +43,6 @@ def test_a_shipped_file_is_right(path: Path) -> None:
 
 
 GRID = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
-CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 5, "record": {"windows": {"w": {"rate": 3}}}}
-MAP = {"kind": "heat_map", "x": "N", "y": "Omega", "variable": "outcome", "by": None}
-
-
-@pytest.mark.parametrize(
-    "right",
-    [
-        GRID | {"base": {"n_diameters": "auto", "truncation_tolerance": 1e-3}},
-        GRID | {"starts": {"k": {"perturbation": {"u": 1e-4}}}, "axes": GRID["axes"] | {"start": ["static", "k"]}},
-        GRID | {"figures": {"f": MAP}, "axes": {"N": [1, 2], "Omega": [2, 3]}},
-        {"study": "s", "record": {"windows": {"w": {"theta": 2}}}, "cases": {"A": CASE}},
-    ],
-)
-def test_what_a_study_may_say_fits(right: dict[str, Any]) -> None:
-    """Beside what the shipped files say."""
-    assert [error.message for error in CHECK.iter_errors(right)] == []
-    parse_study(right)
 
 
 def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:

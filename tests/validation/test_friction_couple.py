@@ -89,59 +89,6 @@ def test_events_are_those_of_the_reference(law):
 
 
 # ------------------------------------------------------------------------ the references themselves
-@pytest.mark.parametrize(
-    ("Omega", "offset", "growth", "frequency"),
-    [
-        (10, 0, 0.0092, 71), (20, 0, 0.0264, 187), (50, 0, 0.1446, 187),
-        (10, 0.001, 0.0198, 274), (20, 0.001, 0.1875, 408), (50, 0.001, 0.4978, 399),
-    ],
-)  # fmt: skip
-def test_growth_of_the_reference_is_that_of_the_prototype(Omega, offset, growth, frequency):
-    """Numbers of a program that shares nothing with this one, as printed: four decimals, Hz rounded or cut off."""
-    p = Parameters(N=385, Omega=Omega, normalization="orthonormal", friction_offset=offset)
-    fastest = max(eigenvalues(p)[0], key=np.real)
-    assert fastest.real == pytest.approx(growth, abs=5.1e-5)
-    assert abs(fastest.imag) / (2 * np.pi) == pytest.approx(frequency, abs=0.6)
-
-
-@pytest.mark.parametrize("law", EACH_LAW)
-def test_both_references_move_alike_about_steady_sliding(law):
-    """Rates of the Taylor integrator, differentiated there, have the eigenvalues of the program of growth rates."""
-    small = {"n_diameters": 2, "c": 0.3, "c_p": 0.7, "D_star": 1e-3, "friction_offset": 0.01}
-    p, n = Parameters(N=385, Omega=20, **small, **EACH_LAW[law]), 3
-    q, (wanted, (V, R, T)) = taylor.problem_of(p), eigenvalues(p)
-    kept = np.array([i for i in range(4 * n + (4 if q.C else 2)) if i not in (n, 3 * n)])
-
-    def rate(y):
-        a, b, alpha, beta = y[: 4 * n].reshape(4, n)
-        psi, f, u, v = np.append(y[4 * n :], [0, 0])[:4]
-        step = taylor.Step(q, "slip", 1, stored.State(0.0, "slip", 1, psi, f, u, v, a, b, alpha, beta), order=1)
-        tail = [step.psi[1], step.f[1], step.u[1], step.v[1]][: len(y) - 4 * n]
-        return np.concatenate([step.a[1], step.b[1], step.alpha[1], step.beta[1], tail])
-
-    # from the program's forces: the modes at rest in the slider's frame
-    turn, y = q.l * q.Omega, np.zeros(4 * n + (4 if q.C else 2), taylor.LONG)
-    for i in range(n):
-        block = [
-            [0, turn[i], 1, 0],
-            [-turn[i], 0, 0, 1],
-            [-q.w2[i], 0, -q.d[i], turn[i]],
-            [0, -q.w2[i], -turn[i], -q.d[i]],
-        ]
-        y[i : 4 * n : n] = np.linalg.solve(np.array(block, float), [0, 0, float(q.s[i]) * V, -float(q.t[i]) * T])
-    slope = (q.l * q.s * y[n : 2 * n]).sum() / q.r_0 if q.normal else 0
-    y[4 * n : 4 * n + 2] = (T + R * slope) / q.r_0 / q.k_p, q.Omega
-    if q.C:
-        y[4 * n + 2] = (q.s * y[:n]).sum() - q.C * V
-    assert np.abs(rate(y)).max() < 1e-9 * float((q.w2 * abs(y[:n])).max())
-    columns = []
-    for i in kept:
-        step = np.zeros(len(y), taylor.LONG)
-        step[i] = 1e-6 * max(abs(y[i]), 1e-4)
-        columns.append((rate(y + step) - rate(y - step))[kept] / (2 * step[i]))
-    found = np.linalg.eigvals(np.array(columns, float).T)
-    # of differences: 1e-12 of the stiffest entry's 1e8 1/s^2
-    assert np.abs(found[:, None] - wanted).min(axis=1).max() < 1e-6
 
 
 @pytest.mark.parametrize("law", EACH_LAW)
@@ -183,12 +130,3 @@ def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase
         size = np.abs([rate, *(power[:-1] for power in powers)]).sum(axis=0)
         # each coefficient to the rounding of the largest of its terms
         assert np.all(np.abs(rate - sum(powers)[:-1]) <= 1e-15 * size)
-
-
-@pytest.mark.slow
-@pytest.mark.compiled
-@pytest.mark.parametrize(("N", "Omega", "time"), [(385, 15, 63.6), (200, 30, 37.9)])
-def test_first_separation_of_fixed_steps_is_that_of_the_prototype(N, Omega, time):
-    """To its last digit."""
-    q = taylor.problem_of(Parameters(N=N, Omega=Omega, **ORTHONORMAL))
-    assert first_separation(q, 80)[0] == pytest.approx(time, abs=0.05)

@@ -7,7 +7,6 @@ import pytest
 import yaml
 from hypothesis import example, given
 from hypothesis import strategies as st
-from scipy import linalg
 
 from disc_model import Execution, Parameters, Result, State, Status, Window, plate_modes, simulate
 from disc_model.benchmarks.methods import METHODS
@@ -226,23 +225,6 @@ def test_the_spring_can_hold_the_slider_on_where_stick_could_not(in_stick: float
     assert result.events.P[0] == pytest.approx(held, abs=1e-6)
 
 
-@pytest.mark.parametrize(("mu", "c_p", "m"), [(0.0, 42, 0.1), (0.0, 44, 0.1), (0.05, 44, 0.1), (0.0, 12, 0.01)])
-def test_a_slider_pulled_harder_than_friction_holds_starts_with_a_jump_of_its_acceleration(
-    mu: float, c_p: float, m: float
-) -> None:
-    """Equal coefficients too: nothing then makes f' zero."""
-    p = Parameters(N=200 if mu == 0 else 50, Omega=15, mu_s=mu, mu_k=mu, c_p=c_p, m=m)
-    result = simulate(p, 4e-3, tol=1e-12)
-    assert set(result.events.kind) == {"stick_to_slip"}
-    if mu == 0:
-        # m f' = c_p (Omega - f) + k_p psi, psi' = Omega - f: a damped swing of psi
-        rates = np.array([[0.0, 1.0], [-p.k_p / m, -c_p / m]])
-        _, psi_velocity = linalg.expm(4e-3 * rates) @ [0.0, 15.0]
-        assert result.final_state.f == pytest.approx(15 - psi_velocity, rel=1e-9)
-    else:
-        assert result.final_state.f > 10
-
-
 @pytest.mark.compiled
 @pytest.mark.parametrize("phase", ["stick", "slip"])
 @pytest.mark.parametrize(("Omega", "mu"), [(0.0, 0.4), (0.0, 0.0), (1e-9, 0.4)])
@@ -268,16 +250,6 @@ def test_a_start_that_pulls_at_the_slider_is_a_separation_that_has_begun(phase: 
     assert apart > 10
 
 
-@pytest.mark.parametrize("kick", np.linspace(14, 40, 5))
-def test_without_drive_contact_ends_and_not_stick(kick: float) -> None:
-    """The friction limit mu_s P vanishes with P; with nothing to pull the slider aside it does not slip."""
-    p = Parameters(N=100, Omega=0)
-    result = simulate(p, 0.02, initial_state=changed(simulate(p, 1e-6).final_state, alpha=kick))
-    assert result.status is Status.OK
-    assert result.final_state.f == 0
-    assert set(result.events.kind) == {"separation", "reattachment"}
-
-
 # ------------------------------------------------------------------------------------ where a step or a run ends
 # whose steps, and whose falls, are powers of two
 NO_DISC = Parameters(N=0.5, Omega=0, k=0, k_p=2.0**18, m=0.25, n_diameters=-1)
@@ -298,25 +270,6 @@ def test_a_fall_that_ends_on_a_halving_point_of_a_step_is_seen(halvings: int) ->
     assert events.time[0] == pytest.approx(duration, rel=1e-15)
 
 
-def test_a_slider_on_the_disc_that_moves_down_meets_it_at_once() -> None:
-    p = NO_DISC.replace(N=0, k=5e4)
-    events = simulate(p, 0.02, initial_state=over_a_rigid_disc(p, u=0.0, u_velocity=-0.1)).events
-    assert (events.kind[0], events.time[0]) == ("reattachment", 0.0)
-
-
-def test_steps_of_a_flight_follow_a_slider_that_is_faster_than_the_disc() -> None:
-    """Nothing but u' then asks for short steps."""
-    p = Parameters(N=10, Omega=0, k=5e6, m=0.01, n_diameters=0)
-    rest, rate = static_start(p), np.sqrt(p.k / p.m)
-    level = rest.u - p.N / p.k  # of the spring's force and N together
-    # the disc is 10 mm below, and the slider swings over it by 1 mm
-    start = rest.replace(phase="separation", a=-1e-2 / plate_modes(p).psi.to_numpy(), u=1e-3, u_velocity=0.0)
-    end = simulate(p, 8e-4, initial_state=start, tol=1e-12).final_state
-    assert end.phase == "separation"
-    # m u'' = -k (u - level), for 18 radians
-    assert end.u == pytest.approx(level + (1e-3 - level) * np.cos(8e-4 * rate), abs=1e-12)
-
-
 @pytest.mark.parametrize("late", [1e-15, 1e-12, 1e-9])
 def test_a_run_cut_just_after_its_events_has_the_same_events(late: float) -> None:
     """The gap was closed to within rounding, and a touchdown and a separation were seen at once."""
@@ -328,31 +281,3 @@ def test_a_run_cut_just_after_its_events_has_the_same_events(late: float) -> Non
         kinds += list(run.events.kind)
         state = run.final_state
     assert kinds == list(whole.kind)
-
-
-def test_grazing_contact() -> None:
-    """A kick chosen so that P just touches zero: a bit more loses contact, a bit less does not."""
-    p = Parameters(N=100, Omega=0)
-    start = simulate(p, 1e-6).final_state
-
-    def separates(kick: float) -> bool:
-        result = simulate(p, 4e-3, tol=1e-13, initial_state=changed(start, alpha=kick))
-        return bool(result.raise_for_status().statistics["separations"])
-
-    low, high = 0.0, 20.0
-    for _ in range(45):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if separates(middle) else (middle, high)
-    assert separates(high)
-    assert not separates(low)
-    assert high - low < 1e-11
-
-
-@pytest.mark.parametrize("tol", [1e-8, 1e-13])
-@pytest.mark.parametrize("lifted", [-0.03, -0.003, 0.01])
-def test_equal_friction_coefficients_in_violent_motion(lifted: float, tol: float) -> None:
-    """The error of a release's time gives f' either sign where it is zero; that is no paradox."""
-    p = Parameters(N=300, Omega=20, mu_s=0.4, mu_k=0.4)
-    start = changed(simulate(p, 1e-6).final_state, a=lifted / plate_modes(p).psi[1], u=lifted)
-    events = simulate(p, 0.3, tol=tol, initial_state=start).raise_for_status().events
-    assert {"stick_to_slip", "slip_to_stick"} <= set(events.kind)
