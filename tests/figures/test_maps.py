@@ -80,21 +80,6 @@ def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **a
     return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)
 
 
-@ON_EACH_SCALE
-def test_maps_show_outcomes_on_growth(x: str, values: list[float], scale: str) -> None:
-    axes, dims = {"N": [100.0, 200.0], x: values, "normalization": NORMS}, ("N", x, "normalization")
-    study = outcomes(dims, axes, np.arange(12).reshape(2, 3, 2) % 4)
-    rate = np.linspace(-0.1, 0.1, 12).reshape(2, 3, 2)
-    rate[0, 0, 0] = np.nan
-    growth = xr.Dataset({"growth_rate": (dims, rate)}, axes)
-    marks = {"a": mark(values[1], 100, "quiet"), "b": mark(values[2], 200, "separation")}
-    figure = draw("stability_map", study, {"growth": growth}, x=x, y="N", marks=marks)
-    assert figure.axes[0].get_xscale() == scale
-    assert {text.get_text() for text in figure.axes[0].texts} == {"a", "b"}
-    phrase = {"quiet", "separation", "no cycle found", "paper: quiet", "paper: separation"}
-    assert phrase <= set(labels(figure))
-
-
 def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     dims = ("Omega", "N", "disc", "contact")
     axes = {"Omega": [10.0, 20], "N": [8000.0], "disc": ["a", "b"], "contact": ["unilateral", "bilateral"]}

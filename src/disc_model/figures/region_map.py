@@ -1,33 +1,71 @@
 """Maps of regions: outcomes over two parameters as cells, and below them the growth rates of the cycle."""
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import xarray as xr
+from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault
 from disc_model.figures import cells, drawing
-from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches
+from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches, scale_of
 from disc_model.figures.curves import curves_of, draw_curves, parted, span
-from disc_model.figures.drawing import BORDERS, MODES, PAGE, Artist, Axes, Figure, Line2D, panels
-from disc_model.figures.kind import CURVES, Roles, Values
-from disc_model.figures.stability_map import StabilityMap, finish, legend_above, planes
+from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, Line2D, panels
+from disc_model.figures.kind import CURVES, Plot, Roles, Values
+from disc_model.parameters import Parameters
+from disc_model.units import Finite, Strict, Units
+
+PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
+"""The marker of each outcome of the paper."""
 
 
-class RegionMap(StabilityMap):
+class Mark(Strict):
+    """A case of the paper: where it lies, and what the paper says of it."""
+
+    x: Finite
+    y: Finite
+    paper_outcome: Literal["quiet", "growing", "separation"]
+
+
+class RegionMap(Plot):
     """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
 
     quantities = ("regions",)
+    several = True
+    named_above = True
     roles: ClassVar[Roles] = {"curves": CURVES}
 
-    kind: Literal["region_map"] = "region_map"  # type: ignore[assignment]
+    kind: Literal["region_map"] = "region_map"
+    x: str
+    y: str
+    marks: dict[str, Mark] = Field({})
+
+    @classmethod
+    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
+        axes = {axis: Parameters.unit(str(data.get(axis))) for axis in ("x", "y")}
+        marks = data.get("marks")
+        return super()._units(data) | {"marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""}
+
+    def place_title(self, figure: Figure, text: str) -> None:
+        """Write it into the legend, which a title of the figure would cover."""
+        figure.legends[0].set_title(text)
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults as of any map; in addition, curves over speed and preload need that plane."""
+        """Faults as of any figure; each marked case must be a computed point, and curves need speed and preload."""
         yield from super().faults(values)
+        for name, mark in self.marks.items():
+            for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
+                along = [
+                    float(coordinate)
+                    for coordinate, *more in values.get(dim, ())
+                    if not more and not isinstance(coordinate, str)
+                ]
+                if along and not any(math.isclose(value, coordinate, rel_tol=1e-12) for coordinate in along):
+                    yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
         if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
             yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
 
@@ -51,7 +89,8 @@ class RegionMap(StabilityMap):
             for ax in (upper, lower):
                 lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
         named = {line.get_label(): line for line in lines}.values()
-        legend_above(figure, [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)])
+        handles = [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
+        figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
         said = drawing.sample(linestyle="", label="\n".join(_captions(study, self)))
         handles = [*patches(CYCLE_LOOKS, gaps), said]
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
@@ -117,3 +156,66 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
             yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
+
+
+def planes(study: xr.Dataset, norms: Sequence[str], plot: RegionMap) -> list[xr.Dataset]:
+    """A study over the two parameters, the vertical one first, for each normalization."""
+    return [drawing.of(study, norm).transpose(plot.y, plot.x, ...) for norm in norms]
+
+
+def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Artist]:
+    """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes.
+
+    Returns legend entries, one for each shape among the marks.
+    """
+    set_scales(axes, study, plot)
+    if drawing.normalizations(study)[0] != "as_published":
+        return []
+    for name, mark in plot.marks.items():
+        _paper_mark(axes[0], plot, name, mark)
+    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
+    ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
+    ring |= {"markeredgecolor": PAPER, "path_effects": drawing.outline(2.4, BLACK)}
+    return [
+        drawing.sample(marker=marker, label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
+        for name, marker in PAPER_MARKERS.items()
+        if name in outcomes
+    ]
+
+
+def _paper_mark(ax: Axes, plot: RegionMap, name: str, mark: Mark) -> None:
+    """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
+    point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
+    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.outline(2.4, BLACK)}
+    shape = PAPER_MARKERS[mark.paper_outcome]
+    ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+    across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
+    offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
+    drawing.say(ax, name, point, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=drawing.halo(2.0))
+
+
+def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> None:
+    """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
+    from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
+
+    for which, name in plot.axes.items():
+        label, factor = drawing.axis_of(name)
+        values = study[name].values * factor
+        axis = getattr(axes[0], f"{which}axis")
+        if (scale := scale_of(name, values)) != "linear":
+            start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
+            getattr(axes[0], f"set_{which}scale")(scale, **start)
+            ticks = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
+            ticks = ticks[(ticks >= 0.999 * values[values > 0][0]) & (ticks <= 1.001 * values[-1])]
+            axis.set_major_locator(FixedLocator([*[0.0] * (scale == "symlog"), *ticks]))
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter(NullFormatter())
+            if scale == "symlog":
+                axis.set_minor_locator(NullLocator())
+        to_axis = axis.get_transform()
+        low, high = to_axis.transform(values[[0, -1]])
+        margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
+        axes[0].set(**{f"{which}lim": to_axis.inverted().transform([low - margin, high + margin])})
+        for ax in axes:
+            ax.set(**{f"{which}label": label})
+            ax.label_outer()
