@@ -5,8 +5,6 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from tests import tally
-
 # The quick suite draws the same values in every clone. `make test-long` searches at random, by a seed that it prints.
 settings.register_profile(
     "quick",
@@ -29,11 +27,3 @@ def seed(request: pytest.FixtureRequest) -> int:
     chosen = np.random.SeedSequence().entropy % 2**32 if found is None else int(found)
     print(f"drawn by --hypothesis-seed={chosen}")
     return chosen
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say how much was tried."""
-    if found := list(tally.lines()):
-        terminalreporter.section("tried")
-        for line in found:
-            terminalreporter.line(line)

@@ -13,8 +13,6 @@ from disc_model.studies.study import StudyError
 from disc_model.units import Checked, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
 
-WINDOW = {"start": 0, "stop": 1, "rate": 100}
-
 
 class Inner(Strict):
     size: Real = 1.0

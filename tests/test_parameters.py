@@ -2,7 +2,6 @@
 
 import json
 import pickle
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -59,14 +58,6 @@ def test_immutable_hashable_picklable() -> None:
         p.N = 3
     assert pickle.loads(pickle.dumps(p)) == p
     assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1
-
-
-def test_a_notebook_shows_a_table() -> None:
-    page = Parameters(N=385, Omega=15.1, disc=Disc(diameters=[1], omega=[1500.0], amplitude=[2.0]))._repr_html_()
-    rows = re.findall("<tr>(.*?)</tr>", page)
-    assert "<td>Omega</td><td>15.1</td><td>rad/s</td><td>speed of the drive point</td>" in rows
-    assert "<td>disc</td><td>1 modes</td><td></td><td>a disc given by its modes, instead of the plate</td>" in rows
-    assert len(rows) == len(Parameters.model_fields)  # and their head, but no ratio of damping
 
 
 WRONG = ("()", "(N=1, Omega=2, Omga=3)", "(N=1, Omega=2, k=[1])")

@@ -13,7 +13,6 @@ import xarray as xr
 from disc_model.benchmarks import answers, figures, maps, study
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.benchmarks.truncation import truncation_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
@@ -105,10 +104,6 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
 
 # ----------------------------------------------------------------------------------------------------
 # Questions
-
-
-def result(problem: Problem, times, kind="separation", outcome=RunStatus.FINISHED, seconds=2.0) -> MethodResult:
-    return MethodResult(np.array(times, float), (kind,) * len(times), problem.start, seconds, 1, outcome)
 
 
 def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:

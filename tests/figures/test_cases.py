@@ -14,7 +14,7 @@ from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.figures.drawing import save
 from disc_model.figures.kind import kind_of
 from tests.damages import damaged
-from tests.figures.reading import assert_fit_for_print, labels
+from tests.figures.reading import assert_fit_for_print
 
 SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
 RECORDED = {
@@ -83,15 +83,6 @@ def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
     (line,) = asked("spectrum", window="spectrum_a", variable="psi", highest=400).axes[0].lines
     # the rate of releases, within the width of the window's line
     assert line.get_xdata()[int(np.argmax(line.get_ydata()))] == pytest.approx(67.7, abs=0.7)
-
-
-def test_portraits_and_sections_show_all_samples() -> None:
-    (ax,) = asked("portrait", window="orbit").axes
-    assert labels(ax) == ["stick", "slip", "separation"]
-    slider, disc = asked("poincare", title="Above the critical speed").axes
-    shown = sum(len(collection.get_offsets()) for collection in slider.collections)
-    assert shown == simulated(True)["poincare"].sizes["time"]
-    assert disc.get_xlabel().startswith("Disc at")
 
 
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])

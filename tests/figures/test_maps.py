@@ -14,7 +14,6 @@ from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 
 NORMS = ["as_published", "orthonormal"]
-STATUS = {"flag_meanings": "ok no_cycle separates no_stick_slip at_rest failed"}
 LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 
 # ---- cells

@@ -12,7 +12,6 @@ from disc_model.simulation.case import CaseSpec, Window
 from disc_model.studies.study import Study, StudyError, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
-ROOT = Path(__file__).parents[2]
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
 GRID: dict[str, Any] = {
     "study": "mine",

@@ -10,7 +10,6 @@ from tests.contact_laws import LAWS
 from tests.references import stored, taylor
 from tests.references.fixed_step import first_separation
 from tests.references.growth import couple, steady_eigenvalues
-from tests.references.printed import MOTIONS, P, lively
 
 EACH_LAW = {"default": {}} | LAWS
 
@@ -89,44 +88,3 @@ def test_events_are_those_of_the_reference(law):
 
 
 # ------------------------------------------------------------------------ the references themselves
-
-
-@pytest.mark.parametrize("law", EACH_LAW)
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_energy_of_the_reference_balances_with_the_work_of_the_couple(law, phase, direction):
-    """Coefficient by coefficient: power into disc and slider across the disc, with T v_s, and along it."""
-    p, order = P.replace(friction_offset=0.02, **EACH_LAW[law]), 12
-    q, start = taylor.problem_of(p), lively(phase, direction, p)
-    if q.C:
-        start = start.replace(u=start.u - 500 * float(q.C), u_velocity=start.u_velocity + 0.01)
-    step = taylor.Step(q, phase, direction, stored.reference_state(start, p))
-
-    def times(*factors):
-        found = factors[0][:order]
-        for x in factors[1:]:
-            found = np.convolve(found, x[:order])[:order]
-        return found
-
-    def modal(x, y):
-        return sum(times(*columns) for columns in zip(x.T, y.T, strict=True))
-
-    v_s = -p.friction_offset / q.r_0 * step.beta @ (q.l * q.s)
-    height, turning = step.u.copy(), -step.f
-    height[0], turning[0] = height[0] - q.u_0, turning[0] + q.Omega
-    across = sum(modal(*pair) for pair in ((step.alpha, step.alpha), (step.beta, step.beta)))
-    across += modal(step.a * q.w2, step.a) + modal(step.b * q.w2, step.b)
-    across = (across + q.m * times(step.v, step.v) + q.k * times(height, height) + q.C * times(step.V, step.V)) / 2
-    across += q.N * times(step.u)
-    along = q.r_0**2 / 2 * (q.m * times(step.f, step.f) + q.k_p * times(step.psi, step.psi))
-    lost = modal(step.alpha * q.d, step.alpha) + modal(step.beta * q.d, step.beta) + q.c * times(step.v, step.v)
-    work = times(step.T, v_s)
-    assert abs(work[0]) > 0 or phase == "separation"
-    leaning = times(step.R, step.B, step.f) if q.normal else 0 * work
-    friction = q.r_0 * times(step.T, step.f) + leaning
-    driven = q.r_0**2 * (q.Omega * times(step.F) - q.c_p * times(turning, turning))
-    # V does work on the slope that passes under the slider
-    for energy, powers in ((across, (work, times(step.V, step.f, step.B), -lost)), (along, (driven, -friction))):
-        rate = energy[1:] * np.arange(1, order)
-        size = np.abs([rate, *(power[:-1] for power in powers)]).sum(axis=0)
-        # each coefficient to the rounding of the largest of its terms
-        assert np.all(np.abs(rate - sum(powers)[:-1]) <= 1e-15 * size)

@@ -10,7 +10,6 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.simulation.states import static_start
 from tests.contact_laws import course_of, turned
 from tests.references import stored, taylor
-from tests.tally import tried
 
 pytestmark = [pytest.mark.slow, pytest.mark.compiled]
 
@@ -251,6 +250,5 @@ def test_random_cases(seed):
             counts.append(Compared(seed, number).check())
         except Exception as error:  # all of them are looked at, whatever one ends in
             failed.append(f"case {number}: {error!r}")
-    tried("random cases against the long-double reference", "cases", CASES)
-    tried("random cases against the long-double reference", "switches", sum(counts))
+    assert sum(counts) > CASES
     assert not failed, "\n".join(failed)

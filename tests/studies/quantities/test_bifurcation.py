@@ -1,6 +1,5 @@
 """What a motion settles to, sampled at switches or once a turn of the drive."""
 
-import math
 from typing import Any
 
 import numpy as np
@@ -9,22 +8,13 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate
-from disc_model.simulation.case import Poincare, Start
+from disc_model.simulation.case import Start
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import SMALL, paradox
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
-
-
-def test_samples_are_those_of_the_simulator() -> None:
-    p = Parameters(N=200, Omega=50, n_diameters=1)
-    values, _ = Bifurcation(transient=0.1, samples=2, tol=1e-9).compute_point(Point(p))
-    turn = 2 * math.pi / p.Omega
-    run = simulate(p, 2.6 * turn, {"turns": Poincare(start=0.9 * turn)}, tol=1e-9)
-    np.testing.assert_allclose(values["psi"], run.samples["turns"]["psi"], rtol=0, atol=1e-7)
-    assert values["status"] == "ok"
 
 
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
@@ -67,15 +57,6 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
     values, _ = options.compute_point(Point(Parameters(N=516.666666667, Omega=12.734375)))
     assert (values["separations"], values["period_events"], values["settled"]) == (0, 0, "settled")
     assert values["kind"] is Outcome.QUASI_PERIODIC
-
-
-@pytest.mark.compiled
-@pytest.mark.slow
-def test_a_slow_approach_to_a_cycle_is_not_taken_for_a_torus() -> None:
-    """At 200 N disturbances die out by 0.009/s; the 0-1 test takes what is left of them for a torus."""
-    options = Bifurcation(section="event", transient=120, max_transient=120)
-    values, _ = options.compute_point(Point(Parameters(N=200, Omega=15), Start(prerun=APART)))
-    assert (values["period_events"], values["kind"]) == (0, Outcome.SEPARATING)
 
 
 @pytest.mark.compiled

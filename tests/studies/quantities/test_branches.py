@@ -43,12 +43,3 @@ def test_a_sweep_jumps_to_a_branch_that_separates(table: Table) -> None:
         if np.all(np.diff(table.arrays["value"][0, i][np.isfinite(table.arrays["value"][0, i])]) > 0)
     ]
     assert np.min(np.abs(np.array(ranges) / table.arrays["sweep_range"][0, 0, 2] - 1)) < 0.01  # as samples see a range
-
-
-@pytest.mark.compiled
-def test_a_rising_sweep_may_begin_within_the_scan() -> None:
-    options = Branches.model_validate(OPTIONS | {"sweep_from": 15.2, "max_points": 2})
-    found = compute(options, [Point(Parameters(N=385, Omega=0, normalization="as_published"))]).arrays
-    assert np.isfinite(found["sweep_range"][0]).tolist() == [[False, False, True], [True, True, True]]
-    with pytest.raises(ValueError, match="sweep_from must be <= the scan's last value"):
-        Branches.model_validate(OPTIONS | {"sweep_from": 15.5})

@@ -8,7 +8,6 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
-from disc_model.studies.quantities import critical_speed
 from disc_model.studies.quantities.critical_speed import CriticalSpeed
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import compute
@@ -49,18 +48,6 @@ def test_385_N_turns_between_15_08_and_15_09() -> None:
     assert found["crossing"][0, 0, 0] == 15.09
     kinds = CriticalSpeed.COLUMNS["crossing_kind"].flags
     assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
-
-
-@pytest.mark.compiled
-def test_first_separations_are_not_extrapolated() -> None:
-    """That of a random case was told as 15.41 s, and as none within 15 s: 0.45 e-folding times away."""
-    p = Parameters(
-        N=439.41837823522013, Omega=17.86056549778635, k=2297.0223423620214, m=0.06267322212255291,
-        mu_s=0.6873022678119092, mu_k=0.4123813606871455, normalization="orthonormal",
-    )  # fmt: skip
-    options = {"horizons": [15, 82], "scan": {"start": 17, "stop": 18, "step": 1}, "precision": 1, "tol": 1e-10}
-    found = critical_speed.motion(p, CriticalSpeed.model_validate(options))
-    assert found.first_separation == pytest.approx(14.526487, abs=1e-5)  # at tolerances of 1e-10 to 1e-13
 
 
 RESULTS = Path(__file__).parents[3] / "results"

@@ -8,13 +8,11 @@ import pytest
 import xarray as xr
 from scipy import stats
 
-from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import floquet
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile
 from disc_model.studies.quantity import Row
-from tests.studies.conftest import SMALL, computed
+from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
@@ -90,22 +88,6 @@ def test_quantiles_are_those_of_the_distributions(share: float) -> None:
         assert quantile(made, 7.0, share) == pytest.approx(one.ppf(share), rel=1e-5)
         relative = made.model_copy(update={"relative": True})
         assert quantile(relative, 7.0, share) == pytest.approx(7 * one.ppf(share), rel=1e-5)
-
-
-@pytest.mark.compiled
-def test_what_is_found_is_what_floquet_finds() -> None:
-    options = {"samples": 2, "simulated_samples": 1, "horizon": 1}
-    found = computed(
-        **study({"k": UNIFORM, "mu_s": UNIFORM}, axes={"N": [200]}, base={"Omega": 15} | SMALL, options=options)
-    )
-    assert flag_names(found["outcome"]).ravel().tolist()[1] == "not_simulated"
-    assert found["n_known_outcomes"].item() == 1
-    for number in (0, 1):
-        one = found.isel(N=0, sample=number)
-        k, mu_s = one["parameter_values"].values
-        cycle = floquet(Parameters(N=200, Omega=15, k=k, mu_s=mu_s, **SMALL))
-        assert flag_names(one["cycle"]) == sensitivity.cycle_word(cycle)
-        np.testing.assert_array_equal(one["growth_rate"], cycle.growth_rate)
 
 
 def test_samples_are_those_of_one_sequence() -> None:
