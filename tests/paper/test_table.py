@@ -5,12 +5,15 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.paper import SCANS, SURVIVAL_GRIDS, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer, Row, graded
+from disc_model.paper.paper_tables import impact_law
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
 from disc_model.studies.merge import merge_cases
@@ -38,6 +41,17 @@ def test_rows_quote_say_why_and_show() -> None:
         assert row.judged if row.check else row.verdict in VERDICTS, row.id
         assert {*row.figures} <= drawn, row.id
         assert not re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}"), f"{row.id}: a code of ours"
+
+
+def test_the_table_of_impacts_has_what_follows_them_or_why_not(told: xr.DataTree) -> None:
+    cases = {name: CaseView(name, node) for name, node in told.children.items()}
+    table = impact_law(cases | {"P03res": cases["F11"]})
+    case = cases["P03l8"]
+    row = table.set_index("modes").loc["8 nodal diameters"]
+    assert row["rate_Hz"] == pytest.approx(case.rate_of("separation"), rel=1e-12)
+    assert row["longest_ms"] == pytest.approx(1e3 * case.separation_durations()[0].max(), rel=1e-12)
+    assert np.isnan(table["rate_Hz"].iloc[-1])
+    assert "separation" in table["releases"].iloc[-1]
 
 
 def test_rows_follow_the_paper() -> None:

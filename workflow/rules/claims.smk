@@ -31,20 +31,25 @@ rule check_claims:
         "job check_claims {output} {input.cases} {input.scans} > {log} 2>&1"
 
 
-# A study may lack the case and the window of Tables 1 and 2.
+# A study may lack the case and the window of Tables 1 and 2, and the cases of the others.
 TABLES = [
-    f"table{n}"
-    for n in (1, 2)
-    if STUDY.claims
-    and "spectrum_a"
-    in (dict(STUDY.specs["F13"].windows) if "F13" in STUDY.specs else {})
+    *(
+        ["table1", "table2"]
+        if STUDY.claims
+        and "spectrum_a"
+        in (dict(STUDY.specs["F13"].windows) if "F13" in STUDY.specs else {})
+        else []
+    ),
+    *(["periods", "impact_law"] if STUDY.claims and "P03res" in STUDY.specs else []),
 ]
 
 
 rule make_table:
-    # Tables 1 and 2 of the paper.
+    # Tables 1 and 2 of the paper, and two of what results rest on.
     input:
-        case_file("F13"),
+        lambda wildcards: (
+            [] if wildcards.table == "periods" else rules.merge_cases.output
+        ),
     output:
         csv=f"{RESULTS}/tables/{{table}}.csv",
         md=f"{RESULTS}/tables/{{table}}.md",
@@ -59,11 +64,11 @@ rule make_table:
     log:
         f"{RESULTS}/logs/make_table/{{table}}.log",
     wildcard_constraints:
-        table="table[12]",
+        table="|".join(["table[12]", "periods", "impact_law"]),
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=lambda wildcards: made_of("make_table", of=case_made_of("F13")),
+        made_of=made_of("make_table", of=cases_made_of()),
     shell:
         "job make_table {wildcards.table} {output} {input} > {log} 2>&1"
 

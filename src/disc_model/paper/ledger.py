@@ -67,8 +67,9 @@ def _link(figure: str) -> str:
 
 
 def _data(row: Row) -> dict[str, str]:
-    """Links to the datasets of a row."""
-    return {name: f"cases/{name}.nc" for name in row.cases} | {name: f"../{name}/{name}.nc" for name in row.scans}
+    """Links to the datasets and tables of a row."""
+    links = {name: f"cases/{name}.nc" for name in row.cases} | {name: f"../{name}/{name}.nc" for name in row.scans}
+    return {f"table {name.replace('_', ' ')}": f"tables/{name}.html" for name in row.tables} | links
 
 
 def summary(table: pd.DataFrame) -> dict[str, Any]:

@@ -95,6 +95,7 @@ class Row(BaseModel):
     steady: Names = ()  # it is about the steady states of these
     scans: tuple[str, ...] = ()  # the grid studies that the check is given besides
     beside: tuple[str, ...] = ()  # further ones, for notes: None instead of one that is missing
+    tables: tuple[str, ...] = ()  # further ones of results on which it rests
     figures: tuple[str, ...] = ()  # of the paper's study, or names of grid studies with a figure of the same name
     print_error: bool = False  # it is an error in print, counted apart
     after_the_fact: bool = False  # the rule was chosen when the numbers were known

@@ -1,15 +1,21 @@
-"""Tables 1 and 2 of the paper: its values and ours, with the origin of every line of Table 2."""
+"""Tables 1 and 2 of the paper beside ours, with the origin of every line of Table 2; and two tables of what results
+rest on: periods under other tolerances and numbers of modes, and what follows impacts with more modes."""
+
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
 import yaml
 
 from disc_model.analysis import spectra
+from disc_model.analysis.classify import Motion, motion_of
 from disc_model.data.dataset import Missing
 from disc_model.paper import measures
-from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FOLDER
+from disc_model.paper.measures import CaseView, place
+from disc_model.paper.model import FOLDER, paper_cases
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.states import State
 
 TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]
@@ -73,3 +79,85 @@ def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0
     """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
     (line,) = measures.loudest(case.signal(window, start, stop, "psi").lines(above=20.0), 1)
     return line.frequency
+
+
+# ----------------------------------------------------------------------------------------------------
+# What results rest on
+
+LONG = ("F02", "F07", "F22")
+"""Cases that the paper calls quasi-periodic or unpredictable, and that repeat after many releases."""
+VARIED: dict[str, tuple[float, dict[str, int]]] = {
+    "as computed": (1e-10, {}),
+    "tolerance 1e-8": (1e-8, {}),
+    "tolerance 1e-12": (1e-12, {}),
+    "8 nodal diameters": (1e-10, {"n_diameters": 8}),
+    "one nodal circle": (1e-10, {"n_circles": 1}),
+}
+"""Tolerance and numbers of modes of further runs."""
+RECORD, SETTLE = 60.0, 150.0
+"""Length of the record from which a motion is classified, s: four of the longest periods; time to settle before it, s,
+after a small change of the speed."""
+IMPACT_CASES = {
+    "F13": "nine modes",
+    "P03l8": "8 nodal diameters",
+    "P03l4c1": "one nodal circle",
+    "P03l4c2": "two nodal circles",
+    "P03res": "nine modes, residual flexibility",
+}
+
+
+def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:
+    """Class of a motion by its releases in the last `RECORD` s before t_end, and the state there."""
+    run = simulate(p, t_end, tol=tol, initial_state=start)
+    times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
+    return motion_of(np.diff(times[times > t_end - RECORD])), run.final_state
+
+
+def locked(p: Parameters, start: State, period: int, sign: int) -> float:
+    """How far the speed may rise (sign 1) or fall (-1) until the motion has another period, rad/s, to an eighth."""
+
+    def holds(change: float) -> bool:
+        changed = p.replace(Omega=p.Omega + sign * change)
+        try:
+            return motion_to(changed, start.time + SETTLE + RECORD, start=start)[0].period == period
+        except ValueError:  # too few releases
+            return False
+
+    low, high = 0.0, 1e-4
+    while high < 1 and holds(high):
+        low, high = high, 2 * high
+    for _ in range(3):
+        middle = (low + high) / 2
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
+
+
+def periods() -> pd.DataFrame:
+    """Releases after which the cases `LONG` repeat, under `VARIED`, and the interval of speeds with the same period."""
+    rows = []
+    for name in LONG:
+        case = paper_cases()[name]
+        p = Parameters(**case["parameters"], normalization="as_published")
+        runs = {words: motion_to(p.replace(**changed), case["t_end"], tol) for words, (tol, changed) in VARIED.items()}
+        (motion, state), *_ = runs.values()
+        width = sum(locked(p, state, motion.period, sign) for sign in (-1, 1)) if motion.period else np.nan
+        stated = place(p.N, p.Omega) + (f", k_p = {1e-3 * p.k_p:g} kN/m" if name == "F22" else "")
+        found = {words: str(each.period or each.kind) for words, (each, _) in runs.items()}
+        rows.append({"case": stated, **found, "width": width})
+    return pd.DataFrame(rows)
+
+
+def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+    """What follows the first separation at 385 N, 15.1 rad/s with other modes, in the last 20 s of each run."""
+    rows = []
+    for name, words in IMPACT_CASES.items():
+        case = cases[name]
+        try:
+            durations, still_open = case.separation_durations()
+            row = [case["first_separation"], case.rate_of("separation"), 1e3 * max(durations.max(), still_open)]
+            row += [100 * case.phase_share("separation"), 100 * case.stick, 1e3 * case.disc.width]
+            rows.append([words, *row, str(case.late_motion())])
+        except Missing as reason:
+            rows.append([words, *[np.nan] * 6, str(reason)])
+    columns = ["modes", "first_s", "rate_Hz", "longest_ms", "separated_%", "stick_%", "range_mm", "releases"]
+    return pd.DataFrame(rows, columns=columns)

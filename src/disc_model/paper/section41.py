@@ -140,7 +140,7 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     return Answer(
         graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
         f"{'; '.join(rows)}.",
-        f"The period is no property of the system. With k 0.1 % larger: {'; '.join(near)}.",
+        f"Neighbouring systems have other periods. With k 0.1 % larger: {'; '.join(near)}.",
         "Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. The period: "
         f"{'; '.join(other)}."
         if other
