@@ -57,8 +57,8 @@ def solved(function: Callable[[float], float]) -> float:
     return function(0.0) / (function(0.0) - function(1.0))
 
 
-def about_to(switch: str, law: str) -> tuple[Parameters, stored.State]:
-    """A case, and a state on a slope of a third that soon meets the switch."""
+def about_to(switch: str, law: str, pressed: float | None = None) -> tuple[Parameters, stored.State]:
+    """A case, and a state on a slope of a third that soon meets the switch, with the contact force ``pressed`` (N)."""
     (phase, direction, _), backwards = SWITCHES[switch], "backwards" in switch
     # with a circle there are two modes without nodal diameter, each with its own share of an impulse
     p = P.replace(n_diameters=1, **CONTACTS[law])
@@ -84,7 +84,8 @@ def about_to(switch: str, law: str) -> tuple[Parameters, stored.State]:
         R, T = forces(bent)
         return p.mu_s * R + (T if backwards else -T) - 1
 
-    pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
+    if pressed is None:
+        pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
     bent = 0.0 if flies and not q.rigid else solved(lambda x: forces(x)[0] - pressed)
     forces(bent)
     if "release" in switch:
@@ -168,6 +169,12 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
 
     engine, sizes = disturbances.run(), disturbances.sizes
     assert engine.fly(float(span)) == exit_codes.TIME_OVER
+    ends = {"at rest": tangent.STICKS, "reversal": tangent.REVERSALS, "release": tangent.RELEASES}
+    ends |= {"release backwards": tangent.BACK_RELEASES, "impact": None}
+    counted = ends.get(switch.removesuffix(", slip backwards"), tangent.SEPARATIONS)
+    log = engine.tangent.log
+    assert [i for i in range(tangent.RELEASES, tangent.STICKS + 1) if log[i]] == [counted] * (counted is not None)
+    assert log[tangent.RELEASES : tangent.STICKS + 1].sum() == (counted is not None)
     if not p.contact_compliance and kinds[-1] != "separation":
         sizes[2:4] = np.inf  # u and u' are the disc's
     got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
@@ -175,11 +182,15 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     assert np.all(np.abs(got - expected) <= 1e-9 * np.abs(expected).max(axis=1, keepdims=True))
 
 
+@pytest.mark.parametrize("pressed", [5.0, 0.0])
 @pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
-def test_when_contact_is_lost(switch: str) -> None:
-    """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator of P."""
+def test_when_contact_is_lost(switch: str, pressed: float) -> None:
+    """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator of P.
+
+    What does not vanish where a phase ends at once was past zero already: neighbouring motions end it there, too.
+    """
     phase, direction, _ = SWITCHES[switch]
-    p, start = about_to(switch, "vertical")
+    p, start = about_to(switch, "vertical", pressed)
     disturbances = Disturbances(p, start)
 
     def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
@@ -189,8 +200,11 @@ def test_when_contact_is_lost(switch: str) -> None:
     engine = disturbances.run()
     t = engine.tangent
     saltation.rates(engine.model, engine.state, t.before)
-    rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, False)
-    np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), disturbances.expected(numerator), rtol=1e-8)
+    expected = disturbances.expected(numerator)
+    for at_once in (False, True):
+        rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, at_once)
+        wanted = 0 * expected if at_once and pressed else expected
+        np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
 
 
 # ------------------------------------------------------------------------------------ rates
