@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.study import StudyError, parse_study, read_yaml
+from disc_model.studies.study import StudyError, check_targets, closing_lines, parse_study, read_yaml
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
@@ -65,6 +65,32 @@ GRIDS: list[tuple[dict[str, Any], str]] = [
     (figure(kind="heat"), "figures.f.kind 'heat' heat_map"),
     (figure(y="E"), "figures.f.y 'E' dimension Omega"),
     ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind 'critical_speed' quantity"),
+    ({"base": [1]}, "base mapping"),
+    ({"base": {"N": 200, "mu_k": 0.1, "mu_k_over_mu_s": 0.5}}, "base.mu_k_over_mu_s mu_k"),
+    ({"base": {"N": 200, "n_diameters": "auto", "n_circles": 1}}, "base.n_circles"),
+    ({"axes": {}, "base": {"N": 200, "Omega": 20}}, "axes required"),
+    (
+        {"quantity": "branches", "options": {"scan": {"start": 1, "stop": 2, "count": 2}, "dwell": 60}},
+        "axes.Omega varied",
+    ),
+    ({"quantity": "regions"} | {"batch": {"over": ["k"]}}, "batch.over plane"),
+    ({"quantity": "floquet", "options": {}} | axes(perturbation_u=[1e-3]), "axes.perturbation_u no motion"),
+    (axes(h=[1e-300]), "axes.h 1e-300 finite"),
+    (axes(c={"start": 0, "stop": 1, "count": 3, "scale": "log"}), "axes.c logarithmic > 0"),
+    (axes(c={"start": 0, "stop": 1, "count": 100_001}), "axes.c 100000 values"),
+    (axes(c={"start": 0, "stop": 1, "count": 9000}, k={"start": 1, "stop": 2, "count": 9000}), "axes points 162000000"),
+    (axes(normalization=["published"]), "axes.normalization as_published"),
+    (axes(n_diameters=["auto"]), "axes.n_diameters 'auto' base"),
+    (axes(start=["other"]), "axes.start 'other' static"),
+    ({"where": "k < 1"}, "where no point"),
+    ({"where": "kk < 1"}, "where kk value"),
+    ({"batch": {"over": ["c"]}}, "batch.over 'c' Omega k"),
+    (sampled("k", -0.1, 1.1), "options.distributions.k -5000 >= 0"),
+    (figure(variable="outcom"), "figures.f.variable 'outcom' outcome"),
+    (figure(y="k", x="k"), "figures.f.y 'k' differ"),
+    (figure(units={"speed": "rpm"}), "figures.f.units.speed unit"),
+    (figure(title="$x"), "figures.f.title set"),
+    (figure(overlays={"growth": "s"}), "figures.f.overlays.growth unknown"),
 ]
 CASES: list[tuple[dict[str, Any], str]] = [
     ({"cases": {"A": CASE | {"parameters": {"N": -5, "Omega": 1}}}}, "cases.A.parameters.N -5 >= 0"),
@@ -72,9 +98,17 @@ CASES: list[tuple[dict[str, Any], str]] = [
     ({"figures": ["fig99"]}, "figures mapping"),
     ({"figures": {"f": {"kind": "history", "case": "A", "window": "all"}}}, "figures.f.window 'all' late"),
     ({"cases": 3}, "cases 3 mapping"),
+    ({"cases": {"A": 3}}, "cases.A 3 mapping"),
+    ({"cases": {"A": CASE | {"t_end": 0}}}, "cases.A.t_end 0 > 0"),
+    ({"cases": {"A": CASE | {"parameters": {"N": 1, "Omega": 1, "mu_k": 2}}}}, "cases.A.parameters.mu_k 2 <="),
+    ({"cases": {"A": CASE | {"record": {"windows": {"w": {"rat": 1}}}}}}, "cases.A.record.windows.w.rat rate"),
+    ({"cases": {"status": CASE}}, "cases.status name"),
+    ({"figures": {"f": {"kind": "history", "case": "B", "window": "late"}}}, "figures.f.case 'B' A"),
+    ({"figures": {"f": {"kind": "spectrum", "case": "A", "window": "poincare"}}}, "figures.f.window 'poincare'"),
 ]
 STUDIES = [(GRID | change, words) for change, words in GRIDS]
 STUDIES += [({"study": "s", "cases": {"A": CASE}, **change}, words) for change, words in CASES]
+STUDIES.append(({"study": "s"}, "study what compute"))
 BAD_TABLE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,3\n2,-1,3\n"
 
 
@@ -128,6 +162,24 @@ def from_state(**changes: Any) -> None:
 ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: p(N=math.nan), "N=nan finite"),
     (lambda: p(mu_k=0.5), "mu_k=0.5 <= mu_s=0.4"),
+    (lambda: dm.Parameters(385), "Parameters named N=385"),
+    (lambda: dm.Parameters.model_validate_json("{"), "json_data JSON"),
+    (lambda: p(N=True), "N=True number"),
+    (lambda: p(r_0=0.13), "r_0=0.13 <= b=0.12"),
+    (lambda: p(n_circles=1.5), "n_circles=1.5 whole number"),
+    (lambda: p(contact_compliance="soft"), "contact_compliance='soft' 'residual'"),
+    (lambda: disc(diameters=[0, 1, 2], omega=[1490.0, 0.0, 1820.0]), "omega.1=0 0.001"),
+    (lambda: disc(amplitude=[0, 0, 0]), "amplitude 0 all modes"),
+    (lambda: disc(radii=[0.1, 0.05], shapes=[[1, 1]] * 3), "radii ascend"),
+    (lambda: p(disc=disc(diameters=[0, 1, 2]), friction_offset="surface"), "friction_offset='surface' tangential"),
+    (lambda: dm.Window(rate="fast"), "rate='fast' number"),
+    (lambda: dm.Window(rate=1, stop=2, last=1), "last=1 stop"),
+    (lambda: ramp(parameter="c"), "parameter='c' 'Omega' 'N'"),
+    (lambda: dm.simulate(p(), 1.0, tol=1), "tol=1 within 1e-15"),
+    (lambda: dm.simulate(p(), 1.0, stop_at="never"), "stop_at='never' 'first_separation'"),
+    (lambda: from_state(phase="flight"), "initial_state.phase='flight' stick slip separation"),
+    (lambda: dm.deflection(p(), dm.snapshots(p(), 0.1), 0.2, 0.0), "r=0.2 b=0.12"),
+    (lambda: dm.floquet(p(), releases=2), "releases=2 whole number"),
     (lambda: p(contact="glued"), "contact='glued' 'unilateral' 'bilateral'"),
     (lambda: p(omega=3), "omega=3 unknown Omega"),
     (lambda: p(Omega="3 Hz"), "Omega='3 Hz' rad/s rpm"),
@@ -166,6 +218,12 @@ RUN = "run --N 385 --Omega 15.1 --t-end 1 "
         ("run --Omga 3", "--Omga --Omega"),
         ("floquet --N x --Omega 1 --tol 1", "N='x' tol 1e-06"),
         ("rum", "'rum' 'run'"),
+        (RUN + "--tol nan", "tol 1e-15"),
+        (RUN + "--ramp Omega", "ramp='Omega' KEY=VALUE"),
+        (RUN + "--plot x.txt", "plot='x.txt' png"),
+        ("modes --n-diameters auto --truncation-tolerance x", "truncation_tolerance='x' number"),
+        ("list colours config/paper.yaml", "'colours' studies figures"),
+        ("study no_such.yaml", "no_such.yaml read"),
     ],
 )
 def test_a_wrong_command_line_is_named(arguments: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -228,3 +286,30 @@ def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None
     assert ended.value.code in (0, 2)
     assert "Traceback" not in stderr.getvalue()
     assert re.search(r"\S", stderr.getvalue()) or ended.value.code == 0
+
+
+# ---- what a workflow is asked for, and what it says in the end
+
+
+def test_a_file_of_a_name_that_nothing_has_is_refused() -> None:
+    study = parse_study(GRID | {"cases": {"A": CASE}})
+    grids, figures = study.grids()[0], {"s": ["f"]}
+    check_targets(["all", "results/s/figures/f.png", "results/s/cases/A.nc", "out.txt"], study, grids, figures)
+    for target, words in (
+        ("results/t/cases.nc", "no study t .*s"),
+        ("results/s/figures/g.png", "no figure g .*f"),
+        ("results/s/cases/B.nc", "no case B .*A"),
+        ("results/s/batches/x.nc", "no batch x"),
+    ):
+        with pytest.raises(dm.DiscModelError, match=words):
+            check_targets([target], study, grids, figures)
+
+
+def test_a_run_says_in_the_end_what_has_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    grids = parse_study(GRID).grids()[0]
+    (folder := tmp_path / "results" / "s").mkdir(parents=True)
+    (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
+    text = "\n".join(closing_lines(parse_study(GRID), [Path("results/s/figures/f.png")], grids))
+    for line in ("s: 1 figure in results/s/figures", "2 of 4 points have a result, for others see", "2 x paradox"):
+        assert line in text
