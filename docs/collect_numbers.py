@@ -201,11 +201,22 @@ class Sources:
         text = _ledger(self.results).set_index("id")["here"][claim]
         return [_numbers(number)[0] for number in re.findall(rf"{NUMBER}(?= {unit})", text)] if unit else _numbers(text)
 
+    def table(self, name: str, column: str, row: int) -> float:
+        """A value in a table of the paper's study."""
+        path = self.results / "paper" / "tables" / f"{name}.csv"
+        if not path.exists():
+            raise MissingFile(f"{path}: there is no such file")
+        return float(pd.read_csv(path)[column].iloc[row])
+
     # ---- grid studies
 
     def grid(self, study: str) -> xr.Dataset:
         """The dataset of a study, without axes of one value."""
         return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+
+    def separating_cells(self, normalization: str) -> int:
+        """Points of the map over speed and preload at which the static start separates."""
+        return int((flag_names(self.grid("map_N")["outcome"].sel(normalization=normalization)) == "separation").sum())
 
     def quiet_cycle(self) -> tuple[float, float]:
         """Least speed of the stable quiet cycle at 385 N, and its fold; it is the cycle of least range at 14 rad/s."""
