@@ -5,8 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import ShortTimeFFT, find_peaks
-from scipy.signal.windows import blackmanharris, hann
 
 from disc_model.errors import ParameterError
 
@@ -71,6 +69,8 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
         height 1, less the loss between two bins (at most 0.8 dB)
     """
     rate = rate_of(time, values)
+    from scipy.signal.windows import blackmanharris  # the first import takes a second: most jobs do without
+
     window = blackmanharris(len(time), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
     amplitude: Array = 2 * np.abs(transform) / window.sum()
@@ -194,6 +194,9 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
     if len(values) < length + 2 * step:
         raise ValueError(f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s")
     # scale_to="magnitude": the height of a line does not depend on the window's length
+    from scipy.signal import ShortTimeFFT
+    from scipy.signal.windows import hann
+
     transform = ShortTimeFFT(hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude")
     centred = np.asarray(values, dtype=float) - np.mean(values)
     first, last = transform.lower_border_end[1], transform.upper_border_begin(len(centred))[1]
@@ -222,6 +225,8 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
 
 def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
     """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher one is kept."""
+    from scipy.signal import find_peaks
+
     peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
     return np.asarray(peaks, dtype=np.int64)
 

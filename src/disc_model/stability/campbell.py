@@ -10,7 +10,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from disc_model.data.variables import CycleStatus
 from disc_model.disc.plate import mode_arrays
@@ -66,6 +65,8 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # two multipliers may match a mode: one resembles its shape, one the conjugate
     mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
+    from scipy.optimize import linear_sum_assignment
+
     rows, columns = linear_sum_assignment(-mac)
     matched = np.full(len(mac), -1)
     matched[rows] = columns

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from disc_model.display import Summarised, draw
 from disc_model.engine.jit.cache import compiling
@@ -519,6 +518,8 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
         """The parameter's component of the curve's tangent."""
         tangent_there = problem.tangents(at(s))[0]
         return float(tangent_there[-1] / (tangent_there @ tangent))
+
+    from scipy.optimize import brentq
 
     return float(at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
 

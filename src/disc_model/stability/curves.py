@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from disc_model.data.variables import CycleStatus
 from disc_model.engine.jit.cache import compiling
@@ -393,6 +392,8 @@ def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
     if not (len(first.multipliers) and len(second.multipliers)):
         return NO_CYCLES if len(first.multipliers) != len(second.multipliers) else ()
     distance = np.abs(first.multipliers[:, None] - second.multipliers[None, :])
+    from scipy.optimize import linear_sum_assignment
+
     rows, columns = linear_sum_assignment(distance)
     before, after = first.multipliers[rows], second.multipliers[columns]
     chosen = (before.imag > 0) & (np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED)
