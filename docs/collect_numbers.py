@@ -19,6 +19,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 import yaml
+from docs.drawings.brake_energy import powers
 
 import disc_model as dm
 from disc_model.analysis.classify import share
@@ -27,6 +28,7 @@ from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.errors import script
 from disc_model.paper.measures import CaseView
+from disc_model.paper.survival import MODELS
 
 ROOT = Path(__file__).parents[1]
 STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encoding="utf-8"))
@@ -183,7 +185,7 @@ class Sources:
 
     def verdicts(self, verdict: str) -> int:
         """Number of the paper's statements with a verdict, without errors in print."""
-        ledger = _ledger(self.results)
+        ledger = _table(self.results / "paper" / "claims.csv")
         return int(((ledger["counts"] != "error in print") & (ledger["verdict"] == verdict)).sum())
 
     def claims(self, print_error: bool) -> int:
@@ -198,7 +200,7 @@ class Sources:
 
     def evidence(self, claim: str, unit: str = "") -> list[float]:
         """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
-        text = _ledger(self.results).set_index("id")["here"][claim]
+        text = _table(self.results / "paper" / "claims.csv").set_index("id")["here"][claim]
         return [_numbers(number)[0] for number in re.findall(rf"{NUMBER}(?= {unit})", text)] if unit else _numbers(text)
 
     def table(self, name: str, column: str, row: int) -> float:
@@ -261,6 +263,10 @@ class Sources:
         """Time of the first separation on the brake-like disc, s."""
         point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact="unilateral")
         return float(point["first_separation"])
+
+    def brake_energy(self, contact: str, part: str) -> float:
+        """Mean power of a part at 8 kN and 80 rad/s late in the motion, kW."""
+        return abs(powers(80, contact)[part]) / 1e3
 
     def brake_mode(self, Omega: float) -> float:
         """Frequency of the mode of steady sliding that grows fastest on the brake-like disc at 8 kN, Hz."""
@@ -342,15 +348,19 @@ class Sources:
         largest = sorted(changes, key=lambda name: -changes[name])[:3]
         return ", ".join(f"{name} {changes[name]:.2f}" for name in largest)
 
-    # ---- docs/model_sensitivity.md, which `make survival` writes, and other pages
+    # ---- results of `make survival` and of `make orthonormal`, and pages
 
-    def survival(self, heading: str, model: str) -> list[float]:
+    def survival(self, conclusion: str, model: str) -> list[float]:
         """Numbers that were found for a model."""
-        return _numbers(_row("model_sensitivity", f"## {heading}", model)[3])
+        return _numbers(self._found(conclusion, model))
 
-    def all_survival(self, heading: str, i: int) -> list[float]:
+    def _found(self, conclusion: str, model: str) -> str:
+        table = _table(self.results / "paper" / "survival.csv").set_index(["id", "model"])
+        return str(table["here"][conclusion, model])
+
+    def all_survival(self, conclusion: str, i: int) -> list[float]:
         """The i-th number that was found for each model."""
-        return [self.survival(heading, model)[i] for model in MODELS]
+        return [self.survival(conclusion, model)[i] for model in MODELS]
 
     def others(self) -> list[float]:
         """Points without a stable cycle that do not separate, by model."""
@@ -358,18 +368,20 @@ class Sources:
 
     def stick_shares(self) -> list[float]:
         """Shares of stick after a separation, %, in cases in which stick does not disappear; two models."""
-        cells = [_row("model_sensitivity", "## Stick vanishes", model)[3] for model in MODELS[:2]]
+        cells = [self._found("Stick vanishes", model) for model in [*MODELS][:2]]
         shares = [float(share) for cell in cells for share in re.findall(r"([\d.]+) %", cell)]
         return [share for share in shares if share > 0.1]
 
     def models(self, conclusion: str, verdict: str) -> int:
         """Number of models under which a conclusion has a verdict."""
-        return sum(cell.strip() == verdict for cell in _row("model_sensitivity", "## At a glance", conclusion)[3:])
+        table = _table(self.results / "paper" / "survival.csv")
+        return int(((table["id"] == conclusion) & (table["verdict"] == verdict)).sum())
 
     def ranges(self, model: str) -> np.ndarray:
         """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2)."""
-        cell = _row("model_sensitivity", "## Smaller vibration", model)[3]
-        return np.array(re.findall(r"([\d.]+) against ([\d.]+) mm", cell), dtype=float)
+        return np.array(
+            re.findall(r"([\d.]+) against ([\d.]+) mm", self._found("Smaller vibration", model)), dtype=float
+        )
 
     def energy(self) -> np.ndarray:
         """Evidence on energy by case, mJ per cycle in columns 2 to 5: supplied with separation, without it, taken by
@@ -381,15 +393,18 @@ class Sources:
         ranges = np.concatenate([self.ranges(model) for model in MODELS])
         return ranges[:, 1] / ranges[:, 0]
 
-    def separating(self, column: int) -> int:
-        """Number of cases on docs/normalisation.md that separate: as published (3), with Eq. (17) (4)."""
-        return sum(bool(re.match(r" [\d.]+ s ", row[column])) for row in normalisation_cases())
+    def separating(self, modes: str) -> int:
+        """Number of the paper's cases that separate: "as published", or with modes by "Eq. (17)"."""
+        return int(self._cases()[f"First separation, {modes}"].str.match(r"[\d.]+ s").sum())
 
     def bilateral_cases(self) -> int:
-        return sum(row[3] == " ignored " for row in normalisation_cases())
+        return int((self._cases()["First separation, as published"] == "ignored").sum())
 
     def runs(self) -> int:
-        return len(normalisation_cases())
+        return len(self._cases())
+
+    def _cases(self) -> pd.DataFrame:
+        return _table(self.results / "paper" / "normalisation.csv")
 
     def line(self, page: str, heading: str, start: str) -> list[float]:
         """Numbers in the first row of a table of docs/ that begins as stated, below a heading."""
@@ -458,9 +473,6 @@ class Sources:
         return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
 
 
-MODELS = ("as published", "orthonormal", "+ residual flexibility", "+ normal contact force")
-
-
 def _parameters(**changed: Any) -> dm.Parameters:
     values: dict[str, Any] = {"N": 200, "Omega": 20, "normalization": "as_published"}
     return dm.Parameters(**(values | changed))
@@ -472,8 +484,7 @@ def _load(path: Path) -> xr.DataTree:
 
 
 @cache
-def _ledger(results: Path) -> pd.DataFrame:
-    path = results / "paper" / "claims.csv"
+def _table(path: Path) -> pd.DataFrame:
     if not path.exists():
         raise MissingFile(f"{path}: there is no such file")
     return pd.read_csv(path, keep_default_na=False)
@@ -483,12 +494,6 @@ def _row(page: str, heading: str, start: str) -> list[str]:
     """Cells of the first row that begins as stated; the first cell is the second entry."""
     text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8").partition(f"\n{heading}\n")[2]
     return next(line for line in text.splitlines() if line.startswith(f"| {start}")).split("|")
-
-
-def normalisation_cases() -> list[list[str]]:
-    """Cells of the rows of docs/normalisation.md that compare cases; the first cell is the second entry."""
-    text = (ROOT / "docs" / "normalisation.md").read_text(encoding="utf-8").partition("\n| Case |")[2]
-    return [line.split("|") for line in text.partition("\n\n")[0].splitlines()[2:]]
 
 
 def _numbers(text: str) -> list[float]:

@@ -1,16 +1,12 @@
 """Numbers of README, docs and captions are those of results: docs/statements.yaml, docs/collect_numbers.py."""
 
-import math
 import re
 
-import pandas as pd
 import pytest
 from docs.collect_numbers import ROOT, STATEMENTS, Sources, Statement
 
 from disc_model.data.dataset import MissingFile
 from docs import collect_numbers
-
-LEDGER = ROOT / "results" / "paper" / "claims.csv"
 
 
 @pytest.mark.parametrize("statement", collect_numbers.statements(), ids=lambda statement: statement.text[:60])
@@ -78,22 +74,3 @@ def test_a_number_that_is_not_that_of_the_results_is_corrected() -> None:
 def test_results_of_another_processor_may_differ_where_a_last_bit_decides(expression, text, value, right) -> None:
     spec = "s" if isinstance(value, str) else "w" if text.isalpha() else ".2f" if "." in text else ""
     assert collect_numbers.reproduced(expression, text, value, spec) == right
-
-
-@pytest.mark.skipif(not LEDGER.exists(), reason="needs results/paper/claims.csv, by `make reproduce`")
-def test_page_on_normalisation_agrees_with_the_results_as_published() -> None:
-    """A row was undecided in the ledger and true on that page."""
-    verdicts = pd.read_csv(LEDGER, keep_default_na=False).set_index("quote")["verdict"]
-    page = collect_numbers.pages()["docs/normalisation.md"].partition("| Statement |")[2]
-    told = dict(re.findall(r"^\| [^|]+ \| “(.*?)” \| ([a-z ]+) \| ", page, flags=re.MULTILINE))
-    assert len(told) > 10
-    assert told == verdicts[list(told)].to_dict()
-    sources = Sources(ROOT / "results")
-    rows = [row for row in collect_numbers.normalisation_cases() if row[3] != " ignored "]
-    times = [sources.first_separation(row[1].strip()) for row in rows]
-    texts = [row[3].split(" s ")[0].strip() for row in rows]
-    wrong = [text for text, time in zip(texts, times, strict=True) if text.startswith("none") != math.isnan(time)]
-    assert not wrong, "run `make orthonormal`"
-    found = [(float(text), time) for text, time in zip(texts, times, strict=True) if not math.isnan(time)]
-    # after a long irregular motion in contact the time differs by per cents between tolerances and processors
-    assert [text for text, _ in found] == pytest.approx([time for _, time in found], rel=0.02)

@@ -12,6 +12,8 @@ from tests.references.fixed_step import first_separation
 from tests.references.growth import couple, steady_eigenvalues
 
 EACH_LAW = {"default": {}} | LAWS
+HAS_KERNELS = {"default": {}, "bilateral": {"contact": "bilateral"}}
+"""Laws for which the quick tests compile kernels in any case."""
 
 
 def eigenvalues(p):
@@ -71,12 +73,10 @@ def test_first_separations_are_those_of_fixed_steps(N, Omega):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(
-    "law", [pytest.param(law, marks=() if law == "default" else pytest.mark.slow) for law in EACH_LAW]
-)
+@pytest.mark.parametrize("law", [*HAS_KERNELS, *(pytest.param(law, marks=pytest.mark.slow) for law in LAWS)])
 def test_events_are_those_of_the_reference(law):
     """Of a violent piece with separations and impacts, and of slip and stick from rest."""
-    p = Parameters(N=385, Omega=15.1, friction_offset=0.02, c=0.3, c_p=0.2, **EACH_LAW[law])
+    p = Parameters(N=385, Omega=15.1, friction_offset=0.02, c=0.3, c_p=0.2, **(HAS_KERNELS | LAWS)[law])
     q = taylor.problem_of(p)
     violent = stored.rounded(taylor.violent_start(1.3))
     for start, own, span in ((violent, stored.engine_state(violent, p), 0.012), (q.equilibrium(), None, 0.05)):
