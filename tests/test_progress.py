@@ -8,7 +8,7 @@ import threading
 import numba
 import pytest
 
-from disc_model import Execution, Parameters, progress, simulate
+from disc_model import Execution, Parameters, display, simulate
 from disc_model.engine.jit import cache
 from disc_model.simulation import api
 
@@ -30,7 +30,7 @@ def test_only_a_long_simulation_is_shown(
 ) -> None:
     stderr = kind()
     monkeypatch.setattr(sys, "stderr", stderr)
-    monkeypatch.setattr(progress, "PATIENCE", patience)
+    monkeypatch.setattr(display, "PATIENCE", patience)
     monkeypatch.setattr(api, "STEPS_PER_PAUSE", 10)  # as if it were long: it pauses
     simulate(P, 0.05, execution=Execution(progress=option))
     assert ("simulating 0.05 s" in stderr.getvalue()) == shown

@@ -28,9 +28,8 @@ WHAT = {
     "parameters": "one case of disc and slider",
     "units": "kinds of numbers, units, strict bases",
     "engine": "equations, series, roots, events: numbers and arrays only",
-    "progress": "progress displays",
     "errors": "statuses, exceptions and their messages",
-    "display": "objects as tables and pictures in notebooks",
+    "display": "tables and pictures in notebooks, progress",
     "sources": "files on which a result depends",
 }
 """A few words for each part of a layer."""

@@ -171,6 +171,7 @@ _RULES = {
     "value_error": "{error}",
     "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # only names have a pattern
     "too_short": "must have {min_length} or more",
+    "string_too_long": "must be at most {max_length} characters",
     **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
     **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),
     **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sized
 from contextlib import suppress
 from importlib import import_module
 from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import (
@@ -225,7 +226,7 @@ class Disc(Checked):
         >>> dm.Disc.from_csv("disc.csv") == disc
         True
         """
-        import_module("disc_model.disc.tables").write_disc(self, path)
+        Path(path).write_text(import_module("disc_model.disc.tables").table_text(self), encoding="utf-8")
 
     @classmethod
     def from_uff(cls, path: str | os.PathLike[str], r_0: float) -> Disc:

@@ -22,8 +22,7 @@ PACKAGE = Path(__file__).resolve().parent
 ASIDE = {
     "mode_choice": "is an entry point, where modes are chosen by the motion",
     "disc.plausibility": "warns",
-    "progress": "shows progress",
-    "display": "shows to a reader",
+    "display": "shows to a reader, and progress",
     "simulation.pictures": "draws for a reader",
 }
 """Modules that are not followed where they are imported, since they decide no result, with the reason."""

@@ -10,7 +10,6 @@ import numbers
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
@@ -165,19 +164,6 @@ def within(limits: tuple[float, float]) -> AfterValidator:
     return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], limits_rule(limits)))
 
 
-def _drawable(text: str) -> str:
-    """Refuse formulas that matplotlib cannot typeset, because it would report them only after all computations."""
-    if "$" in text and find_spec("matplotlib"):
-        from matplotlib.mathtext import MathTextParser
-
-        try:
-            MathTextParser("path").parse(text)
-        except ValueError as error:
-            raise ValueError(f"must be text that matplotlib can set ({' '.join(str(error).split())})") from None
-    return text
-
-
-Title = Annotated[str, AfterValidator(_drawable)]
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.analysis.poincare import distinct_points, stages
+from disc_model.analysis.classify import distinct_points, stages
 
 PHASE = np.array([0, 1, 2, 1, 2, 0], dtype=np.int8)
 TIME = np.arange(6.0)

@@ -132,7 +132,7 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(path: Path) -> None:
     larger = xr.DataTree(xr.Dataset({"x": ("t", np.random.default_rng(1).random(20_000))}))
     resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, limits[1]))
     try:
-        with pytest.raises(WriteError, match=r"case\.nc: cannot be written: .* \(0\.4 MB needed"):
+        with pytest.raises(WriteError, match=r"case\.nc: cannot be written: "):
             save(larger, path)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)

@@ -89,7 +89,6 @@ GRIDS: list[tuple[dict[str, Any], str]] = [
     (figure(variable="outcom"), "figures.f.variable 'outcom' outcome"),
     (figure(y="k", x="k"), "figures.f.y 'k' differ"),
     (figure(units={"speed": "rpm"}), "figures.f.units.speed unit"),
-    (figure(title="$x"), "figures.f.title set"),
     (figure(overlays={"growth": "s"}), "figures.f.overlays.growth unknown"),
 ]
 CASES: list[tuple[dict[str, Any], str]] = [

@@ -17,7 +17,6 @@ FAILURE_MAPS = [
 # Module and function of each study; a change of one measures only what it is part of.
 STUDIES = {
     "work_precision": "work_precision.work_precision",
-    "truncation": "truncation.truncation_study",
     "contact_truncation": "truncation.contact_study",
     "answers": "answers.answers",
     "answer_maps": "maps.answer_map",
@@ -26,7 +25,6 @@ STUDIES = {
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
-    "truncation": f"{BENCH}/truncation.nc",
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
     "answers": f"{BENCH}/answers.nc",
     "prices": f"{BENCH}/answers.nc",
@@ -54,7 +52,7 @@ rule measure:
     log:
         f"{BENCH}/logs/measure/{{part}}{{target}}.log",
     wildcard_constraints:
-        part="work_precision|(contact_)?truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
+        part="work_precision|contact_truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
         target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"

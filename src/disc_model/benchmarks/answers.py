@@ -142,11 +142,6 @@ def start_of(name: str) -> State:
     return read_state(stored("answers")["starts"][name])
 
 
-def right_region() -> NDArray[np.bool_]:
-    """Separation in each cell, shape (`SIDE`, `SIDE`), loads along the first axis."""
-    return np.array([[letter == "1" for letter in row] for row in stored("answers")["region"]])
-
-
 def cell_parameters(index: int) -> Parameters:
     """Parameters of a cell by its index in the region, 0 to `SIDE`^2 - 1."""
     load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
@@ -300,20 +295,15 @@ def region(solve: Solve, budget: float) -> Replies:
     If the budget is too small for all cells, a power of two of them is drawn at random with a fixed seed. The answer
     then has Wilson's interval of 95 %.  The time is extrapolated to all cells.
     """
-    right = right_region().ravel()
+    right = [letter == "1" for row in stored("answers")["region"] for letter in row]  # loads along the first axis
     return {"region": judged(lambda index: cell(solve, cell_parameters(index), budget), right.__getitem__, budget)}
-
-
-def drawn() -> NDArray[np.int64]:
-    """Indices of the cells, in the order of examination: random, with a fixed seed."""
-    return np.random.default_rng(20).permutation(SIDE * SIDE)
 
 
 def judged(
     judge: Callable[[int], tuple[bool, float]], right: Callable[[int], bool], budget: float, most: int = SIDE * SIDE
 ) -> Reply:
     """The answer as of `region`, from functions of a cell's index: separation and seconds, and the right answer."""
-    indices = drawn()
+    indices = np.random.default_rng(20).permutation(SIDE * SIDE)
     verdicts: list[tuple[bool, float]] = []
     try:
         verdicts += [judge(int(index)) for index in indices[:TRIED]]
@@ -348,12 +338,6 @@ ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {
     "region": (region, 8.0),
 }
 """By name: the function that answers, and the budget in s of a method at one setting."""
-
-
-def ask(solve: Solve, name: str) -> Replies:
-    """The replies to one of these questions."""
-    function, budget = ASKED[name]
-    return function(solve, budget)
 
 
 def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
@@ -425,7 +409,8 @@ def answers(
     def of_method(line: str, setting: float, question: str) -> Iterator[Row]:
         if question in hopeless:
             return
-        for answer, reply in ask(setting_of(METHODS[line], setting), question).items():
+        function, budget = ASKED[question]
+        for answer, reply in function(setting_of(METHODS[line], setting), budget).items():
             yield _row(answer, line, reference(answer).value, reply)
             if reply.status is AnswerStatus.TOO_SLOW:
                 hopeless.add(question)

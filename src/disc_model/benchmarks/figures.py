@@ -304,8 +304,12 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
     labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
     gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
-    lines = _lines(part, "case", "contact")
-    figure, axes = _against_modes(lines, "contact_truncation", (1, 3, 10, 30, 100), labels, gone)
+    lines = [
+        (part.isel(case=i).sel(contact=contact), look, contact.replace("_", " "))
+        for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
+        for contact in part["contact"].values.tolist()
+    ]
+    figure, axes = _against_modes(lines, labels, gone)
     for ax in axes.values():
         ax.autoscale(False)
     axes["late"].set_ylim(-FAR, FAR)
@@ -324,46 +328,16 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def truncation(dataset: xr.Dataset) -> Figure:
-    """Results of a study against the number of real modes, one colour per number of nodal circles.
-
-    Filled: as published; hollow and dashed: orthonormal.  Quantities of the upper row converge, those of the lower row
-    need not.
-    """
-    part = dataset.assign(force_swing=dataset["force_max"] - dataset["force_min"])
-    circles = [f"{int(count)} nodal circle{'' if count == 1 else 's'}" for count in dataset["circles"].values]
-    nine = Line2D([], [], color=GREY, linestyle=":", label="nine modes")
-    lines = _lines(part, "circles", "normalization")
-    figure, axes = _against_modes(lines, "truncation", (3, 10, 30), circles, nine)
-    _cut(axes["first_separation"], part["first_separation"].values)
-    for name, ticks in (("impact_share", (0.05, 0.1, 0.2, 0.5)), ("separations", (20, 50, 100, 200))):
-        axes[name].set_yticks(ticks, [f"{tick:g}" for tick in ticks])
-    for ax in axes.values():
-        ax.axvline(9, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-    return figure
-
-
 Line = tuple[xr.Dataset, tuple[str, str], str]
 """Values along the models, colour and marker, and the name of the mark: the first is filled, the other hollow."""
 
 
-def _lines(part: xr.Dataset, by: str, marked: str) -> list[Line]:
-    """Lines of a colour for each value of ``by``, and of a mark for each of ``marked``."""
-    return [
-        (part.isel({by: i}).sel({marked: mark}), look, mark.replace("_", " "))
-        for i, look in zip(range(part.sizes[by]), cycle(_LOOKS))
-        for mark in part[marked].values.tolist()
-    ]
-
-
-def _against_modes(
-    lines: Sequence[Line], name: str, ticks: Sequence[int], labels: Sequence[str], further: Line2D
-) -> tuple[Figure, dict[str, Axes]]:
+def _against_modes(lines: Sequence[Line], labels: Sequence[str], further: Line2D) -> tuple[Figure, dict[str, Axes]]:
     """Create eight panels over the number of real modes, by variable, and a legend of labels that ends in `further`."""
     figure, shown = panels(PAGE, 3.9, 2, 4, sharex=True)
-    axes = {panel[0]: ax for panel, ax in zip(_TEXTS[name], shown, strict=True)}
+    axes = {panel[0]: ax for panel, ax in zip(_TEXTS["contact_truncation"], shown, strict=True)}
     marks = dict(zip(dict.fromkeys(mark for *_, mark in lines), _MARKS, strict=False))
-    for (variable, label, log), letter in zip(_TEXTS[name], "abcdefgh", strict=True):
+    for (variable, label, log), letter in zip(_TEXTS["contact_truncation"], "abcdefgh", strict=True):
         ax = axes[variable]
         for line, (color, marker), mark in lines:
             y = line[variable].values
@@ -373,7 +347,7 @@ def _against_modes(
         ax.set(xscale="log", yscale="log" if log else "linear")
         ax.margins(x=0.06)
         drawing.letter(ax, letter, label, fontsize=7)
-        ax.set_xticks(ticks, [str(tick) for tick in ticks])
+        ax.set_xticks((1, 3, 10, 30, 100), ["1", "3", "10", "30", "100"])
         for axis in (ax.xaxis, ax.yaxis):
             axis.set_minor_formatter(NullFormatter())
     for ax in shown[4:]:
@@ -386,24 +360,12 @@ def _against_modes(
     return figure, axes
 
 
-def _cut(ax: Axes, values: np.ndarray) -> None:
-    """Limit the axis to values near the median, and list the values above it."""
-    values = values[np.isfinite(values)]
-    top = 1.12 * float(np.median(values))
-    if values.max() > top:
-        ax.set_ylim(top=top)
-        text = "beyond: " + ", ".join(f"{value:.0f} s" for value in values[values > top])
-        ax.text(
-            1.0, 0.97, text, transform=ax.transAxes, ha="right", va="top", fontsize=6, color=GREY, path_effects=_HALO
-        )
-
-
 # ----------------------------------------------------------------------------------------------------
 # All of them
 
 DRAWN: dict[str, Callable[..., Figure]] = {
     function.__name__: function
-    for function in (overview, answers, prices, truncation, contact_truncation, failure_maps, answer_maps)
+    for function in (overview, answers, prices, contact_truncation, failure_maps, answer_maps)
 }
 
 

@@ -309,12 +309,10 @@ def _part(model: type[Any], name: str, values: dict[str, str]) -> Any:
 
 def _writable(path: Path) -> Path:
     """Refuse a file that cannot be written, before the simulation instead of after it."""
-    from disc_model.data.dataset import NAME_RULE, may_be_file
-
     if not path.parent.is_dir():
         raise ValueError("must be in a folder that exists")
-    if not may_be_file(path):
-        raise ValueError(NAME_RULE)
+    if path.is_dir():
+        raise ValueError("must be the name of a file")
     return path
 
 

@@ -17,7 +17,6 @@ import os
 import re
 import secrets
 import shlex
-import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -34,8 +33,6 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
-OVERHEAD = 1 << 18
-"""Approximate size of attributes and file format, in bytes."""
 
 
 # ----------------------------------------------------------------------------------------------------
@@ -131,8 +128,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     """
     if not isinstance(tree, xr.DataTree):
         raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
-    file = regular_file(path)
-    write_atomically(file, lambda name: _write(tree, name), sum(node.nbytes for node in tree.subtree) + OVERHEAD)
+    write_atomically(regular_file(path), lambda name: _write(tree, name))
 
 
 def _write(tree: xr.DataTree, name: str) -> None:
@@ -212,7 +208,7 @@ def save_tables(tables: Tables, described: str, path: str | Path) -> None:
         columns = json.dumps({name: [*table] for name, table in tables.items()})
         frames = [pd.DataFrame({"table": name, **_in_words(table)}) for name, table in tables.items()]
         text = f"# {columns}\n# {described}\n" + pd.concat([each for each in frames if len(each)]).to_csv(index=False)
-        write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"), len(text))
+        write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"))
     elif file.suffix == ".mat":
         from scipy.io import savemat
 
@@ -220,9 +216,9 @@ def save_tables(tables: Tables, described: str, path: str | Path) -> None:
             if not re.fullmatch(r"(?!(result|units)$)[A-Za-z]\w{0,62}", name, re.ASCII):
                 raise ParameterError(Fault(("windows", name), "", "must be a name that MATLAB allows, but not `units`"))
         units = {name: SERIES[name].units for table in tables.values() for name in table if name in SERIES}
-        content, size = {"result": described, "units": units, **tables}, sum(map(_size, tables.values())) + OVERHEAD
+        content = {"result": described, "units": units, **tables}
         options: dict[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "column"}
-        write_atomically(file, lambda name: savemat(name, content, **options), size)
+        write_atomically(file, lambda name: savemat(name, content, **options))
     else:
         raise ParameterError(Fault.of(("path",), str(path), "must end in .nc, .csv or .mat"))
 
@@ -276,16 +272,8 @@ def _in_numbers(frame: pd.DataFrame) -> dict[str, Any]:
     }
 
 
-def _size(table: Mapping[str, Any]) -> int:
-    return sum(values.nbytes for values in table.values())
-
-
 # ----------------------------------------------------------------------------------------------------
 # Whole files
-
-LONGEST_NAME = 233
-"""Longest name of a file in bytes: its temporary name is longer, and file systems allow 255."""
-NAME_RULE = f"must be the name of a regular file, of at most {LONGEST_NAME} bytes"
 
 
 class WriteError(DiscModelError, OSError):
@@ -300,29 +288,15 @@ class UnreadableFile(DiscModelError):
     """A file that is damaged, or none that `save` has written."""
 
 
-def may_be_file(path: object) -> bool:
-    """Whether a path is allowed for a file; see `NAME_RULE`."""
-    try:
-        file = Path(path)  # type: ignore[arg-type] # this function finds out whether it is one
-        name = os.fsencode(file.name)
-        return (
-            name not in (b"", b"..")
-            and b"\0" not in os.fsencode(file)
-            and len(name) <= LONGEST_NAME
-            and (file.is_file() or not file.exists())
-        )
-    except (TypeError, ValueError, OSError):
-        return False
-
-
 def regular_file(path: str | Path) -> Path:
-    """A path that is allowed for a file; raises `ParameterError` otherwise."""
-    if not may_be_file(path):
-        raise ParameterError(Fault(("path",), as_text(str(path)), NAME_RULE))
-    return Path(path)
+    """A path that leads to a file or to nothing; raises `ParameterError` otherwise, as for a folder or a device."""
+    file = Path(path)
+    if file.exists() and not file.is_file():
+        raise ParameterError(Fault(("path",), as_text(str(path)), "must be the name of a file"))
+    return file
 
 
-def write_atomically(path: Path, write: Callable[[str], object], size: int) -> None:
+def write_atomically(path: Path, write: Callable[[str], object]) -> None:
     """Write a file under a temporary name and rename it: after a failure `path` is unchanged.
 
     A symbolic link stays, and the file that it leads to is replaced. Raises `WriteError` if the folder does not exist,
@@ -331,7 +305,6 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
     Parameters
     ----------
     write : function that writes the file whose name it receives, a new one in the same folder
-    size : approximate size of the file in bytes, for the message
     """
     target = Path(os.path.realpath(path))
     if not target.parent.is_dir():
@@ -344,9 +317,7 @@ def write_atomically(path: Path, write: Callable[[str], object], size: int) -> N
             os.fsync(file.fileno())  # otherwise a crash of the machine may leave an empty file under the new name
         os.replace(temporary, target)
     except (OSError, RuntimeError) as error:  # the netCDF library raises RuntimeError, without the system's reason
-        free = shutil.disk_usage(target.parent).free
-        needed = f"{size / 1e6:.1f} MB needed, {free / 1e6:.1f} MB free"
-        raise WriteError(f"{path}: cannot be written: {error} ({needed})") from error
+        raise WriteError(f"{path}: cannot be written: {error}") from error
     finally:
         with contextlib.suppress(OSError):
             temporary.unlink()

@@ -44,11 +44,6 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
 
 
-def write_disc(disc: Disc, path: str | os.PathLike[str]) -> None:
-    """Write a disc as the table that `read_disc` reads."""
-    Path(path).write_text(table_text(disc), encoding="utf-8")
-
-
 # ----------------------------------------------------------------------------------------------------
 # Universal files of modal software
 

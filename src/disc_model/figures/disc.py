@@ -70,7 +70,7 @@ def scale_of(motion: Motion) -> Normalize:
     step = max(1, motion.time.size // 50)
     largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
     if not largest > 0:
-        raise Missing("did not move in around0")
+        raise Missing("did not move the disc")
     return Normalize(-1e3 * largest, 1e3 * largest)
 
 

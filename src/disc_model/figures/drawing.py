@@ -96,17 +96,11 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
     except Missing as reason:
         for ax in axes:
             ax.cla()
-            _say_missing(ax, reason)
+            say_missing(ax, reason)
 
 
-def empty_figure(reason: Missing) -> Figure:
-    """A figure that says why there is nothing to show."""
-    figure, [ax] = panels(COLUMN, 2)
-    _say_missing(ax, reason)
-    return figure
-
-
-def _say_missing(ax: Axes, reason: Missing) -> None:
+def say_missing(ax: Axes, reason: Missing) -> None:
+    """Write into an empty panel why there is nothing to show."""
     phrase = fill(f"not shown: the case {reason}", 24)
     ax.set_axis_off()
     ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
@@ -218,10 +212,9 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 
 def flags_of(variable: xr.DataArray) -> list[str]:
     """Words of a flag's values; none for other variables."""
-    if variable.dtype.kind in "UO":
-        return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in np.unique(variable.values).tolist()]
-    words = variable.attrs.get("flag_meanings", "").split()
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if word != EXCLUDED]
+    in_words = variable.dtype.kind in "UO"
+    words = np.unique(variable.values).tolist() if in_words else variable.attrs.get("flag_meanings", "").split()
+    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if in_words or word != EXCLUDED]
 
 
 def as_numbers(variable: xr.DataArray) -> xr.DataArray:
@@ -368,15 +361,8 @@ def mark_printed(ax: Axes, time: float) -> None:
         return
     look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
     ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-    say(
-        ax,
-        f"paper: {time:g} s",
-        (time, 0),
-        (-6, 4),
-        xycoords=("data", "axes fraction"),
-        fontsize=6,
-        path_effects=halo(),
-    )
+    beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
+    say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:

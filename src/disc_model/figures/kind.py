@@ -26,7 +26,7 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import Figure
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Poincare, Window
-from disc_model.units import Strict, Title, in_si
+from disc_model.units import Strict, in_si
 
 Values = Mapping[str, Sequence[tuple[Any, ...]]]
 """Values of the parameters along each dimension of a grid."""
@@ -96,9 +96,9 @@ class Kind(Strict):
     """
 
     kind: str
-    title: Title = ""
+    title: str = ""
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
-    section: Title = ""
+    section: str = ""
     units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
 
     @classmethod
@@ -354,7 +354,8 @@ class CasePlot(Kind):
             try:
                 figure = self.draw(*inputs.values())
             except Missing as reason:
-                figure = drawing.empty_figure(reason)
+                figure, [ax] = drawing.panels(drawing.COLUMN, 2)
+                drawing.say_missing(ax, reason)
             self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
         return figure
 

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.analysis.poincare import stages
+from disc_model.analysis.classify import stages
 from disc_model.analysis.settling import settling
 from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
@@ -343,7 +343,9 @@ class Spectrogram(CasePlot):
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(PAGE / 2, 2.7)
-        draw_spectrogram(figure, ax, cases[0], spectrum_of(cases[0], self.window, self.variable), self.highest)
+        spectrum = spectrum_of(cases[0], self.window, self.variable)
+        draw_scale(figure, draw_power(ax, cases[0], spectrum, float(spectrum.power.max()), self.highest), ax)
+        ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
         ax.set_title(drawing.sampled(self.variable, dataset.group(cases[0], self.window))[0].partition(" (")[0])
         return figure
 
@@ -385,10 +387,3 @@ def draw_scale(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) 
     label = "Power (dB re strongest line)"
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06, label=label)
     bar.outline.set_visible(False)
-
-
-def draw_spectrogram(figure: FigureBase, ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, highest: float) -> None:
-    """Draw power in dB below the strongest line, up to a frequency in Hz, with its scale."""
-    mesh = draw_power(ax, case, spectrum, float(spectrum.power.max()), highest)
-    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
-    draw_scale(figure, mesh, ax)

@@ -16,7 +16,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.figures import disc, drawing, general, motion
-from disc_model.figures.branches import draw_branch
+from disc_model.figures.bifurcation import draw_branch
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
 from disc_model.parameters import Parameters
 

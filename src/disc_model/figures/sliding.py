@@ -10,7 +10,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.figures.campbell import colour_of
 from disc_model.figures.cells import Look, edges_of, fill, patches
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Axes, Figure, Line2D, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, Line2D, panels
 from disc_model.figures.kind import Plot, Role, Roles
 from disc_model.units import Positive, Unit
 
@@ -38,23 +38,13 @@ def handles_of(study: xr.Dataset) -> list[Line2D]:
     ]
 
 
-def draw_line(ax: Axes, x: np.ndarray, y: np.ndarray, grows: np.ndarray, colour: str) -> None:
-    """Draw the line of a mode, thick where it grows."""
-    ax.plot(x, y, color=colour, linewidth=THIN)
-    ax.plot(np.where(grows, x, np.nan), np.where(grows, y, np.nan), ".-", color=colour, linewidth=THICK, markersize=3)
-
-
-class SlidingPlot(Plot):
-    """A figure of the modes along the parameter, of one point."""
-
-    quantities = ("sliding",)
-
-
-class SlidingModes(SlidingPlot):
+class SlidingModes(Plot):
     """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce.
 
     highest : Hz, highest frequency shown
     """
+
+    quantities = ("sliding",)
 
     kind: Literal["sliding_modes"] = "sliding_modes"
     highest: Annotated[Positive, Unit("Hz")] | None = None
@@ -68,7 +58,9 @@ class SlidingModes(SlidingPlot):
         for l, mode in modes_of(study):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
             for ax, values in ((top, frequency), (bottom, rate)):
-                draw_line(ax, along, values, rate > ROUNDING, colour_of(l))
+                ax.plot(along, values, color=colour_of(l), linewidth=THIN)
+                x, y = (np.where(rate > ROUNDING, coordinates, np.nan) for coordinates in (along, values))
+                ax.plot(x, y, ".-", color=colour_of(l), linewidth=THICK, markersize=3)
         bottom.axhline(0, color=BLACK, linewidth=0.5)
         top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=(along[0], along[-1]))
         if self.highest is not None:
@@ -83,8 +75,10 @@ class SlidingModes(SlidingPlot):
         return figure
 
 
-class RootLocus(SlidingPlot):
+class RootLocus(Plot):
     """Eigenvalues of steady sliding in the plane of growth rate and frequency, coloured along the parameter."""
+
+    quantities = ("sliding",)
 
     kind: Literal["root_locus"] = "root_locus"
 

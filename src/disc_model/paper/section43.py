@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 from scipy.stats import spearmanr
 
-from disc_model.analysis.classify import irregularity, separation_location, stick_disappears
-from disc_model.analysis.poincare import distinct_points
+from disc_model.analysis.classify import distinct_points, irregularity, separation_location, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import measures

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import PHASES
+from disc_model.display import Progress, simulating
 from disc_model.engine import audit, event_loop, exit_codes, layout
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.progress import Progress, simulating
 from disc_model.simulation import ramps as courses
 from disc_model.simulation.case import CaseSpec, Poincare, Start, Windows, resolved_windows, windows_faults
 from disc_model.simulation.ramps import Ramp

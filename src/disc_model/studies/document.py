@@ -34,7 +34,7 @@ from disc_model.simulation.ramps import RAMPED, Ramp
 from disc_model.simulation.ramps import faults as ramp_faults
 from disc_model.studies.quantity import quantity_names, quantity_of
 from disc_model.studies.ranges import Blocks, Range, checked_rule
-from disc_model.units import Count, Finite, Positive, Seconds, Strict, Title, Tolerance, must
+from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
 
 # ----------------------------------------------------------------------------------------------------
 # Names
@@ -50,12 +50,10 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
     return AfterValidator(must(lambda name: name not in taken, rule))
 
 
-_LENGTH = must(lambda name: len(name) <= 100, "must be at most 100 characters")
 _REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
 Name = Annotated[
     str,
-    StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$"),
-    AfterValidator(_LENGTH),
+    StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100),
     AfterValidator(_REPETITION),
 ]
 """A name that files are called by; Snakemake takes a name that repeats itself for an endless recursion."""
@@ -315,12 +313,12 @@ Figure = Annotated[
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
 
 
-def _without_null(raw: Any) -> Any:
-    return {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw
-
-
 Figures = Annotated[
-    dict[Name, Figure], BeforeValidator(_without_null, json_schema_input_type=dict[Name, Figure | None])
+    dict[Name, Figure],
+    BeforeValidator(
+        lambda raw: {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw,
+        json_schema_input_type=dict[Name, Figure | None],
+    ),
 ]
 """Figures by their names; null drops one that is inherited."""
 
@@ -368,7 +366,7 @@ class Document(Strict):
     """
 
     study: Name
-    title: Title = ""
+    title: str = ""
     base: GivenParameters = GivenParameters()
     figures: Figures = Field({})
     tol: Tolerance | None = 1e-10

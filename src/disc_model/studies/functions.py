@@ -16,10 +16,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
+from disc_model.display import counting
 from disc_model.errors import Fault, raise_faults, suggestion
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Parameters, foreign_case
-from disc_model.progress import counting
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import Start
 from disc_model.simulation.result import Result
