@@ -39,8 +39,7 @@ def very_different(*cases: CaseView, factor: float) -> Answer:
         differ.append(narrow and max(shares) >= factor * min(shares))
         rows.append(
             f"{case.place}: sticks {100 * shares[0]:.1f} % of the time, without separation {100 * shares[1]:.1f} %; "
-            "disc within "
-            f"{mm(case.disc.width)} and {mm(bonded.disc.width)}"
+            f"disc within {mm(case.disc.width)} and {mm(bonded.disc.width)}"
         )
     return Answer(any(differ), f"{'; '.join(rows)}.")
 
@@ -62,11 +61,9 @@ def not_monotonous(*evidence: Any) -> Answer:
         and newly.any()
         and lowered.any()
         and {-1, 1} <= signs,
-        f"Preload at {cases[0]['Omega']:g} rad/s: {preloads}. In-plane "
-        f"damping of up to {damping[-1]:g} N s/m brings separation at {listed(loads[newly], '.0f')} N and lowers "
-        f"growth at {lowered.sum()} of {growing.sum()} preloads with a growing cycle. In-plane stiffness at 300 N: "
-        "growth "
-        f"{stiffened_text(p, 'k_p', 50)}.",
+        f"Preload at {cases[0]['Omega']:g} rad/s: {preloads}. In-plane damping of up to {damping[-1]:g} N s/m brings "
+        f"separation at {listed(loads[newly], '.0f')} N and lowers growth at {lowered.sum()} of {growing.sum()} "
+        f"preloads with a growing cycle. In-plane stiffness at 300 N: growth {stiffened_text(p, 'k_p', 50)}.",
     )
 
 
@@ -134,13 +131,11 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
     by_mode = all(abs(each - 1) <= within for each in follows)
     return Answer(
         AMBIGUOUS if by_mode else all(abs(each - 1) <= within for each in alone),
-        f"{'; '.join(rows)}. With k 0.1 % larger the rate rises by {listed(follows, '.3f')} of what the coupled "
-        f"mode does. The spring has {100 * spring:.0f} % of the stiffness of that mode. At sqrt(k/m) = {free:.1f} Hz "
-        "the disc's "
-        f"spectrum has {level:.0e} of its strongest line or less.",
+        f"{'; '.join(rows)}. With k 0.1 % larger the rate rises by {listed(follows, '.3f')} of what the coupled mode "
+        f"does. The spring has {100 * spring:.0f} % of the stiffness of that mode. At sqrt(k/m) = {free:.1f} Hz the "
+        f"disc's spectrum has {level:.0e} of its strongest line or less.",
         "If the branch is the mode in which slider and spring move with the disc, the sentence is true. If it is the "
-        "slider on its "
-        "spring alone, it is false."
+        "slider on its spring alone, it is false."
         if by_mode
         else "",
     )

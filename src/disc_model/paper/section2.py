@@ -76,9 +76,8 @@ def normalised(*, within: float) -> Answer:
     squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
     return Answer(
         np.max(np.abs(norms_of_base - 1)) <= within,
-        f"The left side is {listed(norms_of_base, '.2f')} for the modes of 0 to 4 nodal diameters that give "
-        "the paper's frequencies with the slider attached. With one nodal diameter the squared amplitude under the "
-        "slider "
+        f"The left side is {listed(norms_of_base, '.2f')} for the modes of 0 to 4 nodal diameters that give the "
+        "paper's frequencies with the slider attached. With one nodal diameter the squared amplitude under the slider "
         f"is {squares[0]:.2f} instead of {squares[1]:.2f} 1/kg.",
     )
 

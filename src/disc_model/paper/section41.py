@@ -21,8 +21,7 @@ def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
     return Answer(
         late.width > factor * case.early.width,
         f"The contact force is {case.early:.2f} N at first, and {late:.1f} N before the first separation at "
-        f"{before:.2f} s. "
-        f"{count:.0f} separations follow until {case['time_reached']:g} s.",
+        f"{before:.2f} s. {count:.0f} separations follow until {case['time_reached']:g} s.",
     )
 
 
@@ -51,8 +50,7 @@ def separations_are_short(*cases: CaseView, share: float) -> Answer:
     return Answer(
         max(parts) < share,
         f"The longest take {100 * min(parts):.0f} to {100 * max(parts):.0f} % of the {1e3 * period:.2f} ms between "
-        "two: "
-        f"{', '.join(rows)}.",
+        f"two: {', '.join(rows)}.",
     )
 
 
@@ -96,8 +94,7 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
     return Answer(
         min(*sticks, least) > share,
         f"The slider sticks {rows}. On a grid of {settled.size} preloads and speeds it sticks {100 * least:.2g} % of "
-        "the time "
-        f"or more at all {settled.sum()} that have settled.",
+        f"the time or more at all {settled.sum()} that have settled.",
         f"{moving} of the grid had not settled after {measures.facts(study)['max_transient']:g} s." if moving else "",
     )
 
@@ -176,14 +173,12 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         )
         rows.append(
             f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "
-            "mJ, "
-            f"impacts take {impacts:.2f} mJ"
+            f"mJ, impacts take {impacts:.2f} mJ"
         )
     steady = energy.of_windows(pairs(cases)[0][1], "field")
     return Answer(
         min(withheld) >= share,
         f"The contact force supplies as much at equal amplitude, and impacts take the surplus. {'; '.join(rows)}. "
-        "Without "
-        f"separation, at {cases[0].place}, the force supplies {steady.pushes:.2f} W while positive and takes "
+        f"Without separation, at {cases[0].place}, the force supplies {steady.pushes:.2f} W while positive and takes "
         f"{-steady.pulls:.2f} W while negative.",
     )

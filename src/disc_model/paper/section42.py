@@ -19,8 +19,7 @@ def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
     return Answer(
         not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
         f"{case.first_separation().capitalize()}. The contact force stays within {early:.2f} N at first and "
-        f"{late:.2f} N in the "
-        f"end, the disc within {mm(case.disc.width)}. {case.growth.capitalize()}.",
+        f"{late:.2f} N in the end, the disc within {mm(case.disc.width)}. {case.growth.capitalize()}.",
     )
 
 
@@ -42,9 +41,7 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
         not below.separates and above.separates,
         "; ".join(f"{case.place}: {case.first_separation()}, {case.growth}" for case in (below, above)) + ".",
         "This holds for the paper's very values. With one parameter 0.1 % larger, contact is lost at "
-        f"{below['Omega']:g} rad/s "
-        f"({early}), or is not lost within {until:g} s at {above['Omega']:g} rad/s "
-        f"({none}).",
+        f"{below['Omega']:g} rad/s ({early}), or is not lost within {until:g} s at {above['Omega']:g} rad/s ({none}).",
     )
 
 

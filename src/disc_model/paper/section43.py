@@ -55,8 +55,7 @@ def stays_small(case: CaseView, *_: CaseView, share: float, within: float) -> An
     return Answer(
         stays_calm(case) and case.late.width < share * case["N"] and spread <= within,
         f"{outcome_of(case).capitalize()}. P within {case.late:.2f} N in the end; {1 / intervals.mean():.3f} "
-        "releases/s with a "
-        f"spread of {spread:.0e}.",
+        f"releases/s with a spread of {spread:.0e}.",
     )
 
 
@@ -90,8 +89,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
         PART if apart and lower else apart,
         f"First separation: {rows}.",
         f"Within the {horizon:.0f} s that the paper's Fig. 17 takes, {min(lower):g} rad/s separates too: the two "
-        "numbers exclude "
-        "one another."
+        "numbers exclude one another."
         if lower
         else "",
     )
@@ -161,8 +159,7 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     return Answer(
         TRUE if part == 1 else PART if rank <= -trend else FALSE,
         f"On the map at {facts(study)['N']:g} N, growth falls in {100 * part:.0f} % of the steps of {name}; the "
-        "median rank "
-        f"correlation of growth with {name} is {rank:.2f}.",
+        f"median rank correlation of growth with {name} is {rank:.2f}.",
     )
 
 
@@ -173,8 +170,7 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     return Answer(
         not case.separates and last > factor * case.early.width and last < bounded * before,
         f"{outcome_of(case).capitalize()}. The range of P is {case.early.width:.1f} N at first, {before:.1f} and "
-        f"{last:.1f} N in the "
-        f"last quarters, {max(widths):.0f} N at most.",
+        f"{last:.1f} N in the last quarters, {max(widths):.0f} N at most.",
     )
 
 
@@ -198,9 +194,8 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
         f"At {cases[0].place}: "
         + "; ".join(f"k = {1e-3 * case['k']:g} kN/m: {case.first_separation()}" for case in cases)
         + ".",
-        f"On the map at {stated['N']:g} N, a spring separates within {stated['horizon']:g} s and a softer one does "
-        "not at "
-        f"{listed(returns, '.4g')} rad/s."
+        f"On the map at {stated['N']:g} N, a spring separates within {stated['horizon']:g} s and a softer one does not "
+        f"at {listed(returns, '.4g')} rad/s."
         if returns
         else "",
     )
@@ -233,8 +228,7 @@ def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
     return Answer(
         graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
         f"{case.first_separation().capitalize()}. {points} of the last {last:g} points of the disc's section differ. "
-        "The "
-        f"slider's releases are {case.motion}.",
+        f"The slider's releases are {case.motion}.",
         f"With k 0.1 % larger they are {near.late_motion()}.",
     )
 
@@ -260,8 +254,7 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     return Answer(
         location.kind == "at the lowest position" and above <= share,
         f"Contact is lost at {1e3 * (where - case['u_0']):.1f} mm, {100 * location.height:.0f} % of the swing above "
-        "its lowest point, "
-        f"at {speed:+.2f} m/s. The lowest point of all is at {1e3 * height.min():.1f} mm.",
+        f"its lowest point, at {speed:+.2f} m/s. The lowest point of all is at {1e3 * height.min():.1f} mm.",
         f"In {starts.size} of {swings} swings only." if starts.size < 0.9 * swings else "",
     )
 
@@ -307,9 +300,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     return Answer(
         bool(newly.size) and not (never > newly[-1]).any(),
         f"At {facts(study)['Omega']:g} rad/s, within {facts(study)['horizon']:g} s, c_p = {c_p:g} N s/m brings "
-        "separation at "
-        f"{listed(newly, '.0f', 'none')} N, of {extent(loads):g} N. No damper of up to {damping[-1]:g} N s/m does "
-        f"at {listed(never[never > 300], '.0f')} N above 300 N.",
+        f"separation at {listed(newly, '.0f', 'none')} N, of {extent(loads):g} N. No damper of up to {damping[-1]:g} "
+        f"N s/m does at {listed(never[never > 300], '.0f')} N above 300 N.",
     )
 
 

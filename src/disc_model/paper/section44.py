@@ -30,8 +30,7 @@ def rest_late(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     return Answer(
         PART if moved[0] <= within else TRUE,
         f"While the vibration grows lines move. From 100 to 110 s the lines of {case.place} move by {moved[0]:.0e} Hz "
-        "at most, "
-        "so that the usual spectrum is sharp.",
+        "at most, so that the usual spectrum is sharp.",
     )
 
 
@@ -66,8 +65,7 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     return Answer(
         off.max() <= bound and chance * len(lines) <= 1e-3,
         f"{rows} Hz, with f_s = {stick_slip_rate(case):.2f} Hz: {off.max():.2f} Hz away at most. {named} of "
-        f"{len(lines)} are "
-        "combinations of the stick-slip rate and the drive's frequency.",
+        f"{len(lines)} are combinations of the stick-slip rate and the drive's frequency.",
         f"As strong as the weakest of them, but not in the table: {listed(others)} Hz." if others else "",
     )
 
@@ -88,9 +86,8 @@ def follow(*cases: CaseView, within: float) -> Answer:
     return Answer(
         max(away) <= 4 and not any(combined),
         f"The lines follow the stick-slip rate: {sum(combined)} of {len(combined)} are n f_s + m f_Ω, to "
-        f"{max(off):.2f} Hz, when the "
-        "in-plane spring or the speed is changed. Natural frequencies do not change, and are up to "
-        f"{max(away) * cases[0].drive:.0f} Hz away.",
+        f"{max(off):.2f} Hz, when the in-plane spring or the speed is changed. Natural frequencies do not change, and "
+        f"are up to {max(away) * cases[0].drive:.0f} Hz away.",
         f"{'; '.join(rows)}.",
     )
 
@@ -134,8 +131,7 @@ def higher(
     return Answer(
         TRUE if grows and not grows_in_control else PART if grows else FALSE,
         f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after; without "
-        "separation "
-        f"{control:.1e} then.",
+        f"separation {control:.1e} then.",
     )
 
 
@@ -146,8 +142,7 @@ def fuzz_goes(*pair: CaseView, share: float) -> Answer:
     return Answer(
         after < share * before,
         f"Lines fill {100 * before:.1f} % of 20 to 300 Hz from 38 to 48 s, and {100 * after:.1f} % from 100 to 110 s. "
-        "Without "
-        f"separation they fill {100 * ignored:.1f} % and {100 * control:.1f} %.",
+        f"Without separation they fill {100 * ignored:.1f} % and {100 * control:.1f} %.",
     )
 
 
@@ -163,9 +158,8 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
     return Answer(
         PART if cleared and alike else cleared,
         f"Lines of ψ fill {100 * before:.1f} % of 20 to 300 Hz before the first separation and {100 * after:.1f} % "
-        "after it. "
-        f"Without separation they fill {100 * ignored:.1f} and {100 * control:.1f} % then, and {100 * late:.1f} % "
-        "from 100 s on.",
+        f"after it. Without separation they fill {100 * ignored:.1f} and {100 * control:.1f} % then, and "
+        f"{100 * late:.1f} % from 100 s on.",
     )
 
 
@@ -189,8 +183,7 @@ def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
     return Answer(
         sharp > max(factor * slow, least) and last < sharp,
         f"Growth of the range: {slow:.4f}/s over the first half, {sharp:.3f}/s at {starts[peak] + 2.5:.0f} s, "
-        f"{last:.3f}/s just "
-        f"before separation, {case.slope('w_point', end - 20, np.inf):z.4f}/s in the end.",
+        f"{last:.3f}/s just before separation, {case.slope('w_point', end - 20, np.inf):z.4f}/s in the end.",
     )
 
 
@@ -201,8 +194,7 @@ def fuzz_stays(*pair: CaseView, share: float) -> Answer:
     return Answer(
         after >= share * before,
         f"Lines fill {100 * before:.0f} % of 20 to 300 Hz before the first separation and {100 * after:.0f} % after "
-        "it; without "
-        f"separation {100 * ignored:.0f} and {100 * control:.0f} %.",
+        f"it; without separation {100 * ignored:.0f} and {100 * control:.0f} %.",
     )
 
 
@@ -215,8 +207,8 @@ def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
     return Answer(
         TRUE if quiet and right else PART if quiet else FALSE,
         f"Power above the highest natural frequency, of that above {LOW:g} Hz: {first:.0e} from 465 to 475 s, "
-        f"{last:.0e} from 1490 to "
-        f"1500 s. That frequency is {omega:.1f} rad/s for this disc; {printed:g} rad/s belongs to 150 GPa.",
+        f"{last:.0e} from 1490 to 1500 s. That frequency is {omega:.1f} rad/s for this disc; {printed:g} rad/s "
+        "belongs to 150 GPa.",
     )
 
 
@@ -228,8 +220,7 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     return Answer(
         theirs / power > share,
         f"{case.place}, 0 to 10 s: {len(made)} of {len(lines)} lines above {LOW:g} Hz, with "
-        f"{100 * theirs / power:.0f} % of their "
-        f"power, are n f_s + m f_Ω with f_s = {rate:.2f} Hz.",
+        f"{100 * theirs / power:.0f} % of their power, are n f_s + m f_Ω with f_s = {rate:.2f} Hz.",
     )
 
 

@@ -75,8 +75,7 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
     return Answer(
         soon if compared or not soon else NOT_COMPUTED,
         f"{apart.sum()} of {apart.size} points separate: {unstable} from an unstable cycle, {without} where none is "
-        "found, "
-        f"{len(early)} from a stable one; {(stable & ~apart).sum()} with a stable cycle do not.",
+        f"found, {len(early)} from a stable one; {(stable & ~apart).sum()} with a stable cycle do not.",
         "Shortly before the stable cycle ends at a fold it separates, too: "
         f"{'; '.join(measures.place(*point) for point in early)}."
         if early and soon
@@ -204,8 +203,7 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     return Answer(
         destabilises if destabilises or of >= fewest else NOT_COMPUTED,
         f"At {large:g} N or more higher at {above} of {of} points, and {measures.counted(ended, 'stable cycle')} "
-        "ended; "
-        f"below, higher at {below} of {of_below}.",
+        f"ended; below, higher at {below} of {of_below}.",
         "At few points only; elsewhere it lowers growth or leaves it." if 0 < 10 * (above + ended) <= of else "",
     )
 
