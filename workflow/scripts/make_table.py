@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from disc_model.data.dataset import load_cases
+from disc_model.data.dataset import Missing, load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from disc_model.paper.measures import views
-from disc_model.paper.paper_tables import impact_law, periods, table_1, table_2_or_why
+from disc_model.paper.paper_tables import COLUMNS, TABLE_2, impact_law, periods, table_1, table_2
 
 TITLES = {
     "table1": "Table 1: base values",
@@ -63,8 +63,10 @@ def main(name: str, csv: str, md: str, html: str, *paths: str) -> None:
     if name == "table1":
         table = table_1(cases["F13"].parameters)
     elif name == "table2":
-        table, missing = table_2_or_why(cases["F13"])
-        table, note = table.round(3), missing or note
+        try:
+            table = table_2(cases["F13"]).round(3)
+        except Missing as reason:
+            table, note = TABLE_2.reindex(columns=COLUMNS), f"Not computed: {reason}."
     else:
         table = periods().round(4) if name == "periods" else impact_law(cases).round(2)
     table.to_csv(csv, index=False)

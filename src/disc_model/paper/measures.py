@@ -129,11 +129,6 @@ class CaseView:
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
         return f"periodic, repeats after {after} ({length:.6g} s) to within {motion.closure:.0e} s"
 
-    def period_of(self, kind: str) -> str:
-        """Number of events of a kind after which the motion repeats, in words."""
-        motion = classify_intervals(tuple(self.intervals(kind)))
-        return counted(motion.period, kind) if motion.period else str(motion)
-
     @property
     def sticks(self) -> bool:
         """Whether it spends a thousandth of the time sticking, within the stored events."""
@@ -291,11 +286,6 @@ class CaseView:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
         return Signal(self.name, window, start, stop, samples["time"].values, samples[name].values)
 
-    def late_section(self, last: int) -> Array:
-        """The last Poincaré points of the disc, displacement and velocity: shape (``last``, 2) or fewer."""
-        samples = self.samples("poincare").isel(time=slice(-last, None))
-        return np.column_stack([samples["w_point"].values, samples["w_point_velocity"].values])
-
     def slope(self, name: str, start: float, stop: float) -> float:
         """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
         part = self.history.sel(time=slice(start, stop))
@@ -337,12 +327,12 @@ class Signal:
         self.lines(above=LOW)
         return spectra.power_share(self.time, self.values, frequency, LOW)
 
-    def lines(self, **options: float) -> list[Line]:
-        """Lines, as by `disc_model.analysis.spectra`; raises `Missing` without any."""
+    def lines(self, count: int | None = None, **options: float) -> list[Line]:
+        """Lines, as by `disc_model.analysis.spectra`, the strongest ones of a count; raises `Missing` without any."""
         peaks = spectra.lines(self.time, self.values, **options)
         if not peaks:
             raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
-        return peaks
+        return sorted(peaks, key=lambda line: -line.amplitude)[:count] if count else peaks
 
     def strongest(self, near: float, within: float) -> Line:
         """The strongest line within `within` Hz of a frequency; raises `Absent`."""
@@ -406,12 +396,6 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     return Falls(bool(dips.size), texts, top, [f"{loads[i]:g} N" for i in later])
 
 
-def kicks_that_separate(basins: xr.Dataset, Omega: float) -> tuple[int, int]:
-    """Number of random perturbations at a speed in rad/s that lead to repeated separation, and of all."""
-    total = basins.sizes["energy"] * basins.sizes["start"]
-    return round(total * float(published(basins)["separating_fraction"].sel(Omega=Omega))), total
-
-
 def width_ratio(case: CaseView, bonded: CaseView) -> float:
     """Range of the disc in the end with separation over that without."""
     return ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
@@ -464,11 +448,6 @@ def runs(values: Array, inside: NDArray[np.bool_]) -> list[Range]:
 def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:
     """A number with its unit, or a text if it is missing."""
     return without if math.isnan(value) else f"{value:{spec}}{unit}"
-
-
-def loudest(lines: Iterable[Line], count: int) -> list[Line]:
-    """The strongest lines, at most `count`, the strongest first."""
-    return sorted(lines, key=lambda line: -line.amplitude)[:count]
 
 
 @cache

@@ -10,7 +10,6 @@ import yaml
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Motion, motion_of
 from disc_model.data.dataset import Missing
-from disc_model.paper import measures
 from disc_model.paper.measures import CaseView, place
 from disc_model.paper.model import FOLDER, paper_cases
 from disc_model.parameters import Parameters
@@ -61,14 +60,6 @@ def table_2(case: CaseView) -> pd.DataFrame:
     )[COLUMNS]
 
 
-def table_2_or_why(case: CaseView) -> tuple[pd.DataFrame, str]:
-    """`table_2` and ""; or only the paper's values, and the data that the case lacks."""
-    try:
-        return table_2(case), ""
-    except Missing as reason:
-        return TABLE_2.reindex(columns=COLUMNS), f"Not computed: {reason}."
-
-
 def table_2_lines(case: CaseView) -> list[spectra.Line]:
     """The strongest line near each frequency of Table 2."""
     signal = case.signal("spectrum_a", 0, 10)
@@ -77,7 +68,7 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
 
 def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
     """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
-    (line,) = measures.loudest(case.signal(window, start, stop, "psi").lines(above=20.0), 1)
+    (line,) = case.signal(window, start, stop, "psi").lines(1, above=20.0)
     return line.frequency
 
 

@@ -224,7 +224,9 @@ def _growth(p: Parameters) -> float:
 
 def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
     """Whether points of the disc's section differ, and the slider's releases do not repeat."""
-    motion, points = case.late_motion(), distinct_points(case.late_section(int(last)))
+    section = case.samples("poincare").isel(time=slice(-int(last), None))
+    points = distinct_points(np.column_stack([section[name].values for name in ("w_point", "w_point_velocity")]))
+    motion = case.late_motion()
     return Answer(
         graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
         f"{case.first_separation().capitalize()}. {points} of the last {last:g} points of the disc's section differ. "

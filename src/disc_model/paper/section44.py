@@ -74,7 +74,7 @@ def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off, away = [], [], []
     for case in cases:
-        lines = sorted(measures.loudest(case.signal(*EARLY).lines(above=100, below=300, apart=1.0), 6))
+        lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in lines]
         away += [_from_natural(case, line) / case.drive for line in lines]

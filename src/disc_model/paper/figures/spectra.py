@@ -1,8 +1,9 @@
 """A vibration over a run and its spectra in time, as in figures 24 to 29 of the paper."""
 
 from collections.abc import Iterator
+from itertools import product
 from textwrap import fill
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -66,49 +67,35 @@ class FourStretches(CasePlot):
 
         figure = new_figure(PAGE, 6.2)
         top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
-        whole = top.subplots()
-        names = list(self.spectra)
-        axes = below.subplots(
-            1 + len(cases),
-            len(names),
-            sharex="col",
-            sharey="row",
-            squeeze=False,
-            height_ratios=(1, *[1.6] * len(cases)),
-        )
+        whole, names = top.subplots(), list(self.spectra)
+        shape, heights = (1 + len(cases), len(names)), (1, *[1.6] * len(cases))
+        axes = below.subplots(*shape, sharex="col", sharey="row", squeeze=False, height_ratios=heights)
+        rows = [(0, CLOSE, HIGHEST), *((i, 0.0, CLOSE) for i in range(len(cases)))]  # case, and frequencies
         spectra: dict[tuple[int, str], TimeFrequency] = {}
-        for i, case in enumerate(cases):
-            for name, column in zip(names[i:] if i else names, axes[:, i:].T if i else axes.T, strict=True):
-                with drawing.blank_if_missing(*(column[1 + i :] if i else column[:2])):
-                    spectra[i, name] = spectrum_of(case, name, "w_point")
+        for i, j in product(range(len(cases)), range(len(names))):
+            if i and not j:  # before any separation
+                continue
+            with drawing.blank_if_missing(*(ax for ax, (case, *_) in zip(axes[:, j], rows, strict=True) if case == i)):
+                spectra[i, names[j]] = spectrum_of(cases[i], names[j], "w_point")
         reference = max((float(spectrum.power.max()) for spectrum in spectra.values()), default=1.0)
-        for (i, name), spectrum in spectra.items():
-            column, case = axes[:, names.index(name)], cases[i]
-            if not i:
-                draw_power(column[0], case, spectrum, reference, HIGHEST)
-                column[0].set_ylim(CLOSE, HIGHEST)
-                drawing.letter(column[0], "bcdef"[names.index(name)])
-            mesh = draw_power(column[1 + i], case, spectrum, reference, CLOSE)
+        for row, (i, low, high) in zip(axes, rows, strict=True):
+            for ax, name in zip(row, names, strict=True):
+                if (i, name) in spectra:
+                    mesh = draw_power(ax, cases[i], spectra[i, name], reference, high)
+                    ax.set_ylim(low, high)
+            row[0].set_ylabel("Frequency (Hz)")
+        for ax, text in zip(axes[0], "bcdef", strict=False):
+            if ax.has_data():
+                drawing.letter(ax, text)
         for ax in axes[-1]:
             ax.set_xlabel("Time (s)")
             ax.xaxis.set_major_locator(MaxNLocator(3))
-        for row, text in zip(axes, ("", "with\nseparation", "separation\nignored"), strict=False):
-            row[0].set_ylabel("Frequency (Hz)")
-            if text and len(cases) > 1:
-                row[-1].annotate(
-                    text, (0.97, 0.97), xycoords="axes fraction", ha="right", va="top", color="white", fontsize=6
-                )
         if len(cases) > 1:
+            look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
+            for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
+                row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
             axes[2, 0].set_facecolor("white")
-            axes[2, 0].text(
-                0.5,
-                0.5,
-                "as above:\nno separation yet",
-                ha="center",
-                va="center",
-                transform=axes[2, 0].transAxes,
-                fontsize=7,
-            )
+            axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
         if spectra:
             _name_lines(axes[1, -1])
             draw_scale(below, mesh, list(axes.flat))
