@@ -21,6 +21,12 @@ COUPLE: dict[str, Any] = {"friction_offset": 0.02}
 COUPLED = {f"{name or 'vertical'}_coupled": law | COUPLE for name, law in {"": {}, **LAWS}.items()}
 """Each law with friction above the middle plane."""
 
+FALLING = {f"{name or 'vertical'}_falling": law | {"friction_decay": 2.0} for name, law in {"": {}, **LAWS}.items()}
+FALLING["compliant_normal_falling"] |= COUPLE
+FALLING["vertical_coupled_falling"] = FALLING["vertical_falling"] | COUPLE
+"""Each law with friction that falls with the speed, two of them with the couple."""
+ALL_LAWS = LAWS | COUPLED | FALLING
+
 COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
 """Marks of what has kernels of its own, which compile for a minute; without compilation it is quick."""
 

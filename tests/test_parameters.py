@@ -36,6 +36,7 @@ def test_key_changes_with_every_field(name: str) -> None:
     p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=0 if name == "disc" else 2)
     other = {"normalization": "orthonormal", "contact": "bilateral", "n_diameters": 3, "n_circles": 1}
     other |= {"contact_compliance": 1e-7, "contact_force": "normal", "damping_ratio": 1e-3, "friction_offset": 1e-3}
+    other["friction_decay"] = 2.0
     other["disc"] = Disc(diameters=[1], omega=[1500.0], amplitude=[2.0])
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
 

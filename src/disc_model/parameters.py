@@ -75,7 +75,7 @@ AMPLITUDES = (1e-6, 1e6)
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
 """Words by which texts that identify cases and batches know the kinds of contact, and the field's own."""
 
-_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset")
+_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
@@ -455,6 +455,9 @@ class Parameters(Checked):
     friction_offset: Annotated[float | Literal["surface"], _or_word(SURFACE)] = _field(
         0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
     )
+    friction_decay: Real = _field(
+        math.inf, "s/m", "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed", ge=0
+    )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
     )
@@ -470,9 +473,9 @@ class Parameters(Checked):
             mu_k: Quantity = ..., a: Quantity = ..., b: Quantity = ..., r_0: Quantity = ..., h: Quantity = ...,
             nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
             normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ..., contact_force: str = ...,
-            friction_offset: Quantity = ..., damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
-            mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ..., a_over_b: float = ...,
-            r_0_over_b: float = ..., h_over_b: float = ...,
+            friction_offset: Quantity = ..., friction_decay: Quantity = ..., damping_ratio: Quantity | None = ...,
+            disc: Disc | None = ..., mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ...,
+            a_over_b: float = ..., r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
 
     else:
@@ -516,9 +519,8 @@ class Parameters(Checked):
     def numbers(self) -> dict[str, float]:
         """All numbers of the case that may change continuously, by name: parameters, ratios and `Disc.numbers`."""
         unused = {"D_star"} if self.damping_ratio is not None else {*PLATE} if self.disc is not None else set()
-        unused |= {
-            name for name in ("contact_compliance", "friction_offset") if getattr(self, name) == 0
-        }  # other models
+        others = {"contact_compliance": 0, "friction_offset": 0, "friction_decay": math.inf}  # of other models
+        unused |= {name for name, value in others.items() if getattr(self, name) == value}
         numbers = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
         ratios = {
             name: numbers[upper] / numbers[two]

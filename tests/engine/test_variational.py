@@ -9,7 +9,7 @@ from disc_model import Parameters, plate_modes
 from disc_model.engine import exit_codes, saltation, tangent, transitions
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
-from tests.contact_laws import COMPILES, COUPLED, LAWS
+from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
 from tests.engine.full_system import Full
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, P, lively
@@ -38,10 +38,11 @@ SWITCHES = {
 RESIDUAL = {"contact_compliance": "residual", "normalization": "orthonormal"}
 CONTACTS = {
     "vertical": {}, **LAWS, "compliant": RESIDUAL, "residual_normal": RESIDUAL | {"contact_force": "normal"}, **COUPLED,
+    **FALLING,
 }  # fmt: skip
 #: Where nothing pulls the reference meets two switches at once; a compliant contact begins without tension.
 NOT_THERE = [
-    *((law, "contact lost in stick") for law in ("normal", "residual_normal", "normal_coupled")),
+    *((law, "contact lost in stick") for law in ("normal", "residual_normal", "normal_coupled", "normal_falling")),
     *((law, "impact, left in tension") for law in CONTACTS if "compliant" in law or "residual" in law),
 ]
 THROUGH = [

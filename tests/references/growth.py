@@ -16,6 +16,10 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
     N, Omega, m, k, c, k_p, c_p, mu, r_0 = (
         float(values[name]) for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_k", "r_0")
     )
+    decay, falling = float(values.get("friction_decay", np.inf)), 0.0
+    if np.isfinite(decay):
+        above = (float(values["mu_s"]) - mu) / (1 + decay * r_0 * Omega)
+        mu, falling = mu + above, -above * decay * r_0 / (1 + decay * r_0 * Omega)
     C, lean = float(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
     omega, psi, l, d, t = (np.asarray(x, float) for x in (omega, psi, l, damping, tangential))
     n, O, I = len(omega), np.zeros((len(omega),) * 2), np.eye(len(omega))
@@ -79,12 +83,12 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
         left[vertical] = 0
         left[vertical, :size], left[vertical, vertical] = m * climb, -1
         right[vertical] = -k * height - c * climb
-    # R = V (+ T B / r_0), T = mu R
+    # R = V (+ T B / r_0), T = mu R, where mu may fall with the speed r_0 f
     left[normal, vertical] = -1
     if lean:
         left[normal, tangent] = -B / r_0
         right[normal] = T * steep / r_0
-    left[tangent, normal] = -mu
+    left[tangent, normal], right[tangent, f_row] = -mu, falling * R
     kept = np.append(present, np.arange(4 * n, size))
     rates = np.linalg.solve(left, right)[np.ix_(kept, kept)]
     return np.linalg.eigvals(rates), (V, R, T)

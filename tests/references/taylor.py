@@ -6,6 +6,7 @@ for by exclusion: on an interval of middle m and half width r a polynomial has n
 at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
 rates, from corner to corner of a course; u_0 stays that of the first N.  The couple of friction on a surface at
 ``offset`` (m) from the middle plane is a force ``t T`` on beta, t = -(offset/r_0) l psi (1/sqrt(kg)).
+Friction falls with the speed by ``decay`` (s/m), or at once.
 """
 
 from functools import cache
@@ -42,6 +43,8 @@ class Problem:
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
         self.C, self.normal = LONG(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
+        self.decay = LONG(values.get("friction_decay", np.inf))
+        self.falls = bool(np.isfinite(self.decay)) and self.mu_s > self.mu_k
         self.rigid, self.bonded = self.C == 0, values.get("contact") in ("bonded", "bilateral")
         w, self.s, self.l = (np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l))
         self.w2 = w * w
@@ -103,7 +106,7 @@ class Step:
         for name in ("a", "b", "alpha", "beta"):
             setattr(self, name, np.zeros((K + 1, n), LONG))
             getattr(self, name)[0] = getattr(state, name)
-        for name in ("psi", "f", "u", "v", "V", "R", "T", "B", "F"):
+        for name in ("psi", "f", "u", "v", "V", "R", "T", "B", "F", "excess", "mu"):
             setattr(self, name, np.zeros(K + 1, LONG))
         self.fa, self.below = np.zeros((K + 1, n), LONG), np.zeros(K + 1, LONG)
         # Omega and N of each order
@@ -149,9 +152,16 @@ class Step:
 
     def _forces(self, k, free, fq, height):
         """V, R and T of order k."""
-        q, s = self.q, self.direction
+        q, s, f = self.q, self.direction, self.f
         if self.phase == "separation":
             return
+        if self.phase == "slip":
+            # mu is the signed coefficient; its excess over mu_k times 1 + decay r_0 abs(f) is a constant
+            if q.falls:
+                rest = (q.mu_s - q.mu_k if k == 0 else 0) - q.decay * q.r_0 * s * product(f, self.excess, k)
+                self.excess[k] = rest / (1 + q.decay * q.r_0 * s * f[0])
+            self.mu[k] = s * (self.excess[k] + (q.mu_k if k == 0 else 0))
+            steep = product(self.mu, self.B, k) / q.r_0
         if q.rigid:
             A = (q.s * (free + 2 * q.l * fq - q.l**2 * product(self.f, self.fa, k))).sum()
             top = height + q.m * A
@@ -162,24 +172,24 @@ class Step:
                 self.V[k] = top / (1 + q.m * q.S2)
             self._held(k)
         elif q.normal:
-            slope = s * q.mu_k / q.r_0
             if q.rigid:
                 # D R = top + B F
-                self.below[k] = product(self.B, self.B, k) / q.r_0**2 - slope * q.m * q.S2 * self.B[k]
+                self.below[k] = product(self.B, self.B, k) / q.r_0**2 - q.m * q.S2 * steep
                 self.below[k] += 1 + q.m * q.S2 if k == 0 else 0
                 top += product(self.B, self.F, k)
             else:
-                self.below[k], top = -slope * self.B[k] + (1 if k == 0 else 0), self.V[k]
+                self.below[k], top = -steep + (1 if k == 0 else 0), self.V[k]
             self._divide(k, top)
+            self.T[k] = product(self.mu, self.R, k)
             if q.rigid:
-                self.V[k] = self.R[k] - slope * product(self.R, self.B, k)
-            self.T[k] = s * q.mu_k * self.R[k]
+                self.V[k] = self.R[k] - product(self.T, self.B, k) / q.r_0
         else:
             if q.rigid:
-                self.below[k] = s * q.mu_k / q.r_0 * self.B[k] + (1 + q.m * q.S2 if k == 0 else 0)
+                self.below[k] = steep + (1 + q.m * q.S2 if k == 0 else 0)
                 self._divide(k, top + product(self.B, self.F, k))
                 self.V[k] = self.R[k]
-            self.R[k], self.T[k] = self.V[k], s * q.mu_k * self.V[k]
+            self.R[k] = self.V[k]
+            self.T[k] = product(self.mu, self.R, k)
 
     def _divide(self, k, top):
         """R of order k from (below R)_k = top; R_k is still zero."""
@@ -383,7 +393,7 @@ class Reference:
                 self._enter("slip_to_stick", "stick", 0)
             else:
                 # f begins at zero; at a release so does its rate where friction does not fall
-                zeros = 2 if kind == "stick_to_slip" and self.q.mu_s == self.q.mu_k else 1
+                zeros = 2 if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k) else 1
                 kind = "slip_reversal" if kind == "rest" else kind
                 self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
         elif kind == "separation":

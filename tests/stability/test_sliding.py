@@ -9,7 +9,7 @@ from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.engine import exit_codes
 from disc_model.simulation.states import State
 from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes
-from tests.contact_laws import COMPILES, COUPLED, LAWS
+from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -19,7 +19,8 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     """The equilibrium as a state."""
     modes = plate_modes(p)
     w, slope = float(modes["psi"] @ sliding.a), float((modes["diameters"] * modes["psi"]) @ sliding.b)
-    share = 1 - p.mu_k * slope / p.r_0 if p.contact_force == "normal" else 1.0
+    mu = p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * p.r_0 * p.Omega)
+    share = 1 - mu * slope / p.r_0 if p.contact_force == "normal" else 1.0
     height = w - p.contact_compliance * share * sliding.contact_force
     modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
     return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
@@ -30,14 +31,14 @@ SLIDING = {
     "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),
     "orthonormal": Parameters(N=100, Omega=40, normalization="orthonormal"),
     # two nodal diameters, and damping that counts beside l Omega and omega
-    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in (LAWS | COUPLED).items()},
+    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in ALL_LAWS.items()},
 }
 
 
 @pytest.mark.parametrize(
     "p",
     [
-        pytest.param(p, marks=COMPILES if name in LAWS | COUPLED else pytest.mark.compiled, id=name)
+        pytest.param(p, marks=COMPILES if name in ALL_LAWS else pytest.mark.compiled, id=name)
         for name, p in SLIDING.items()
     ],
 )

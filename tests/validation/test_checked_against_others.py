@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
@@ -192,9 +193,39 @@ def bounce(p):
     return found
 
 
+def falling_friction(p):
+    """A cycle from release to release: by a method of Runge and Kutta for slip, x in m along the belt."""
+    speed = p.r_0 * p.Omega
+
+    def rates(_, y):
+        x, v = y
+        return [speed - v, (p.k_p * x - p.N * (p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * v))) / p.m]
+
+    def stop(_, y):
+        return y[1]
+
+    def turn(_, y):
+        return y[1] - speed
+
+    stop.terminal, stop.direction, turn.direction = True, -1, 1
+    release = p.mu_s * p.N / p.k_p
+    slip = solve_ivp(rates, (0, 10), [release, 0.0], method="DOP853", rtol=1e-13, atol=1e-14, events=(stop, turn))
+    end, largest = slip.t_events[0][0], slip.y_events[1][0][0]
+    rest = slip.y_events[0][0][0]
+    stick = (release - rest) / speed
+    run = simulate(p, 20, tol=1e-14)
+    (start, halt, again), stopped = run.events["time"][:3], p.r_0 * run.events["psi"][1]
+    # a state at the turn: from there the largest displacement is missed by the square of the turn's error
+    near = simulate(p, start + slip.t_events[1][0], tol=1e-14).final_state
+    exact = end, rest, stick, end + stick, largest
+    own = halt - start, stopped, again - halt, again - start, p.r_0 * near.psi
+    names = "slip, s", "displacement at the stop, m", "stick, s", "period, s", "largest displacement, m"
+    return {name: pair for name, *pair in zip(names, exact, own, strict=True)}
+
+
 COMPUTED = {
     "E1": annulus, "E1b": centre, "E2": shoe, "E3": belt, "E4": damped_belt, "E5": divergence, "E6": dashpot,
-    "E7": impact, "E8": bounce,
+    "E7": impact, "E8": bounce, "E9": falling_friction,
 }  # fmt: skip
 
 

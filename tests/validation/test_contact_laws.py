@@ -9,7 +9,7 @@ from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
 from disc_model.simulation.states import engine_case, static_start, write_state
-from tests.contact_laws import COMPILES, COUPLED, LAWS
+from tests.contact_laws import ALL_LAWS, COMPILES, LAWS
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, P, lively
 
@@ -129,13 +129,13 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
 
 
 # ------------------------------------------------------------------------ the series, coefficient by coefficient
-@pytest.mark.parametrize("name", ["default", *LAWS, *COUPLED])
+@pytest.mark.parametrize("name", ["default", *ALL_LAWS])
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 @pytest.mark.parametrize("n_diameters", [pytest.param(n, marks=COMPILES) for n in (2, 5)])
 @pytest.mark.parametrize("rates", [None, (-9e3, 7e5)], ids=["constant", "ramps"])
 def test_series_against_the_reference(name, phase, direction, n_diameters, rates):
     """One block of lanes and two; each coefficient in units of the largest, ``rates`` are those of Omega and N."""
-    p = P.replace(n_diameters=n_diameters, **(LAWS | COUPLED).get(name, {}))
+    p = P.replace(n_diameters=n_diameters, **ALL_LAWS.get(name, {}))
     start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
     if p.contact_compliance:
         start = start.replace(u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Ramp, Window, simulate
-from tests.contact_laws import COMPILES, COUPLED, LAWS, course_of, turned
+from tests.contact_laws import ALL_LAWS, COMPILES, course_of, turned
 from tests.references import stored, taylor
 
 #: s, what is promised.
@@ -37,10 +37,10 @@ def _ramp(p, parameter, rate, end=0.0625):
     return Ramp(parameter=parameter, to=getattr(p, parameter) + rate * end, start=0.0, end=end)
 
 
-@pytest.mark.parametrize("name", ["default", *(pytest.param(name, marks=COMPILES) for name in (LAWS | COUPLED))])
+@pytest.mark.parametrize("name", ["default", *(pytest.param(name, marks=COMPILES) for name in ALL_LAWS)])
 def test_every_law_on_ramps_of_both(name):
     """Of a motion that separates."""
-    p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **(LAWS | COUPLED).get(name, {}))
+    p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **ALL_LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
     found = compared(p, ramps, 0.02, taylor.violent_start(1.0 if p.contact_compliance else 1.3))
     assert {"separation", "reattachment"} <= set(found.events["kind"])

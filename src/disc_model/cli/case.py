@@ -34,7 +34,15 @@ from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance
 
 PANELS = {
     "Slider": ("N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"),
-    "Friction and contact": ("mu_s", "mu_k", "contact", "contact_compliance", "contact_force", "friction_offset"),
+    "Friction and contact": (
+        "mu_s",
+        "mu_k",
+        "contact",
+        "contact_compliance",
+        "contact_force",
+        "friction_offset",
+        "friction_decay",
+    ),
     "Numerics": ("n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"),
     "Run": ("t_end", "stop_at", "window", "ramp", "plot", "save", "csv"),
 }

@@ -1,7 +1,7 @@
 """Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense output.
 
 d/dt (disc + vertical slider) = P f B + T v_s - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
-d/dt (in-plane)               = Omega r_0^2 F - mu_k r_0 P |f| - c_p r_0^2 (Omega - f)^2
+d/dt (in-plane)               = Omega r_0^2 F - mu r_0 P |f| - c_p r_0^2 (Omega - f)^2
 
 T v_s is the work of friction T on the disc's surface, whose velocity is v_s; it has no counterpart in the plane. On a
 ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
@@ -15,6 +15,7 @@ from . import layout
 from .dense_output import force_at, move_to
 from .jit import helper, inlined
 from .jit.simd import WIDTH, fma, load, splat, total
+from .laws import friction_coefficient
 from .transitions import disc_point, friction_force, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
@@ -81,11 +82,12 @@ def _powers_in(model, state, phase, direction, P):
         lost += model.damping0[j] * state.g[j] ** 2
     driven = P * f * dw_dtheta
     supplied = Omega * model.r_0**2 * F
-    rubbed = model.mu_k * model.r_0 * P * direction * f if phase == layout.SLIP else 0.0
+    friction = friction_coefficient(model, direction, f)
+    rubbed = friction * model.r_0 * P * f if phase == layout.SLIP else 0.0
     if model.normal:
-        # P is R: V = R (1 - s mu_k B / r_0) is what acts vertically, and R B / r_0 acts in the plane
+        # P is R: V = R (1 - s mu B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
-        driven *= 1.0 - direction * model.mu_k * dw_dtheta / model.r_0
+        driven *= 1.0 - friction * dw_dtheta / model.r_0
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
     if model.ramped:
         driven += model.N_rate * (u - model.u_0)

@@ -16,6 +16,7 @@ from .exit_codes import CONSISTENT, NO_SOLUTION, NON_FINITE, PAUSED, STALLED, ST
 from .jit import inlined, kernel
 from .saltation import pass_event
 from .sampling import sample_step
+from .series import weakening
 from .stepping import advance_time, expand, first_event, set_course, step_size
 from .stick_propagator import LONGEST_STICK, closed_form_length
 from .tangent import take_step
@@ -182,6 +183,10 @@ def follow(model, s, state, probe, limits, buffers, t):
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:
             return NON_FINITE
+        if len(t) == 1 and model.decaying and x[layout.PHASE] == layout.SLIP:
+            # where friction falls steeply, a change of f grows faster than the fastest motion
+            growth = abs(weakening(model, s, 0, x[layout.DIRECTION])) * model.unit / (model.m * model.r_0)
+            longest = min(longest, limits.longest / max(growth, 1.0))
         x_end, cause = first_event(model, s, state, order, min(x_end, longest))
         before, dt = x[layout.TIME], x_end * model.unit
         if len(t) == 0:

@@ -70,9 +70,16 @@ def vertical_in_stick(model, i):
 
 
 @inlined
-def slip_denominator(model, m, direction, dw_dtheta):
-    """The denominator of the contact force in slip."""
-    friction = direction * model.mu_k
+def friction_coefficient(model, direction, f):
+    """The coefficient of friction in slip, with the sign of ``direction``."""
+    if model.decaying:
+        return direction * (model.mu_k + (model.mu_s - model.mu_k) / (1.0 + direction * model.decay * f))
+    return direction * model.mu_k
+
+
+@inlined
+def slip_denominator(model, m, friction, dw_dtheta):
+    """The denominator of the contact force in slip under a ``friction_coefficient``."""
     if model.normal:
         beta = dw_dtheta / model.r_0
         if model.compliant:
@@ -92,9 +99,8 @@ def slip_numerator(model, i):
 
 
 @inlined
-def slip_rates(model, i, direction, force):
-    """Vertical force V on the disc, and f', under the contact force of slip."""
-    friction = direction * model.mu_k
+def slip_rates(model, i, friction, force):
+    """Vertical force V on the disc, and f', under the contact force of slip and a ``friction_coefficient``."""
     if model.normal:
         beta = i.dw_dtheta / model.r_0
         V, held = force * (1.0 - friction * beta), (friction + beta) * force

@@ -33,7 +33,8 @@ FORCES, COUPLE, SLOPE_RATE = 8, 9, 10
 ROWS = 48
 E, SCRATCH = ROWS, 2 * ROWS
 PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
-SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES, _SLIDER_END = (ROWS * i for i in range(10, 16))
+SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES = (ROWS * i for i in range(10, 15))
+COEFFICIENT_SERIES, WEAKENING_SERIES, _SLIDER_END = (ROWS * i for i in range(15, 18))
 HALF = WIDTH // 2
 # Rows of Series.roots; the numbers that integrate and differentiate powers.
 ROOT_ROWS = 7 * WIDTH
@@ -49,8 +50,9 @@ class Model(NamedTuple):
     ``lanes`` holds the lane arrays one after the other, and derived ones. Hot kernels address all through that one
     pointer; the others are views of it.
 
-    ``wide``, ``compliant``, ``normal``, ``coupled`` and ``ramped`` are flags: (True,) for yes, () for no.  The compiler
-    knows the length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at run time.
+    ``wide``, ``compliant``, ``normal``, ``coupled``, ``decaying``, ``ramped`` are flags: (True,) for yes, () for no.
+    The compiler knows the length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at
+    run time.
     """
 
     lanes: np.ndarray
@@ -89,6 +91,8 @@ class Model(NamedTuple):
     coupled: tuple[bool, ...]  # whether friction acts on the disc's surface, and so bends it
     couple: np.ndarray  # in b-lanes the arm of friction T on a mode, -(its tangential amplitude at the surface)
     couple_swing: float  # sum l psi_l couple_l, 1/kg
+    decaying: tuple[bool, ...]  # whether friction in slip falls with the speed; else it is mu_k at once
+    decay: float  # of friction, r_0 times ``friction_decay``, s/rad
     ramped: tuple[bool, ...]  # whether Omega and N may change with time
     ramp_begin: float  # s
     ramp_angle: float  # rad, of the drive point at the ramp's begin
@@ -124,7 +128,8 @@ class Series(NamedTuple):
 
     z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``, ``ROWS`` doubles each. Behind them
     stand those of B / r_0, under the normal force, and of Omega and N, on a ramp; then R and T of stick, where both the
-    normal force and the couple act.
+    normal force and the couple act. Where friction falls with the speed, there are T of slip, its coefficient, and the
+    change of T with f.
     """
 
     modes: np.ndarray
@@ -188,14 +193,14 @@ def _flag(yes) -> tuple[bool, ...]:
 
 
 def build_model(  # noqa: PLR0913
-    diameters, omega, psi, damping, slider, *, tangential, bonded, compliance=0.0, normal=False
+    diameters, omega, psi, damping, slider, *, tangential, bonded, compliance=0.0, normal=False, friction_decay=np.inf
 ) -> Model:
     """Constants of a case.
 
     diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
     for a rigid disc.  slider: N to r_0 of the model.  tangential: of the modes at the surface on which friction acts,
     kg^-1/2, shape (n_modes,); zeros in the middle plane.  compliance: of the contact, m/N, 0 if rigid; normal: whether
-    the contact force is normal to the bent disc.
+    the contact force is normal to the bent disc; friction_decay: s/m, inf for the coefficient mu_k at any speed.
     """
     N, k, m = (slider[name] for name in ("N", "k", "m"))
     diameters = np.asarray(diameters)
@@ -219,6 +224,7 @@ def build_model(  # noqa: PLR0913
     free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
     rows[SLOPE_RATE:, lane + HALF] = rows[DW_DTHETA, lane + HALF]
     rows[SLOPE_RATE:, lane] = np.outer(_FROM_1 / unit, rows[DW_DTHETA, lane + HALF])
+    decays = np.isfinite(friction_decay) and slider["mu_s"] > slider["mu_k"]
     modes = no_modes()
     if not normal:
         each, n0 = np.concatenate([pairs, single, pairs]), len(single)
@@ -255,6 +261,8 @@ def build_model(  # noqa: PLR0913
         coupled=_flag(np.any(rows[COUPLE])),
         couple=rows[COUPLE],
         couple_swing=float(np.sum(rows[DW_DTHETA] * rows[COUPLE])),
+        decaying=_flag(decays),
+        decay=slider["r_0"] * float(friction_decay) if decays else 0.0,
         ramped=_flag(False),
         ramp_begin=0.0,
         ramp_angle=0.0,

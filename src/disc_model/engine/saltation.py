@@ -30,9 +30,10 @@ def rates(model, state, out):
         V = laws.vertical_in_stick(model, i)
         T = laws.friction_in_stick(model, i, V)
     elif phase == SLIP:
-        force = laws.slip_numerator(model, i) / laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
-        V, rate_f = laws.slip_rates(model, i, direction, force)
-        T = direction * model.mu_k * force
+        friction = laws.friction_coefficient(model, direction, f)
+        force = laws.slip_numerator(model, i) / laws.slip_denominator(model, i.m, friction, i.dw_dtheta)
+        V, rate_f = laws.slip_rates(model, i, friction, force)
+        T = friction * force
     else:
         rate_f = laws.inplane_force_per_radius(i) / i.m
     for j in range(width):

@@ -37,10 +37,11 @@ from .jit.simd import (
     swap_halves,
     total,
 )
-from .laws import slip_denominator
+from .laws import friction_coefficient, slip_denominator
 from .layout import (
     AMPLITUDE_ROW,
     BEND,
+    COEFFICIENT_SERIES,
     DAMPING,
     DOWN,
     DRIVE_SERIES,
@@ -65,6 +66,7 @@ from .layout import (
     U_SERIES,
     UP,
     V_SERIES,
+    WEAKENING_SERIES,
     E,
 )
 
@@ -317,7 +319,7 @@ def _axisymmetric(model, s, k, impulse):
 def _begin_orders(model, s, f0, braked):
     """Order 0 of all modes; ``_next_order`` takes the second value returned and the last four.
 
-    ``braked`` is T / V, or 1 where that is not constant: under the normal force.
+    ``braked`` is T / V, or 1 where that is not constant: under the normal force, or if friction falls with the speed.
 
     Returns u'' without P and f', the part of u'' pending for order 1 (lanes), the factors of f_k and of (k + 1) f_k in
     u'', and e_1 without P_0, s_1, e_0 and z_1 of the first block.
@@ -348,7 +350,9 @@ def _next_order(model, s, k, f, f0, impulse, friction, pending, e, carried, e_la
     Returns the parts of u'' of the pairs (lanes) and of the other modes, and the last five arguments for the next
     order. The last four are handed over one by one: as one argument they cost a slip under the normal force 6 %.
     """
-    width, push = lane_count(model), _push(model, impulse, friction) if model.normal else splat(-impulse)
+    width, push = lane_count(model), splat(-impulse)
+    if model.normal or model.decaying:
+        push = _push(model, impulse, friction)
     part, left, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, push, e, carried, e_last, z_last)
     part = add(pending, part)
     for b in range(WIDTH, width, WIDTH):
@@ -583,12 +587,14 @@ def separation_series(model, s, order):
 
 
 # ----------------------------------------------------------------------------------------------------
-# Contact beyond the paper: a compliant contact, a force normal to the bent disc, or both.
+# Contact beyond the paper: a compliant contact, a force normal to the bent disc, friction that falls with the speed.
 #
 # Compliant: V = (w - u) / compliance follows from the state, so that each order of V is known before its convolutions.
 # Normal, with beta = B / r_0 and s = sgn(f): in slip the disc feels V = R (1 - s mu_k beta). The in-plane motion is
 # braked by R (s mu_k + beta). Stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta). Products of series with
 # beta are the cost.  Rigid stick moves as under the vertical force.
+#
+# Falling friction: q in place of s mu_k is a series, T = q R. Each order of T but for q_0 R_k is known before R_k.
 
 
 @inlined
@@ -639,15 +645,46 @@ def _weight(model, s, k):
 
 
 @inlined
-def _leverage(s, k, force=P_SERIES):
-    """Order k of beta R without beta_0 R_k, in two sums so that neither waits for the other; ``force``: series of R."""
+def _leverage(s, k, force=P_SERIES, lever=SLOPE_SERIES):
+    """Order k of beta R without beta_0 R_k, in two sums so that neither waits for the other.
+
+    force, lever : the series of R and of beta
+    """
     odd, even = 0.0, 0.0
     for j in range(1, k, 2):
-        odd += s.slider[SLOPE_SERIES + j] * s.slider[force + k - j]
-        even += s.slider[SLOPE_SERIES + j + 1] * s.slider[force + k - j - 1]
+        odd += s.slider[lever + j] * s.slider[force + k - j]
+        even += s.slider[lever + j + 1] * s.slider[force + k - j - 1]
     if k % 2 == 1:
-        odd += s.slider[SLOPE_SERIES + k] * s.slider[force]
+        odd += s.slider[lever + k] * s.slider[force]
     return odd + even
+
+
+@inlined
+def _falling_part(model, s, k, direction):
+    """Order k of T without q_0 R_k, where friction falls with the speed; enters that of its coefficient q.
+
+    (1 + d s f) (q - s mu_k) = s (mu_s - mu_k), with the model's ``decay`` d and s = ``direction``.
+    """
+    f0, q = s.slider[F_SERIES], COEFFICIENT_SERIES
+    if k == 0:
+        s.slider[q] = friction_coefficient(model, direction, f0)
+        return 0.0
+    change = _leverage(s, k, q, F_SERIES) - s.slider[F_SERIES + k] * direction * model.mu_k
+    s.slider[q + k] = -direction * model.decay / (1.0 + direction * model.decay * f0) * change
+    return _leverage(s, k, P_SERIES, q)
+
+
+@inlined
+def weakening(model, s, k, direction):
+    """Order k of the change of T with f at the same R, where friction falls with the speed; enters it in the series.
+
+    It is R dq/df, and (1 + d s f) dq/df = -d s (q - s mu_k).
+    """
+    fall, at = direction * model.decay, WEAKENING_SERIES + k
+    excess = s.slider[FRICTION_SERIES + k] - direction * model.mu_k * s.slider[P_SERIES + k]
+    excess += _leverage(s, k, WEAKENING_SERIES, F_SERIES)
+    s.slider[at] = -fall * excess / (1.0 + fall * s.slider[F_SERIES])
+    return s.slider[at]
 
 
 @inlined
@@ -656,16 +693,19 @@ def compliant_slip_series(model, s, order, direction):
 
     Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
     """
-    stiffness, friction = 1.0 / model.compliance, direction * model.mu_k
+    stiffness, friction = 1.0 / model.compliance, friction_coefficient(model, direction, s.slider[F_SERIES])
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
-    f0, ratio, share, beta, V, impulse, braked = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
+    f0, ratio, share, beta, V, impulse, braked, part = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
     w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
-    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 1.0 if model.normal else friction)
+    share_of_V = 1.0 if model.normal or model.decaying else friction
+    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, share_of_V)
     for k in range(order):
         f = s.slider[F_SERIES + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
         # computed before the modes: every order would wait for their sum
         w = (closing + f * slope - impulse * model.inverse_effective_mass) * s.slider[UP + k]
+        if model.decaying:
+            part = _falling_part(model, s, k, direction)
         if model.normal:
             s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
             if k == 0:
@@ -673,10 +713,17 @@ def compliant_slip_series(model, s, order, direction):
                 ratio = 1.0 - friction * beta
                 share = 1.0 / ratio
             h = _leverage(s, k)
-            R = (V + friction * h) * share
+            if model.decaying:
+                R = (V + beta * part + _leverage(s, k, FRICTION_SERIES)) * share
+            else:
+                R = (V + friction * h) * share
             held = (friction + beta) * R + h
         else:
             R, held = V, friction * V
+        T = friction * R
+        if model.decaying:
+            T, held = T + part, held + part
+            s.slider[FRICTION_SERIES + k] = T
         s.slider[P_SERIES + k] = R
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
@@ -685,7 +732,7 @@ def compliant_slip_series(model, s, order, direction):
                 model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
             )
         closing = _closing(model, s, k + 1, e, carried)
-        impulse, braked = V * s.slider[UP + k], friction * R * s.slider[UP + k]
+        impulse, braked = V * s.slider[UP + k], T * s.slider[UP + k]
     _end_slip(model, s, order, direction, e, impulse, braked)
     return ratio
 
@@ -752,27 +799,35 @@ def release_series(model, s, order):
 
 
 @inlined
-def normal_slip_series(model, s, order, direction):
-    """Slip in rigid contact under the normal force; ``P`` is R.  Returns the denominator of R.
+def rigid_slip_series(model, s, order, direction):
+    """Slip in rigid contact under other laws than the paper's; ``P`` is R.  Returns the denominator of R.
 
-    The recurrence is that of ``slip_series``, with h_k, order k of beta R without beta_0 R_k:
+    The recurrence is that of ``slip_series``. Under the normal force, with h_k, order k of beta R without beta_0 R_k,
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
+
+    Where friction falls with the speed, with g_k, order k of T without q_0 R_k, and j_k, that of beta T without
+    beta_0 T_k, the last term is (1 + m S2) (beta_0 g_k + j_k) - beta_0 (g_k + h_k), or under the vertical force
+    -beta_0 g_k.
     """
-    f0, friction, mobility = s.slider[F_SERIES], direction * model.mu_k, 1.0 + model.m * model.inverse_effective_mass
+    f0, mobility, part = s.slider[F_SERIES], 1.0 + model.m * model.inverse_effective_mass, 0.0
+    friction = friction_coefficient(model, direction, f0)
     s.slider[U_SERIES], s.slider[V_SERIES], slope = _disc_point(model, s)
     beta = slope / model.r_0
     s.slider[SLOPE_SERIES] = beta
-    denominator = slip_denominator(model, model.m, direction, slope)
+    denominator = slip_denominator(model, model.m, friction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
 
     inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 1.0)
     h, impulse, braked = 0.0, 0.0, 0.0
     for k in range(order):
         f = s.slider[F_SERIES + k]
+        if model.decaying:
+            part = _falling_part(model, s, k, direction)
         if k > 0:
-            s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
-            h = _leverage(s, k)
+            if model.normal:
+                s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
+                h = _leverage(s, k)
             pairs, single, pending, e, carried, e_last, z_last = _next_order(
                 model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
             )
@@ -782,11 +837,24 @@ def normal_slip_series(model, s, order, direction):
                 inertia -= 2.0 * f0 * model.couple_swing * braked
         spring = _spring(model, s, k)
         top = _weight(model, s, k) + model.m * inertia + slope * spring
-        R = (top + h * (mobility * friction - beta)) * inverse
-        V = R * (1.0 - friction * beta) - friction * h
+        if model.decaying:
+            twist = 0.0
+            if model.normal:
+                twist = _leverage(s, k, FRICTION_SERIES)
+                top += mobility * (beta * part + twist)
+            R = (top - beta * (part + h)) * inverse
+            T = friction * R + part
+            V, held = R, T
+            if model.normal:
+                V, held = R - beta * T - twist, T + beta * R + h
+            s.slider[FRICTION_SERIES + k] = T
+        else:
+            R = (top + h * (mobility * friction - beta)) * inverse
+            V, T = R * (1.0 - friction * beta) - friction * h, friction * R
+            held = (friction + beta) * R + h
         s.slider[P_SERIES + k] = R
-        rate = spring * lightness - ((friction + beta) * R + h) * lever
+        rate = spring * lightness - held * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
-        impulse, braked = V * s.slider[UP + k], friction * R * s.slider[UP + k]
+        impulse, braked = V * s.slider[UP + k], T * s.slider[UP + k]
     _end_slip(model, s, order, direction, e, impulse, braked)
     return denominator

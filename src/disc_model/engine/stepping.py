@@ -98,16 +98,19 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def _expand(compliant, normal, model, s, order, phase, direction):
+def _expand(compliant, normal, decaying, model, s, order, phase, direction):
     """Series of a phase under the model's law of contact.  Returns as ``expand``.
 
-    compliant, normal: flags of the model; the compiler drops a branch unseen if its condition is an argument's length.
+    compliant, normal, decaying: flags of the model; the compiler drops a branch unseen if its condition is an
+    argument's length.
     """
     if phase == layout.SLIP:
         if len(compliant) == 1:
             return series.compliant_slip_series(model, s, order, direction)
         if len(normal) == 1:
-            return series.normal_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
+            return series.rigid_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
+        if len(decaying) == 1:
+            return series.rigid_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
         return series.slip_series(model, s, order, direction) / transitions.usual_denominator(model)
     if phase == layout.SEPARATION:
         series.separation_series(model, s, order)
@@ -124,7 +127,8 @@ def _expand(compliant, normal, model, s, order, phase, direction):
 def expand(model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
     load_state(model, s, state)
-    return _expand(model.compliant, model.normal, model, s, order, state.x[layout.PHASE], state.x[layout.DIRECTION])
+    flags = model.compliant, model.normal, model.decaying
+    return _expand(*flags, model, s, order, state.x[layout.PHASE], state.x[layout.DIRECTION])
 
 
 @inlined

@@ -18,8 +18,9 @@ from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.packing import packed
 from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
-from .laws import N_ENTRIES, slip_denominator
+from .laws import N_ENTRIES, friction_coefficient, slip_denominator
 from .layout import (
+    COEFFICIENT_SERIES,
     DIRECTION,
     FRICTION_SERIES,
     HALF,
@@ -33,10 +34,12 @@ from .layout import (
     SLIP,
     STICK,
     U_VELOCITY,
+    WEAKENING_SERIES,
     F,
     Model,
     U,
 )
+from .series import weakening
 
 # Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
@@ -250,7 +253,7 @@ def _leverage_change(model, s, t, block, k, force, changes):
 
 @inlined
 def _compliant_change(model, s, t, block, k, friction):
-    """Change of V = (w - u) / compliance of order k (lanes); ``friction``: sgn(f) mu_k in slip, else 0."""
+    """Change of V = (w - u) / compliance of order k (lanes); ``friction``: coefficient in slip, else 0."""
     at = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
     compression = sub(dw, load(t.series, at + slider_row(model, U) * WIDTH))
@@ -259,22 +262,58 @@ def _compliant_change(model, s, t, block, k, friction):
         V = s.P[k]
         if model.normal:
             for i in range(k + 1):
-                V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
+                if model.decaying and friction != 0.0:
+                    V -= t.base_dw_dtheta[i] / model.r_0 * s.slider[FRICTION_SERIES + k - i]
+                else:
+                    V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
         d_give = load(t.parameters, block * t.inputs * WIDTH + D_COMPLIANCE * WIDTH)
         change = sub(change, mul(splat(V), d_give))
     return change
 
 
 @inlined
-def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
-    """Changes of order k of the contact force (P or R), of V and of f' (lanes), for laws other than the paper's.
+def _falling_change(model, s, t, block, k):
+    """Change of T of order k without q_0 dR_k (lanes), where friction falls with the speed."""
+    orders, change = len(t.base_dw_dtheta), splat(0.0)
+    chain, df = block * orders * WIDTH, (block * orders * t.rows + slider_row(model, F)) * WIDTH
+    for i in range(k + 1):
+        change = fma(splat(s.slider[WEAKENING_SERIES + i]), load(t.series, df + (k - i) * t.rows * WIDTH), change)
+        if i > 0:
+            change = fma(splat(s.slider[COEFFICIENT_SERIES + i]), load(t.force, chain + (k - i) * WIDTH), change)
+    return change
 
-    friction: sgn(f) mu_k; denominator: of the contact force; free: of u'' without forces (rigid contact); vertical and
-    pull: see ``_slider_forces``.
+
+@inlined
+def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
+    """Changes of order k of the contact force (P or R), of V, T and f' (lanes), for laws other than the paper's.
+
+    friction: its signed coefficient; denominator: of the contact force; free: of u'' without forces (rigid contact);
+    vertical and pull: see ``_slider_forces``.
     """
     beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
     if model.normal:
         h = _leverage_change(model, s, t, block, k, P_SERIES, t.force)
+    if model.decaying:
+        part, twist = _falling_change(model, s, t, block, k), splat(0.0)
+        if model.normal:
+            twist = _leverage_change(model, s, t, block, k, FRICTION_SERIES, t.friction)
+        if model.compliant:
+            force = V = _compliant_change(model, s, t, block, k, friction)
+            if model.normal:
+                force = fma(splat(beta), part, add(twist, V))
+        else:
+            force = fma(splat(t.base_dw_dtheta[0]), pull, fma(splat(model.m), free, vertical))
+            force = sub(force, mul(splat(beta), add(part, h)))
+            if model.normal:
+                force = fma(splat(mobility), fma(splat(beta), part, twist), force)
+        force = mul(splat(1.0 / denominator), force)
+        T = held = fma(splat(friction), force, part)
+        if model.normal:
+            held = add(T, fma(splat(beta), force, h))
+        if not model.compliant:
+            V = sub(force, fma(splat(beta), T, twist)) if model.normal else force
+        store(t.friction, (block * len(t.base_dw_dtheta) + k) * WIDTH, T)
+        return force, V, T, mul(splat(1.0 / model.m), sub(pull, mul(splat(1.0 / model.r_0), held)))
     if model.compliant:
         V = _compliant_change(model, s, t, block, k, friction)
         force = mul(splat(1.0 / denominator), fma(splat(friction), h, V))
@@ -282,10 +321,10 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
         top = fma(splat(t.base_dw_dtheta[0]), pull, fma(splat(model.m), free, vertical))
         force = mul(splat(1.0 / denominator), fma(splat(mobility * friction - beta), h, top))
         V = sub(mul(splat(1.0 - friction * beta), force), mul(splat(friction), h))
-    held = mul(splat(friction), force)
+    T = held = mul(splat(friction), force)
     if model.normal:
         held = fma(splat(friction + beta), force, h)
-    return force, V, mul(splat(1.0 / model.m), sub(pull, mul(splat(1.0 / model.r_0), held)))
+    return force, V, T, mul(splat(1.0 / model.m), sub(pull, mul(splat(1.0 / model.r_0), held)))
 
 
 @inlined
@@ -335,6 +374,9 @@ def tangent_series(model, s, t, order, phase, direction):
         t.base_dw_dtheta[k] = dw_dtheta
     B0 = t.base_dw_dtheta[0]
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
+    if model.decaying and phase == SLIP:
+        for k in range(order):
+            weakening(model, s, k, direction)
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass + friction * B0)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
@@ -353,14 +395,15 @@ def tangent_series(model, s, t, order, phase, direction):
             store(t.dw_dtheta, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
-            P, V, rate_f = splat(0.0), splat(0.0), splat(0.0)
+            P, V, T, rate_f = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
             if phase == SLIP and not model.compliant:
                 free = fma(splat(s.down[k]), _path_change(s, t, block, k, f_row), free)
             if phase == SEPARATION:
                 rate_f = mul(pull, lightness)
-            elif (model.compliant or model.normal) and phase == SLIP:
-                mu, denominator = direction * model.mu_k, slip_denominator(model, model.m, direction, B0)
-                P, V, rate_f = _forces_in_slip(model, s, t, block, k, mu, denominator, free, vertical, pull)
+            elif (model.compliant or model.normal or model.decaying) and phase == SLIP:
+                mu = friction_coefficient(model, direction, s.f[0])
+                denominator = slip_denominator(model, model.m, mu, B0)
+                P, V, T, rate_f = _forces_in_slip(model, s, t, block, k, mu, denominator, free, vertical, pull)
             elif model.compliant:
                 P = V = _compliant_change(model, s, t, block, k, 0.0)
             else:
@@ -369,6 +412,7 @@ def tangent_series(model, s, t, order, phase, direction):
                 P = V = mul(splat(inverse), fma(splat(model.m), free, vertical))
                 if phase == SLIP:
                     rate_f = mul(lightness, sub(pull, mul(splat(friction), P)))
+                    T = mul(splat(direction * model.mu_k), P)
             if model.compliant or phase == SEPARATION:
                 acceleration = mul(lightness, sub(V, vertical))
             else:
@@ -376,7 +420,6 @@ def tangent_series(model, s, t, order, phase, direction):
                 if phase == SLIP:
                     acceleration = fma(splat(B0), rate_f, acceleration)
             store(t.force, chain + k * WIDTH, P)
-            T = mul(splat(direction * model.mu_k), P)
             if model.coupled and phase == STICK:
                 T = _friction_in_stick(model, s, t, block, k, pull, V)
             _apply_force(model, s, t, block, k, V, T)

@@ -130,7 +130,7 @@ def force_in_stick(model, state, V):
 def friction_force(model, state, phase, direction, P):
     """Friction T on the disc, in the direction of the slider's path; P: the contact force, used in slip."""
     if phase == layout.SLIP:
-        return direction * model.mu_k * P
+        return laws.friction_coefficient(model, direction, state.x[layout.F]) * P
     if phase == layout.SEPARATION:
         return 0.0
     i, _ = instant(model, state)
@@ -147,7 +147,8 @@ def usual_denominator(model):
 def slip_force(model, state, direction):
     """Contact force in slip (P, or R under the normal force), its denominator, and its rounding error."""
     i, size = instant(model, state)
-    denominator = laws.slip_denominator(model, i.m, direction, i.dw_dtheta)
+    friction = laws.friction_coefficient(model, direction, i.f)
+    denominator = laws.slip_denominator(model, i.m, friction, i.dw_dtheta)
     noise = _rounding(model, state, i, size)
     if not model.compliant:
         noise += ROUNDING * abs(i.dw_dtheta * laws.inplane_force_per_radius(i))
@@ -215,8 +216,8 @@ def enter_slip(model, state, direction):
     known = 0
     if state.x[layout.F] == 0.0:
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
-        # slip or vanishes, as (1 + m S2 + s mu_k B / r_0) f' m = (1 + m S2) (|F| - mu_k P_stick / r_0), is rounding.
-        resistance = bound = model.mu_k
+        # slip or vanishes, as (1 + m S2 + s mu B / r_0) f' m = (1 + m S2) (|F| - mu P_stick / r_0), is rounding.
+        resistance = bound = model.mu_s if model.decaying else model.mu_k
         if model.normal:
             _, _, dw_dtheta = disc_point(model, state)
             resistance += direction * dw_dtheta / model.r_0
@@ -235,7 +236,8 @@ def release(model, state, direction, at_once):
     at_once: stick had no duration, so that the spring may pull harder than friction can hold.
     """
     outcome = enter_slip(model, state, direction)
-    if state.x[layout.PHASE] == layout.SLIP and model.mu_s == model.mu_k and not at_once:
+    falls_at_once = model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
+    if state.x[layout.PHASE] == layout.SLIP and not falls_at_once and not at_once:
         # friction does not jump: f' = 0, despite the error of the event's time
         state.x[layout.KNOWN] = 2
     return outcome

@@ -252,7 +252,8 @@ class _Run:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
         # the kind of the model determines the types of all arguments
-        kind = self.model.wide, self.model.compliant, self.model.normal, self.model.coupled, self.model.ramped
+        flags = ("wide", "compliant", "normal", "coupled", "decaying", "ramped")
+        kind = tuple(getattr(self.model, name) for name in flags)
         if kind not in _ENGINES:
             with compiling(self.execution.progress is not False):
                 _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())

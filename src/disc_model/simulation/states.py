@@ -238,6 +238,7 @@ def engine_case(p: Parameters) -> EngineCase:
         bonded=p.contact == "bilateral",
         compliance=contact_compliance(p),
         normal=p.contact_force == "normal",
+        friction_decay=p.friction_decay,
     )
     pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
     lane, width, n_modes = layout.pair_lanes(len(pairs)), len(model.shift), len(modes.diameters)

@@ -7,9 +7,9 @@ d = 2 xi omega the disc's response to the force P that rotates over it is
     a_l = (gap psi_l V + lag t_l T) / (gap^2 + lag^2),  gap = l^2 Omega^2 - omega^2,
     b_l = (lag psi_l V - gap t_l T) / (gap^2 + lag^2),  lag = d l Omega,
 
-with V for the vertical force, T = mu_k R for friction and t_l for the tangential amplitude of a mode where friction
-acts.  With C for the contact's compliance, V = N + k (w - C V - u_0).  R = V; under the normal force, with
-beta = B / r_0, V = R (1 - mu_k beta) and r_0 F = (mu_k + beta) R.
+with V for the vertical force, T = mu R for friction (mu = mu_k, unless it falls with the speed) and t_l for the
+tangential amplitude of a mode where friction acts.  With C for the contact's compliance, V = N + k (w - C V - u_0).
+R = V; under the normal force, with beta = B / r_0, V = R (1 - mu beta) and r_0 F = (mu + beta) R.
 
 Modes are followed over a parameter by the modal assurance criterion (MAC), the squared cosine of their shapes.
 """
@@ -155,10 +155,11 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
 
     i, _ = _slip(p, at(0.0)[:, None])
-    if _LAWS.slip_denominator(model, p.m, 1.0, i.dw_dtheta[0]) <= 1e-6:
+    friction = float(_LAWS.friction_coefficient(model, 1.0, p.Omega))
+    if _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta[0]) <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
     # V and f' of a unit force, without F
-    share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, 1.0, np.ones(1)))
+    share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1)))
     force = vertical / share
     psi = -p.m * slowing * force / p.k_p if p.k_p > 0 else math.nan
     rows = at(psi if p.k_p > 0 else 0.0)
@@ -195,15 +196,16 @@ def _with_couple(
 ) -> tuple[Array, Array, float]:
     """As `_equilibrium`, from a, b under V = 1 N (``bend``) and under T = 1 N (``twist``); load: N - k u_0."""
     slope = modes.diameters * modes.psi / p.r_0 if p.contact_force == "normal" else np.zeros_like(modes.psi)
-    # V = stiff_0 + stiff_1 R, and V = R (1 - mu_k beta) with beta = lean_0 V + lean_1 R
+    # V = stiff_0 + stiff_1 R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
     share = 1 - p.k * (float(modes.psi @ bend[0]) - compliance)
-    start, rise = load / share, p.k * p.mu_k * float(modes.psi @ twist[0]) / share
-    lean = p.mu_k * float(slope @ bend[1]), p.mu_k**2 * float(slope @ twist[1])
+    mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
+    start, rise = load / share, p.k * mu * float(modes.psi @ twist[0]) / share
+    lean = mu * float(slope @ bend[1]), mu**2 * float(slope @ twist[1])
     # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 - rise) for a flat disc
     square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
     R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
     V = start + rise * R
-    a, b = (of_V * V + of_T * p.mu_k * R for of_V, of_T in zip(bend, twist, strict=True))
+    a, b = (of_V * V + of_T * mu * R for of_V, of_T in zip(bend, twist, strict=True))
     return a, b, V
 
 
@@ -221,9 +223,10 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     i = laws.Instant(
         p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_compliance(p), psi, f, w, velocity, slope, free, u, v
     )  # fmt: skip
-    force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, 1.0, slope)
-    V, rate_f = _LAWS.slip_rates(model, i, 1.0, force)
-    free_across = free_across + tangential_amplitudes(p)[:, None] * (p.mu_k * force)
+    friction = _LAWS.friction_coefficient(model, 1.0, f)
+    force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, friction, slope)
+    V, rate_f = _LAWS.slip_rates(model, i, friction, force)
+    free_across = free_across + tangential_amplitudes(p)[:, None] * (friction * force)
     lift = (v, (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m)[: len(height)]
     return i, join_rows(modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift)
 
