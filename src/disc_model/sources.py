@@ -66,10 +66,13 @@ def code_hash(path: Path) -> str:
 
 
 @functools.cache
-def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]]]:
-    """Hash of a Python source without comments, docstrings and layout; levels, modules and names of its imports."""
+def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]], frozenset[str]]:
+    """Hash of a Python source without comments, docstrings and layout; levels, modules and names of its imports; and
+    its texts that may name files.
+    """
     tree = ast.parse(path.read_bytes(), str(path))
-    imports = set()
+    imports, constants = set(), (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
+    texts = frozenset(text for text in constants if isinstance(text, str) and re.fullmatch(r"\w[\w./-]*", text))
     for node in [tree, *_statements(tree)]:
         if isinstance(node, ast.Import):
             imports |= {(0, alias.name, "") for alias in node.names}
@@ -78,7 +81,7 @@ def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]]]:
         for name in _BLOCKS:
             if block := getattr(node, name, None):
                 setattr(node, name, [child for child in block if not _is_text(child)])
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), frozenset(imports)
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), frozenset(imports), texts
 
 
 _BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
@@ -133,9 +136,7 @@ def _file(module: str, name: str) -> Iterator[Path]:
 @functools.cache
 def _data(path: Path) -> frozenset[Path]:
     """Files of data that a module reads."""
-    constants = (node.value for node in ast.walk(ast.parse(path.read_bytes())) if isinstance(node, ast.Constant))
-    texts = {text for text in constants if isinstance(text, str) and re.fullmatch(r"\w[\w./-]*", text)}
-    named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
+    named = {(PACKAGE if "/" in text else path.parent) / text for text in _read(path)[2]}
     files = {*named, *path.parent.glob(f"{path.stem}.*")}
     files |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
     return frozenset(file for file in files if file.is_file() and file.suffix not in (".py", ".pyc"))
