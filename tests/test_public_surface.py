@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import disc_model as dm
 from disc_model.data import dataset
@@ -17,6 +18,7 @@ WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.na
 WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object()}
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
+GRID = xr.Dataset({"growth_rate": ("Omega", [0.1, 0.2])}, {"Omega": [1.0, 2.0]})
 PLANE = {"p": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
 
@@ -39,8 +41,28 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.simulate,
         {"p": P, "t_end": 1.0},
-        dict.fromkeys(("initial_state", "windows", "stop_at"), "None") | {"events": "True"},
+        dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None") | {"events": "True"},
     ),
+    (dm.outcome, {"case": P}, {"start": "None", "early_end": "True"}),
+    (dm.critical_speed, {"case": P}, {"early_end": "True"}),
+    (dm.basins, {"case": P}, {"start": "None", "seed": "huge"}),
+    (dm.hysteresis, {"case": P, "scan": (10, 12), "dwell": 5}, {}),
+    (
+        dm.sweep,
+        {"function": dm.floquet, "case": P, "Omega": [20.0]},
+        {"workers": "huge", "processes": "True", "named": [*WRONG]},
+    ),
+    (
+        dm.run_study,
+        {"source": {"study": "s", "quantity": "sliding", "base": {"N": 200}, "axes": {"Omega": [20]}}},
+        {"source": "text dict", "workers": "huge", "processes": "True"},
+    ),
+    (dm.plot_modes, {"p": P}, {"ax": [*WRONG], "most": "huge"}),
+    (dm.plot_sweep, {"study": GRID}, {"ax": [*WRONG], "log": [*WRONG], "variable": "None", "x": "None"}),
+    (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": [*WRONG]}),
+    (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": [*WRONG]}),
+    (RUN.plot_spectrum, {"window": "all"}, {"window": "None", "ax": [*WRONG], "highest": "huge"}),
+    (RUN.animate, {"window": "all", "frames": 2}, {"window": "None", "path": "None", "frames": "huge", "fps": "huge"}),
     (run, {}, {"progress": "None True", "max_steps": "None huge", "audit_every_step": "True"}),
     (
         start,
@@ -56,7 +78,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {},
         {name: [*WRONG] for name in ("growth", "easy", "sharpest")} | {"scale": "None", "max_points": "huge"},
     ),
-    (dm.critical, {"p": P, "name": "mu_s", "bounds": (0.3, 0.5), "points": 2}, {"precision": "None huge"}),
+    (
+        dm.critical,
+        {"p": P, "name": "mu_s", "bounds": (0.3, 0.5), "points": 2},
+        {"precision": "None huge", "others": [*WRONG]},
+    ),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None"}),
     (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),

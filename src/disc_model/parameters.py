@@ -529,6 +529,12 @@ class Parameters(Checked):
         }
         return numbers | ratios | ({} if self.disc is None else self.disc.numbers)
 
+    @property
+    def stated(self) -> dict[str, Any]:
+        """The values by name, with the ratios by which the case was given instead of the numbers that follow them."""
+        follow = {RATIOS[name][0] for name in self._ratios}
+        return {name: value for name, value in dict(self).items() if name not in follow} | self._ratios
+
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
         rows = []
@@ -636,9 +642,9 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
     return case | ({"disc": discs[case["disc"]]} if isinstance(case.get("disc"), str) else {})
 
 
-def foreign_case(p: object) -> list[str]:
+def foreign_case(p: object, name: str = "p") -> list[str]:
     """Faults of an argument that must be `Parameters`."""
-    return [] if isinstance(p, Parameters) else [Fault.of(("p",), p, "must be Parameters")]
+    return [] if isinstance(p, Parameters) else [Fault.of((name,), p, "must be Parameters")]
 
 
 def _rigidity(E: float, h: float, nu: float) -> float:

@@ -79,8 +79,25 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     named = [text.get_text() for text in sliding.plot().texts]
     assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
     branch = continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
-    assert "fold 15.095" in [text.get_text() for text in branch.plot().texts]
+    assert "fold at 15.095" in labels(branch.plot())
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (branch, "15.0949"), (P, "15.1")):
+        assert text in shown._repr_html_()
+
+
+def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case() -> None:
+    case = P.replace(mu_k_over_mu_s=0.6)
+    critical = dm.critical(case, "mu_s", (0.3, 0.42), Omega=12, points=7)
+    assert critical.unstable[0, 0] == 0.3
+    [band] = critical.plot().patches
+    assert band.get_xy()[0] + band.get_width() == pytest.approx(critical.crossings[0])
+    assert "μ" in pyplot.gcf().get_suptitle(), "the ratio of friction is stated"
+    curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
+    axes = curves.plot()
+    assert labels(axes) == ["cycle ends in a fold"]
+    assert (axes.get_xlim(), axes.get_ylim()) == ((14, 15.5), (0.38, 0.42))
+    exponents = dm.lyapunov_exponents(P, 0.5, count=2)
+    assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
+    for shown, text in ((critical, "to 0.3"), (curves, "135.42 Hz"), (exponents, "exponent 2")):
         assert text in shown._repr_html_()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, simulate
-from disc_model.errors import StepLimit
+from disc_model.errors import ParameterError, StepLimit
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -63,3 +63,14 @@ def test_a_state_that_overflows_is_named():
         result = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
     assert result.status == "non_finite"
     assert result.message == "non_finite: at t = 1e-06 s in slip"
+
+
+def test_a_duration_begins_at_the_initial_state():
+    first = simulate(P, duration="20 ms")
+    same(first, simulate(P, 0.02))
+    same(
+        simulate(P, duration=0.01, initial_state=first.final_state), simulate(P, 0.03, initial_state=first.final_state)
+    )
+    for times in ({}, {"t_end": 1, "duration": 1}):
+        with pytest.raises(ParameterError, match="t_end: is required, or duration instead of it"):
+            simulate(P, **times)

@@ -203,11 +203,11 @@ def presentation_of(name: str) -> Shown:
 
 
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
-    """Label of the axis of a variable in `SHOWN`, and the factor from SI to its unit.
+    """Label of the axis of a variable or of a number of a mode, and the factor from SI to its unit.
 
     where : text after the name, such as an angle
     """
-    shown = SHOWN[name]
+    shown = presentation_of(name)
     unit = f" ({shown.unit})" if shown.unit else ""
     return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
 

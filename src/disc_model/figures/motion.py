@@ -82,7 +82,7 @@ def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, va
     """
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
-        ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 26))  # markup is not shown
+        ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20))  # markup is not shown
         ax.label_outer()
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)

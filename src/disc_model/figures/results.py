@@ -14,48 +14,64 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.bifurcation import draw_branch
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.units import is_number, is_whole
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch
+    from disc_model.stability.curves import Critical, NeutralCurves
     from disc_model.stability.cycle import FloquetResult
+    from disc_model.stability.lyapunov import Lyapunov
     from disc_model.stability.sliding import SteadySliding
 
 
-def _title(ax: Axes, p: Parameters, text: str = "", ours: bool = True) -> None:
-    """Write values of parameters above a new figure, or nothing above that of a reader."""
+def _title(ax: Axes, p: Parameters, *varied: str, ours: bool = True) -> None:
+    """Write the values of a case but those of what varies above a new figure, or nothing above that of a reader."""
     if ours:
         figure: Any = ax.figure
-        figure.suptitle(drawing.head_text(figure.get_figwidth(), text, drawing.what_case(dict(p))), fontsize=8)
+        values = p.replace(**{name: p.numbers[name] for name in varied}).stated
+        text = drawing.what_case({name: value for name, value in values.items() if name not in varied})
+        figure.suptitle(drawing.head_text(figure.get_figwidth(), "", text), fontsize=8)
 
 
 # ----------------------------------------------------------------------------------------------------
 # Runs
 
 
-def window_of(case: xr.DataTree, name: str) -> xr.Dataset:
-    """A window of a run by its name; raises `ParameterError` if there is none."""
-    try:
-        return dataset.group(case, name)
-    except Missing:
-        known = [str(child) for child in case.children if child not in ("events", "poincare")]
-        raise ParameterError(Fault.of(("window",), name, f"was not recorded{suggestion(name, known)}")) from None
+def window_of(case: xr.DataTree, name: object, which: str = "window", **variables: object) -> xr.Dataset:
+    """A window of a run by its name; raises `ParameterError` if there is none, or it lacks one of the variables.
+
+    **variables : names of variables, or several, by the arguments of the picture that ask for them
+    """
+    known = [str(child) for child in case.children if child not in ("events", "poincare")]
+    if not (isinstance(name, str) and name in case.children):
+        raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
+    window = dataset.group(case, name)
+    kept = dict.fromkeys(str(kept).removesuffix("_min").removesuffix("_max") for kept in window if kept != "phase")
+    for argument, names in variables.items():
+        for one in names if isinstance(names, list | tuple) else [names]:
+            if not (isinstance(one, str) and one in kept):
+                raise ParameterError(Fault.of((argument,), one, f"is not in the window {name}{suggestion(one, kept)}"))
+    return window
 
 
 @by_itself
 def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str], ax: Any = None) -> np.ndarray:
     """Draw variables of a run, a row each, in windows, a column each."""
+    several = isinstance(variables, list | tuple) and len(variables) > 0
+    raise_faults(violations((several, "variables", variables, "must be a list of one or more")))
+    shown = [window_of(case, name, "windows", variables=variables) for name in windows]
     rows, columns = len(variables), len(windows)
     width = PAGE if columns > 1 else 1.3 * COLUMN
     axes = axes_for(ax, width, 0.7 + 1.25 * rows, rows, columns, sharex="col", sharey="row" if columns > 1 else False)
     grid: Any = np.array(axes, dtype=object).reshape(rows, columns)
     handles: list[Any] = []
-    for column, name in zip(grid.T, windows, strict=True):
-        handles = motion.draw_history(column, case, window_of(case, name), variables) or handles
+    for column, window in zip(grid.T, shown, strict=True):
+        handles = motion.draw_history(column, case, window, variables) or handles
     if ax is None:
         _title(axes[0], Parameters.model_validate_json(case.attrs["parameters"]))
         axes[0].figure.align_ylabels()
@@ -69,8 +85,11 @@ def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str]
 @by_itself
 def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any = None) -> Axes:
     """Draw one variable over another, coloured by phase."""
+    samples = window_of(case, window, x=x, y=y)
+    if "phase" not in samples:
+        raise ParameterError(Fault.of(("window",), window, "must hold samples, not their ranges"))
     [axes] = axes_for(ax, COLUMN, 2.9)
-    motion.draw_portrait(axes, window_of(case, window), x, y)
+    motion.draw_portrait(axes, samples, x, y)
     _title(axes, Parameters.model_validate_json(case.attrs["parameters"]), ours=ax is None)
     return axes
 
@@ -78,9 +97,13 @@ def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any 
 @by_itself
 def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float, ax: Any = None) -> Axes:
     """Draw the amplitude of a variable over the frequency."""
+    raise_faults(violations((is_number(highest) and highest > 0, "highest", highest, "must be a number > 0, in Hz")))
+    samples = window_of(case, window, variable=variable)
+    if variable not in samples:
+        raise ParameterError(Fault.of(("window",), window, "must hold samples, not their ranges"))
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.6)
     try:
-        motion.draw_spectrum(axes, window_of(case, window), variable, highest)
+        motion.draw_spectrum(axes, samples, variable, highest)
     except Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     _title(axes, Parameters.model_validate_json(case.attrs["parameters"]), ours=ax is None)
@@ -103,13 +126,25 @@ def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
 
 def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str | Path | None, fps: int) -> Any:
     """Make a film of disc, slider and contact force through states; written to a path if there is one."""
+    from matplotlib.animation import writers
     from matplotlib.figure import Figure
 
+    file = Path(path) if isinstance(path, str | Path) else None
+    writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix if file else "", "")
+    rules: list[Any] = [(is_number(fps) and fps > 0, "fps", fps, "must be a number > 0")]
+    if path is not None:
+        there, available = file and file.absolute().parent.is_dir(), not writer or writers.is_available(writer)
+        rules += [
+            (there, "path", str(path), "must be in a folder that exists"),
+            (writer, "path", str(path), "must end in .gif or .mp4"),
+            (available, "path", str(path), f"needs the program {writer}"),
+        ]
+    raise_faults(violations(*rules))
     with drawing.styled():
         figure = Figure(figsize=(6.4, 2.7))
         film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
         if path is not None:
-            film.save(path, writer="ffmpeg" if Path(path).suffix == ".mp4" else "pillow", fps=fps, dpi=100)
+            film.save(path, writer=writer, fps=fps, dpi=100)
         return film
 
 
@@ -160,7 +195,7 @@ def plot_eigenvalues(sliding: SteadySliding, ax: Any = None) -> Axes:
     axes.margins(y=0.08)
     for x, name in ((0.02, "decays"), (0.98, "grows")):
         axes.text(x, 1.02, name, transform=axes.transAxes, ha="left" if x < 0.5 else "right", fontsize=7, color=GREY)
-    axes.set_title("Steady sliding", loc="center")
+    axes.set_title(drawing.fill(sliding.message, 34), loc="center")
     return axes
 
 
@@ -179,19 +214,86 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
             raise ParameterError(Fault.of(("y",), y, f"must be one of {', '.join(labels)}"))
         name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
     draw_branch(axes, x, values, stable, BLACK, np.inf)
-    if y == "growth_rate":
-        axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
-    for fold in np.reshape(branch.folds, (-1, len(branch.parameters))):
-        i = int(np.argmin(np.abs(branch.values - fold).sum(axis=1)))
-        axes.plot(fold[0] * factor, values[i], "s", color=SEPARATED, markersize=4)
-        drawing.say(
-            axes, f"fold {fold[0] * factor:.5g}", (fold[0] * factor, values[i]), (-5, 0), fontsize=7, color=SEPARATED
-        )
+    if y == "growth_rate" and len(branch.parameters) == 1:
+        _rates(axes)
     for width, text in ((2.0, "stable"), (0.7, "unstable")):
         axes.plot([], [], color=BLACK, linewidth=width, label=text)
+    folds = np.reshape(branch.folds, (-1, len(branch.parameters)))
+    if len(folds):
+        i = [int(np.argmin(np.abs(branch.values - fold).sum(axis=1))) for fold in folds]
+        text = "fold at " + ", ".join(f"{fold:.5g}" for fold in folds[:, 0] * factor)
+        axes.plot(folds[:, 0] * factor, values[i], "s", color=SEPARATED, markersize=4, label=text)
     axes.margins(0.04)
     axes.set(xlabel=label, ylabel=name)
     drawing.legend_above(axes)
+    return axes
+
+
+def _rates(axes: Axes) -> None:
+    """Scale an axis of growth rates: tens may occur beside hundredths; and mark zero."""
+    axes.set_yscale("symlog", linthresh=general.LINEAR)
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+
+
+@by_itself
+def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:
+    """Draw neutral curves and folds in the plane of two parameters, thick beside a stable cycle, with their names."""
+    [axes] = axes_for(ax, 1.3 * COLUMN, 3.0)
+    factors = []
+    for side, (name, ends) in zip("xy", curves.bounds.items(), strict=True):
+        label, factor = drawing.axis_of(name)
+        axes.set(**{f"{side}label": label, f"{side}lim": tuple(factor * end for end in ends)})
+        factors.append(factor)
+    for curve in curves:
+        x, y = curve.values.T * np.array(factors)[:, None]
+        colour = BLACK if curve.kind == "neutral" else SEPARATED
+        draw_branch(axes, x, y, curve.adjoins_stable_cycle, colour)
+        text = drawing.typeset(curve.resonance.label)
+        where = (float(x[len(x) // 2]), float(y[len(y) // 2]))
+        drawing.say(axes, text, where, (8, 0), fontsize=6, color=colour, path_effects=drawing.halo())
+    kinds = {curve.kind for curve in curves}
+    for kind, colour, text in (("neutral", BLACK, "loses stability"), ("fold", SEPARATED, "ends in a fold")):
+        if kind in kinds:
+            axes.plot([], [], color=colour, linewidth=2.0, label=f"cycle {text}")
+    drawing.legend_above(axes)
+    _title(axes, curves.parameters, *curves.bounds, ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_critical(critical: Critical, ax: Any = None) -> Axes:
+    """Draw the growth rate of the cycle over the parameter, over the shaded intervals without a stable motion."""
+    [axes] = axes_for(ax, 1.3 * COLUMN, 2.8)
+    label, factor = drawing.axis_of(critical.name)
+    x, ends = critical.values * factor, critical.unstable * factor
+    for i, (low, high) in enumerate(ends):
+        text: dict[str, Any] = {"label": "no stable motion"} if i == 0 else {}
+        axes.axvspan(low, high, facecolor=SEPARATED, alpha=0.3, linewidth=0.8, edgecolor=SEPARATED, zorder=0, **text)
+    axes.plot(x, critical.growth_rate, ".-", color=BLACK, markersize=3, linewidth=0.7, label="cycles computed")
+    _rates(axes)
+    axes.set(xlabel=label, ylabel="Growth rate of the cycle (1/s)", xlim=(x[0], x[-1]))
+    drawing.legend_above(axes)
+    _title(axes, critical.parameters, critical.name, ours=ax is None)
+    return axes
+
+
+@by_itself
+def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
+    """Draw the exponents with their errors, those that have converged filled; what has vanished is left out."""
+    [axes] = axes_for(ax, COLUMN, 2.6)
+    number = np.arange(1, len(lyapunov.exponents) + 1)
+    finite = np.isfinite(lyapunov.exponents)
+    for mask, face, text in ((lyapunov.converged, BLUE, "converged"), (~lyapunov.converged, "white", "not converged")):
+        if (shown := mask & finite).any():
+            axes.errorbar(
+                number[shown], lyapunov.exponents[shown], lyapunov.errors[shown], fmt="o", color=BLUE, label=text,
+                markerfacecolor=face, markersize=4, capsize=3, linewidth=0.8,
+            )  # fmt: skip
+    axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+    axes.set(xlabel="Number", ylabel="Lyapunov exponent (1/s)", xticks=number, xlim=(0.5, number[-1] + 0.5))
+    axes.set_title(f"over {lyapunov.duration:g} s, {lyapunov.separations} separations", loc="left")
+    axes.legend()
     return axes
 
 
@@ -215,6 +317,8 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
     5
     """
+    counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
+    raise_faults(foreign_case(p) + violations(counts))
     disc.needs_shapes(p)
     count = min(most, len(disc.mode_arrays(p).omega))
     columns = min(count, 5)
@@ -247,6 +351,13 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
     """
+    texts = (isinstance(value, str | None) for value in (variable, x))
+    raise_faults(
+        violations(
+            (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
+            *zip(texts, ("variable", "x"), (variable, x), ("must be a name",) * 2, strict=True),
+        )
+    )
     study = study.squeeze()
     grid = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
     choices = [str(name) for name, values in study.items() if {*values.dims} and {*values.dims} <= {*grid}]
@@ -268,11 +379,9 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         handles = general.draw_maps(axes.figure, [axes], study, named, across, up, log)
     if handles:
         axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
-    if "parameters" in study.attrs:
-        case = dict(Parameters.model_validate_json(study.attrs["parameters"]))
-    else:
-        case = drawing.stated_in(study, "base") if "base" in study.attrs else {}
-    values = {name: value for name, value in dict(case).items() if name not in study.coords}
+    base = next((what for what in ("base", "parameters") if what in study.attrs), None)
+    case = drawing.stated_in(study, base) if base else {}
+    values = {name: value for name, value in case.items() if name not in study.coords}
     if ax is None:
         figure: Any = axes.figure
         figure.suptitle(drawing.head_text(figure.get_figwidth(), "", drawing.what_case(values)), fontsize=8)

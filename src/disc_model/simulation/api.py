@@ -89,9 +89,10 @@ _PLAIN = Execution()
 
 def simulate(  # noqa: PLR0913
     p: Parameters,
-    t_end: float | str,
+    t_end: float | str | None = None,
     windows: Windows | None = None,
     *,
+    duration: float | str | None = None,
     events: bool = True,
     tol: float = 1e-10,
     initial_state: State | None = None,
@@ -99,12 +100,13 @@ def simulate(  # noqa: PLR0913
     ramps: Ramp | tuple[Ramp, ...] = (),
     execution: Execution = _PLAIN,
 ) -> Result:
-    """Simulate from the static equilibrium (or ``initial_state``) to the absolute time ``t_end``.
+    """Simulate from the static equilibrium (or ``initial_state``) to the time ``t_end``, or for a ``duration``.
 
     Parameters
     ----------
     p : the case
-    t_end : s, greater than the initial state's time; or a text with a unit, such as "2 min"
+    t_end : s, absolute, greater than the initial state's time; or a text with a unit, such as "2 min"
+    duration : s, from the initial state's time, instead of t_end
     windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
     events : whether to keep the table of events (events are always counted)
     tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md). A value above
@@ -135,12 +137,17 @@ def simulate(  # noqa: PLR0913
     (Frozen({'time': 2001}), 'N')
     """
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    if isinstance(t_end, str):
+    raise_faults([] if (t_end is None) != (duration is None) else ["t_end: is required, or duration instead of it"])
+    until: Any = t_end if duration is None else duration
+    if isinstance(until, str):
         with suppress(ValueError):
-            t_end = number(in_si(t_end, "s", [], ()))
-    raise_faults(_faults(p, t_end, tol, initial_state, windows, events, stop_at, ramps, execution))
+            until = number(in_si(until, "s", [], ()))
+    if duration is not None and isinstance(initial_state, State) and is_number(until):
+        until = initial_state.time + until
+    name = "t_end" if duration is None else "duration"
+    raise_faults(_faults(p, name, until, tol, initial_state, windows, events, stop_at, ramps, execution))
     # numbers of other types would make the engine compile again, and would round differently
-    start, end = 0.0 if initial_state is None else float(initial_state.time), float(t_end)
+    start, end = 0.0 if initial_state is None else float(initial_state.time), float(until)
     windows = {} if windows is None else windows
     if windows:
         windows = resolved_windows(windows, start, end)
@@ -161,6 +168,7 @@ def simulate(  # noqa: PLR0913
 
 def _faults(  # noqa: PLR0913
     p: object,
+    name: str,
     t_end: Any,
     tol: Any,
     state: Any,
@@ -170,7 +178,7 @@ def _faults(  # noqa: PLR0913
     ramps: object,
     execution: Any,
 ) -> list[str]:
-    """Every fault of the arguments of `simulate`, which has made a ramp a tuple."""
+    """Every fault of the arguments of `simulate`, which has made a ramp a tuple; `name` is that of `t_end`."""
     time = state.time if isinstance(state, State) else 0.0
     start = time if is_finite(time) else 0.0
     later, rule = is_number(t_end) and start < t_end < math.inf, ""
@@ -187,7 +195,7 @@ def _faults(  # noqa: PLR0913
         (isinstance(how.audit_every_step, bool), "audit_every_step", how.audit_every_step, "must be True or False"),
         (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
         (is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, "t_end", t_end, rule),
+        (later, name, t_end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (how is execution, "execution", execution, "must be an Execution"),
         (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.display import draw
+from disc_model.errors import raise_faults, violations
 from disc_model.simulation.case import Poincare, Window
+from disc_model.units import is_whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -64,7 +66,7 @@ class Pictures:
         (3, 2)
         """
         if windows is not None:
-            names = [windows] if isinstance(windows, str) else list(windows)
+            names = [windows] if isinstance(windows, str) or not np.iterable(windows) else list(windows)
             return draw("plot_run", self._case(), names, variables, ax=ax)
         names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
         return draw("plot_run", self._case(*names), names, variables, ax=ax)
@@ -103,6 +105,8 @@ class Pictures:
         -------
         matplotlib.animation.FuncAnimation
         """
+        counts = (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1")
+        raise_faults(violations(counts))
         case, name = self._of(window, "end")
         samples = draw("window_of", case, name)
         result: Any = self

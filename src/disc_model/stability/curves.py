@@ -1,14 +1,19 @@
 """Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see docs/method.md."""
 
+from __future__ import annotations
+
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.data.variables import CycleStatus
+from disc_model.data.variables import CycleStatus, values_text
+from disc_model.display import Summarised, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
@@ -28,6 +33,9 @@ from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MOST_POINTS = 100_000
 """Largest number of points along a line: an hour of work."""
@@ -55,8 +63,8 @@ class StabilityCurve:
     resonance: Resonance
 
 
-@dataclass(frozen=True)
-class NeutralCurves:
+@dataclass(frozen=True, repr=False)
+class NeutralCurves(Summarised):
     """Curves in the plane of two parameters; iterating yields them.
 
     Attributes
@@ -80,6 +88,27 @@ class NeutralCurves:
     def __repr__(self) -> str:
         plane = " and ".join(f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items())
         return f"NeutralCurves({len(self)} curves over {plane}, {len(self.failures)} not followed)"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        for name, (low, high) in self.bounds.items():
+            yield name, f"{low:g} to {high:g}"
+        for (kind, label), count in Counter((curve.kind, curve.resonance.label) for curve in self).items():
+            yield f"{kind} curve", f"{label}, {count} times" if count > 1 else label
+        yield "not followed", "; ".join(self.failures)
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the curves in the plane of the two parameters, thick beside a stable cycle.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> case = dm.Parameters(N=385, Omega=15, mu_k_over_mu_s=0.6)
+        >>> curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
+        >>> curves.plot().get_xlabel()
+        'Speed Ω (rad/s)'
+        """
+        axes: Axes = draw("plot_neutral_curves", self, ax=ax)
+        return axes
 
 
 @dataclass(frozen=True)
@@ -264,7 +293,7 @@ STRONGLY_DAMPED = 0.5
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Critical:
+class Critical(Summarised):
     """Values of a parameter at which the motion near the static start gains or loses stability.
 
     Attributes
@@ -291,6 +320,36 @@ class Critical:
         seen = f"{len(self.crossings)} crossings, {len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
         return f"Critical({self.name}: {first}, {seen})"
 
+    @property
+    def unstable(self) -> Array:
+        """The intervals without a stable motion: shape (n_intervals, 2)."""
+        ends = [*self.crossings, self.values[-1]]
+        begins = [self.values[0], *self.crossings]
+        grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
+        intervals = [pair for pair, unstable in zip(zip(begins, ends, strict=True), grows, strict=True) if unstable]
+        return np.array(intervals, dtype=float).reshape(-1, 2)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        values = self.parameters.replace(**{self.name: self.value if self.value > 0 else self.values[0]}).stated
+        yield "case", values_text({name: value for name, value in values.items() if name != self.name})
+        yield "parameter", f"{self.name}, {self.values[0]:g} to {self.values[-1]:g}"
+        yield "no stable motion", ", ".join(f"{low:.6g} to {high:.6g}" for low, high in self.unstable) or "nowhere"
+        yield "tongues seen down to", f"{self.resolution:.2g}"
+        yield "cycles computed", len(self.values)
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the growth rate of the cycle (1/s) over the parameter, with the intervals without a stable motion.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
+        >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7).plot().get_ylabel()
+        'Growth rate of the cycle (1/s)'
+        """
+        axes: Axes = draw("plot_critical", self, ax=ax)
+        return axes
+
 
 @compiling()
 def critical(
@@ -301,6 +360,7 @@ def critical(
     points: int = 41,
     precision: float | None = None,
     tol: float = 1e-12,
+    **others: Any,
 ) -> Critical:
     """The least value of a parameter at which the motion near the static start is unstable, and all later crossings.
 
@@ -316,6 +376,7 @@ def critical(
     points : number of values from which the search starts
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
+    **others : values of other numbers of the case, instead of its own, such as ``Omega=20``
 
     Raises
     ------
@@ -336,7 +397,8 @@ def critical(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
-    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name, *others]))
+    p = p.replace(**others) if others else p
     shortest = 1e-6 * (bounds[1] - bounds[0]) if precision is None else float(precision)
     cycles: dict[float, FloquetResult] = {}
 

@@ -6,13 +6,18 @@ rest.  It carries no information, and columns turn towards that direction slowly
 column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
 """
 
+from __future__ import annotations
+
 import math
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.display import Summarised, draw, number_text
 from disc_model.engine import exit_codes, layout, saltation, tangent, variational
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Status, as_text, raise_faults, violations
@@ -20,6 +25,9 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
 from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _BLOCKS = 16
 MOST_INTERVALS = 10_000_000
@@ -31,7 +39,7 @@ CONVERGED = 0.05, 0.002
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Lyapunov:
+class Lyapunov(Summarised):
     """The largest Lyapunov exponents.
 
     Attributes
@@ -61,6 +69,26 @@ class Lyapunov:
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
         return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "status", self.status.advice
+        for i, (rate, error) in enumerate(zip(self.exponents, self.errors, strict=True), 1):
+            converged = "" if self.converged[i - 1] else ", not converged"
+            yield f"exponent {i}", f"{rate:.4g} ± {error:.2g} 1/s{converged}"
+        yield "along the motion", number_text(self.trivial_exponent, "1/s", 3)
+        yield "averaged over", f"{number_text(self.duration, 's')}, {self.separations} separations"
+
+    def plot(self, *, ax: Axes | None = None) -> Axes:
+        """Draw the exponents with their errors (1/s).
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.lyapunov_exponents(dm.Parameters(N=385, Omega=15), 1).plot().get_ylabel()
+        'Lyapunov exponent (1/s)'
+        """
+        axes: Axes = draw("plot_exponents", self, ax=ax)
+        return axes
 
 
 @compiling()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
@@ -17,16 +17,16 @@ import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.display import counting
-from disc_model.errors import Fault, raise_faults, suggestion
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.mode_choice import choose_when_run
-from disc_model.parameters import RATIOS, Parameters, foreign_case
+from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.api import run_case
-from disc_model.simulation.case import Start
+from disc_model.simulation.case import SomeParameters, Start
 from disc_model.simulation.result import Result
 from disc_model.studies.merge import merge_batches, merge_cases
 from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
-from disc_model.units import is_whole
+from disc_model.units import Finite, Strict, canonical_json, is_whole
 
 # ----------------------------------------------------------------------------------------------------
 # Quantities of one case
@@ -34,9 +34,18 @@ from disc_model.units import is_whole
 
 def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
     """The variables of a quantity for a case, flags as words; what went wrong is the attribute `message`."""
-    raise_faults(foreign_case(case))
-    quantity = quantity_of(name).model_validate(options)
-    row, message = quantity.compute_point(Point(case, Start(perturbation=dict(start or {}))))
+    faults = foreign_case(case, "case")
+    try:
+        begin = Start.model_validate({} if start is None else {"perturbation": start})
+        quantity = quantity_of(name).model_validate(options)
+    except ParameterError as error:
+        arguments = {"perturbation": "start", "horizons": "horizon"}
+        faults += [
+            Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule)
+            for fault in error.faults
+        ]
+    raise_faults(faults)
+    row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
     dataset = xr.Dataset(columns, coordinates, {"parameters": case.canonical_json, "message": message}).isel({POINT: 0})
@@ -44,6 +53,17 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
         words = flag_names(dataset[flag])
         dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
     return dataset
+
+
+def _several(values: Any) -> bool:
+    return isinstance(values, Sequence | np.ndarray) and not isinstance(values, str) and np.ndim(values) == 1
+
+
+def _scan(ends: Any, step: Any) -> Any:
+    """The range of a scan as an option of a quantity, which says what is wrong with it."""
+    pair = _several(ends) and len(ends) == 2
+    raise_faults(violations((pair, "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed")))
+    return {"start": ends[0], "stop": ends[1], "step": step}
 
 
 def outcome(
@@ -119,9 +139,9 @@ def critical_speed(
     >>> speeds["critical_speed"].values
     array([15.1])
     """
-    horizons: Any = horizon if np.iterable(horizon) else (horizon,)
-    scanned = {"start": scan[0], "stop": scan[1], "step": step}
-    options: dict[str, Any] = {"horizons": tuple(horizons), "scan": scanned, "precision": precision}
+    given: Any = horizon
+    horizons = tuple(given) if _several(given) else (horizon,)
+    options: dict[str, Any] = {"horizons": horizons, "scan": _scan(scan, step), "precision": precision}
     return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
 
 
@@ -164,7 +184,8 @@ def basins(  # noqa: PLR0913
     >>> found["kind"].values.tolist()
     [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
     """
-    options = {"energies": tuple(energies), "n_starts": n_starts, "horizon": horizon, "seed": seed}
+    several = tuple(energies) if _several(energies) else energies
+    options: dict[str, Any] = {"energies": several, "n_starts": n_starts, "horizon": horizon, "seed": seed}
     more = {"attractor_tol": attractor_tol, "n_bisection_directions": n_bisection_directions, "tol": tol}
     return _quantity("basins", case, start, **options, **more)
 
@@ -202,11 +223,7 @@ def hysteresis(
     >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
     (16.0, ('direction', 'sweep_Omega'))
     """
-    options: dict[str, Any] = {
-        "scan": {"start": scan[0], "stop": scan[1], "step": step},
-        "dwell": dwell,
-        "max_dwell": max_dwell,
-    }
+    options: dict[str, Any] = {"scan": _scan(scan, step), "dwell": dwell, "max_dwell": max_dwell}
     return _quantity("hysteresis", case, **options, evaluation_time=evaluation_time, tol=tol)
 
 
@@ -236,7 +253,8 @@ def sweep(
     Raises
     ------
     ParameterError
-        If `case` is no case, or a name is neither a number of it nor an argument of the function.
+        If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
+        by itself. Where values break a rule together, the point has failed.
 
     Examples
     --------
@@ -248,18 +266,21 @@ def sweep(
     >>> growth["status"].sel(Omega=10).values.tolist()
     ['ok', 'ok']
     """
-    raise_faults(foreign_case(case))
-    numbers = case.numbers.keys() | RATIOS | {"n_diameters", "n_circles", "disc", "normalization"}
+    faults = foreign_case(case, "case") + violations(
+        (callable(function), "function", function, "must be a function, such as disc_model.floquet"),
+        *_rules_of_workers(workers, processes),
+    )
+    raise_faults(faults)
+    numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     arguments = inspect.signature(function).parameters
     takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
-    axes = {name: [*values] if np.iterable(values) and not isinstance(values, str) else [values]
-            for name, values in named.items() if name in numbers and name not in arguments}  # fmt: skip
+    varied = [name for name in named if name in numbers and name not in arguments]
+    axes = {name: _values(name, named[name], faults) for name in varied}
     options = {name: value for name, value in named.items() if name not in axes}
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"
-    raise_faults([Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown])
-    counted = is_whole(workers) and workers >= 1
-    raise_faults([] if counted else [Fault.of(("workers",), workers, "must be a whole number >= 1")])
+    faults += [Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown]
+    raise_faults(faults)
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
     rows = _in_parallel(partial(_row, function, case, options), points, workers, processes)
     sizes = {name: len(values) for name, values in axes.items()}
@@ -272,9 +293,37 @@ def sweep(
         for name, values in axes.items()
     }
     variables, fixed = _stacked(rows, sizes)
-    return xr.Dataset(
-        variables, fixed | coordinates, {"function": function.__name__, "parameters": case.canonical_json}
-    )
+    base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
+    attrs = {"function": function.__name__, "parameters": case.canonical_json, "base": base}
+    return xr.Dataset(variables, fixed | coordinates, attrs)
+
+
+def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
+    """The values of an axis in SI units; what is wrong with them, each by itself, is added to the faults."""
+    several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
+    given, checked = [*values] if several else [values], []
+    if not given:
+        faults.append(Fault.of((name,), values, "must have one value or more"))
+    for value in given:
+        plain = value.item() if isinstance(value, np.generic) else value
+        try:
+            known = name in Parameters.model_fields
+            model = SomeParameters(**{name: plain}) if known else _Number(number=plain)
+            checked.append(getattr(model, name if known else "number"))
+        except ParameterError as error:
+            faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
+    return checked
+
+
+class _Number(Strict):
+    """A ratio, or a number of a disc's mode."""
+
+    number: Finite
+
+
+def _rules_of_workers(workers: Any, processes: Any) -> Iterator[tuple[object, str, object, str]]:
+    yield is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"
+    yield isinstance(processes, bool), "processes", processes, "must be True or False"
 
 
 def _described(name: str) -> dict[str, Any]:
@@ -359,7 +408,7 @@ def _stacked(
         for i, values in present:
             array[(i, *map(slice, values.shape))] = values
         array = array.astype(str) if array.dtype == object else array
-        stacked[name] = xr.Variable((*sizes, *variable.dims), array.reshape(*sizes.values(), *shape), variable.attrs)
+        stacked[name] = xr.Variable((*sizes, *variable.dims), array.reshape((*sizes.values(), *shape)), variable.attrs)
     return stacked, fixed
 
 
@@ -396,8 +445,18 @@ def run_study(
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
     """
-    from disc_model.studies.study import load_study, parse_study  # of the extra `workflow`
-
+    try:
+        from disc_model.studies.study import load_study, parse_study
+    except ModuleNotFoundError as error:
+        text = f"studies need {error.name}: pip install 'disc_model[workflow]' brings it"
+        raise ModuleNotFoundError(text, name=error.name) from None
+    named = isinstance(source, str | Path | Mapping)
+    raise_faults(
+        violations(
+            (named, "source", source, "must be the path of a study file, or a mapping"),
+            *_rules_of_workers(workers, processes),
+        )
+    )
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])

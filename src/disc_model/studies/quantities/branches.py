@@ -100,7 +100,7 @@ class Branches(Quantity):
 
         def follow(cycle: FloquetResult, reached: bool) -> None:
             assert cycle.state is not None
-            value = getattr(cycle.parameters, self.parameter)
+            value = cycle.parameters.numbers[self.parameter]
             size = _range(cycle.parameters, cycle.state, cycle.period)
             if len(rows) < self.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
                 try:
