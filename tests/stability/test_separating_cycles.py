@@ -79,7 +79,6 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     assert found.stable
 
 
-@pytest.mark.slow
 def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from disc_model import Disc, Parameters, plate_modes, steady_sliding
+from disc_model.disc.plate import mode_arrays
 from disc_model.engine import exit_codes
 from disc_model.simulation.states import State
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes, split_rows
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
 
@@ -46,6 +47,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     """It stays where it is, and its eigenvalues are those of a flight from there."""
     sliding, duration = steady_sliding(p), 1e-3
     assert sliding.status is SlidingStatus.OK
+    assert sliding.message.startswith(f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = ")
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
     assert run.fly(duration) == exit_codes.TIME_OVER
@@ -145,6 +147,49 @@ def test_modes_keep_their_numbers_where_frequencies_cross():
         shift = -l * 60.0 * (2 * wave - 1)  # with the slider the wave seems slower
         expected = {-1: math.sqrt(p.k_p / p.m), 1: 1000 + shift, 2: 1100 + shift}[l] / (2 * math.pi)
         assert frequency == pytest.approx(expected, abs=1e-3)
+
+
+def roots_of_energies(p, shapes):
+    """Of each row of modes' shapes: its energy is the square of the modulus."""
+    modes = mode_arrays(p)
+    omega, r_0 = modes.omega[:, None], p.r_0
+    (a, alpha, b, beta), (psi, f), height = split_rows(modes, shapes)
+    disc = np.concatenate([omega * a, alpha, omega * b, beta])
+    slider = r_0 * np.array([math.sqrt(p.k_p) * psi, math.sqrt(p.m) * f])
+    contact = math.sqrt(p.k + 1 / p.contact_compliance) * height[0], math.sqrt(p.m) * height[1]
+    return disc, slider, np.array(contact), omega * (a + 1j * b), omega * (a - 1j * b)
+
+
+def test_modes_are_named_and_compared_by_their_energies():
+    """Where the slider's frequency passes those of the disc most of the energy passes from one to the other."""
+    base = Parameters(N=385, Omega=20, normalization="orthonormal", contact_compliance=1e-7, c_p=0.5)
+    l, kinds = mode_arrays(base).diameters, set()
+    for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist():
+        cases = [base.replace(k_p=value) for value in (0.999 * k_p, k_p)]
+        _, (_, modes, numbers, mac) = found = follow_modes(cases)
+        each = [roots_of_energies(p, one.modes.shapes) for p, one in zip(cases, found, strict=True)]
+        disc, slider, _, forward, backward = (np.abs(rows) ** 2 for rows in each[1])
+        by_l = np.array([disc[np.tile(l, 4) == number].sum(axis=0) for number in range(5)])
+        expected = np.where(slider.sum(axis=0) > disc.sum(axis=0), -1, by_l.argmax(axis=0))
+        np.testing.assert_array_equal(modes.diameters, expected)
+        of_l = l[:, None] == by_l.argmax(axis=0)
+        waves = [np.sum(wave, axis=0, where=of_l) for wave in (forward, backward)]
+        np.testing.assert_allclose(modes.forward, waves[0] / sum(waves), rtol=1e-9)
+        before, after = (np.concatenate(rows[:3]) for rows in each)
+        overlap = np.abs(np.sum(before[:, numbers].conj() * after, axis=0)) ** 2
+        sizes = [np.sum(np.abs(rows) ** 2, axis=0) for rows in (before[:, numbers], after)]
+        np.testing.assert_allclose(mac, overlap / (sizes[0] * sizes[1]), rtol=1e-9)
+        kinds.add(tuple(expected))
+    assert len(kinds) > 1, "the energy does not pass on"
+
+
+def test_a_step_that_changes_modes_much_is_halved():
+    """Of a slider ten times as light; matched at once, three modes of the disc change places."""
+    p = Parameters(N=385, Omega=20, normalization="orthonormal")
+    wide, narrow = (
+        follow_modes([p.replace(m=m) for m in np.linspace(0.1, 0.01, count).tolist()])[-1] for count in (2, 120)
+    )
+    np.testing.assert_array_equal(wide.numbers, narrow.numbers)
 
 
 def test_no_modes_without_steady_sliding():
