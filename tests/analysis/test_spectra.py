@@ -74,12 +74,6 @@ def test_time_frequency_follows_a_chirp() -> None:
     assert found.power.shape == (found.frequency.size, found.time.size)
 
 
-def test_power_share() -> None:
-    values = np.cos(2 * np.pi * 100 * TIME) + 0.1 * np.cos(2 * np.pi * 900 * TIME)
-    assert spectra.power_share(TIME, values, 700, 20) == pytest.approx(0.01 / 1.01, rel=1e-3)
-    assert spectra.power_share(TIME, np.cos(2 * np.pi * 100 * TIME), 700, 20) < 1e-12
-
-
 def test_coverage_tells_lines_from_noise() -> None:
     noise = np.random.default_rng(0).normal(size=TIME.size)
     assert spectra.coverage(TIME, signal(KNOWN), 10, 300) < 0.06

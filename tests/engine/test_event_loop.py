@@ -34,12 +34,6 @@ def test_release_without_a_solution_is_a_paradox() -> None:
         result.raise_for_status()
 
 
-def test_release_on_a_gentler_slope_is_slip() -> None:
-    result = simulate(STEEP, 1e-6, initial_state=about_to_slip(30.0))
-    assert result.status == "ok"
-    assert result.events["kind"].iloc[0] == "stick_to_slip"
-
-
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
 def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(transitions, "MAX_EVENTS_IN_A_ROW", 0)

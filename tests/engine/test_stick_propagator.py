@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
-from disc_model.engine import dense_output, exit_codes, layout, series, stick_modes, stick_propagator
+from disc_model.engine import dense_output, layout, series, stick_modes, stick_propagator
 from disc_model.engine.transitions import stick_force
-from disc_model.simulation.api import _Run
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
 
@@ -162,20 +161,3 @@ def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -
     # the quadrature of a step is good to rounding, so is that of an advance in closed form
     assert closed.statistics["energy_residual_transverse"] < 1e-13
     assert closed.statistics["energy_residual_inplane"] < 1e-13
-
-
-@pytest.mark.compiled
-def test_samples_of_an_advance_fit_their_buffer() -> None:
-    """The engine writes a whole advance before it pauses; numba would not say if it wrote beyond the end."""
-    window = Window(start=0.0, stop=0.5, rate=200_000.0)
-    run = _Run(Parameters(N=385, Omega=0.2), 0.5, windows={"all": window})
-    room, width = run.collector.buffers.sample_rows.shape
-    rows = np.full((4 * room, width), np.nan)
-    run.collector.buffers = run.collector.buffers._replace(sample_rows=rows)
-    pauses = 0
-    while run.advance() == exit_codes.PAUSED:
-        pauses += 1
-    assert pauses >= 1
-    assert np.isnan(rows[room:]).all()
-    # the longest advance has begun just before the pause: else this test shows nothing
-    assert np.isfinite(rows[run.collector.buffers.sample_capacity + 5000, 1])

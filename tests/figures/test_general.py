@@ -65,21 +65,6 @@ def mesh(figure: Figure) -> Any:
     return figure.axes[0].collections[0]
 
 
-def test_a_heat_map_has_a_panel_for_each_normalization(study: xr.Dataset, tmp_path: Path) -> None:
-    figure = mapped(study, "drift")
-    assert [ax.get_title(loc="left") for ax in figure.axes[:2]] == ["(a) modes as published", "(b) orthonormal modes"]
-    shown = mesh(figure).get_array()
-    assert shown.shape == (3, 4)
-    assert np.ma.getmaskarray(shown)[0, 0]
-    assert shown[2, 3] == pytest.approx(0.1)
-    assert figure.axes[-1].get_ylabel() == "Drift (m/s)"
-    assert labels(figure) == ["no cycle found"]
-    ax = figure.axes[0]
-    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear"), "a range by factors has an axis by factors"
-    assert ax.get_xlim() == pytest.approx((0.01, 10)), "its cells are no wider"
-    save(figure, tmp_path / "map.png")
-
-
 def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     both = mesh(mapped(study, "drift")).norm
     assert both.vmin == pytest.approx(-both.vmax)

@@ -85,11 +85,3 @@ def test_a_window_is_counted_from_the_end_of_the_run() -> None:
     assert result.windows["late"].stop == 0.05, "the result says what was kept"
     with pytest.raises(ParameterError, match=r"windows.late.start=1: must be < t_end=0.05"):
         simulate(P, 0.05, {"late": Window(start=1, rate=10)})
-
-
-def test_what_is_not_said_is_not_in_the_text_of_a_window() -> None:
-    """So that the address of a case's content stays what it was."""
-    assert Window(start=0, stop=1, rate=5).model_dump() == {
-        "start": 0.0, "stop": 1.0, "rate": 5.0, "theta": 1.0, "envelope": None,
-    }  # fmt: skip
-    assert Window(last=1, rate=5).model_dump()["last"] == 1.0

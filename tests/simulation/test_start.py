@@ -31,15 +31,6 @@ def test_a_preparation_that_fails_is_reported() -> None:
     assert "ParameterError" in str(found["message"].item())
 
 
-def test_a_preparation_is_another_motions_end() -> None:
-    p = Parameters(N=200, Omega=50, n_diameters=1)
-    assert make_initial_state(p, Start(), 1e-8) is None
-    start = make_initial_state(p, Start(prerun={"parameters": {"N": 100}, "time": 0.01}), 1e-8)
-    expected = simulate(p.replace(N=100), 0.01, tol=1e-8).final_state
-    np.testing.assert_array_equal(start.a, expected.a)
-    assert start.time == 0
-
-
 # ---- the modes that a state belongs to
 
 

@@ -13,7 +13,7 @@ from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, perturb, static_start
+from disc_model.simulation.states import State, static_start
 from disc_model.stability.attractor.basins import Basins, random_perturbation
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
 
@@ -56,16 +56,6 @@ def test_a_departure_by_multipliers_ends_as_the_simulated_one() -> None:
     assert found.first_separation == pytest.approx(whole.first_separation, abs=2)
     assert whole.first_separation == pytest.approx(149.41, abs=0.5)  # docs/model.md
     assert found.simulated < 0.6 * whole.simulated
-
-
-@pytest.mark.compiled
-def test_a_start_of_ones_own_is_followed_to_what_it_comes_to() -> None:
-    """At 385 N and 15 rad/s a kick of 0.2 mm dies out and one of 0.3 mm leads to separation."""
-    p = Parameters(N=385, Omega=15)
-    small, large = (find_outcome(p, 300, start=perturb(p, static_start(p), u=kick)) for kick in (2e-4, 3e-4))
-    assert (small.outcome, large.outcome) == (Outcome.QUIET, Outcome.SEPARATION)
-    assert 0 < small.simulated < 100
-    assert 0 < small.distance < 0.1
 
 
 def test_a_simulation_that_fails_says_so() -> None:

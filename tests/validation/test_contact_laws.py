@@ -9,7 +9,7 @@ from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
 from disc_model.simulation.states import engine_case, static_start, write_state
-from tests.contact_laws import ALL_LAWS, COMPILES, LAWS
+from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.references import stored, taylor
 from tests.references.printed import MOTIONS, P, lively
 
@@ -200,6 +200,14 @@ def test_energy_balances_over_ten_thousand_switches(name):
     assert statistics["events"] > 10_000
     assert statistics["audited_steps"] == statistics["steps"]
     assert max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12
+
+
+@pytest.mark.parametrize(("phase", "direction"), [pytest.param(*motion, marks=COMPILES) for motion in MOTIONS])
+def test_energy_balances_with_the_couple_on_more_modes_than_fill_a_block(phase, direction):
+    p = P.replace(n_diameters=5, **COUPLE)
+    start, execution = lively(phase, direction, p), Execution(audit_every_step=True)
+    result = simulate(p, 1e-4, tol=1e-14, initial_state=start, execution=execution)
+    assert result.statistics["energy_residual"] < 1e-12
 
 
 # ------------------------------------------------------------------------ limits

@@ -2,23 +2,10 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.parameters import Parameters
-from disc_model.studies.quantities.critical_speed import CriticalSpeed
-from disc_model.studies.quantity import Point
-from tests.studies.conftest import compute
-
-
-def speeds_at(
-    N: float, horizons: list[float], start: float, stop: float, step: float, precision: float
-) -> dict[str, np.ndarray]:
-    scan = {"start": start, "stop": stop, "step": step}
-    options = CriticalSpeed(horizons=horizons, scan=scan, precision=precision)
-    return compute(options, [Point(Parameters(N=N, Omega=0))]).arrays
 
 
 def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
@@ -34,20 +21,6 @@ def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
     assert shorter["critical_speed"] == 14.0
     assert one["simulations"].sel(N=200) > 7
     assert flag_names(one["status"]).tolist() == ["ok", "ok"]
-
-
-@pytest.mark.compiled
-def test_385_N_turns_between_15_08_and_15_09() -> None:
-    """Below the fold of the quiet cycle at 15.0949: from the static start the separating motion is reached earlier.
-
-    At 15.085 rad/s contact is lost at 59.6101202 s, at 15.09 at 56.4006380 s, by the engine, by a long-order Taylor
-    integrator and by fixed-step Runge-Kutta alike; at 15.08 not within 300 s.
-    """
-    found = speeds_at(385, [200], 15, 15.2, 0.05, 0.01)
-    assert found["critical_speed"][0, 0] == 15.09
-    assert found["crossing"][0, 0, 0] == 15.09
-    kinds = CriticalSpeed.COLUMNS["crossing_kind"].flags
-    assert [kinds[i] for i in found["crossing_kind"][0, 0, :2]] == ["begins", "none"]
 
 
 RESULTS = Path(__file__).parents[3] / "results"

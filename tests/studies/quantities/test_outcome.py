@@ -7,7 +7,6 @@ import pytest
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantity import STATUSES, Point
 from tests.studies.conftest import SMALL, compute, computed
@@ -17,17 +16,6 @@ def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.nd
     table = compute(HorizonOutcome(**{"horizon": 1000, **options}), map(Point, cases))
     words = HorizonOutcome.COLUMNS["outcome"].flags
     return table.arrays, [words[i] for i in table.arrays["outcome"]]
-
-
-@pytest.mark.compiled
-def test_following_does_not_move_the_first_separation() -> None:
-    p = Parameters(N=385, Omega=15.1)
-    arrays, words = outcomes([p], horizon=100)
-    alone = simulate(p, 100, stop_at="first_separation").first_separation
-    assert words == ["separation"]
-    assert arrays["first_separation"][0] == pytest.approx(alone, abs=1e-6)
-    assert arrays["separation_rate"][0] > 100
-    assert arrays["P_min"][0] == 0
 
 
 def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
