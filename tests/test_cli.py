@@ -72,7 +72,7 @@ def test_run_agrees_with_simulate(command: Command) -> None:
     assert all(part in out for part in (*parts, "energy residual"))
     result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
     assert f"events              {result.statistics['events']}\n" in out
-    assert f"key {result.parameters.key}" in out
+    assert f"key                 {result.parameters.key}" in out
 
 
 def test_module_runs_as_a_program() -> None:

@@ -20,14 +20,17 @@ def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
 
 
 class Summarised:
-    """An object that a notebook shows as the table of its `_summary`, whose pairs without a value are left out."""
+    """An object that has a summary, which a notebook and the command line show."""
 
     def _summary(self) -> Iterable[tuple[str, object]]:
         raise NotImplementedError
 
+    def summary(self) -> list[tuple[str, str]]:
+        """Names and values in words; those without a value are left out."""
+        return [(name, str(value)) for name, value in self._summary() if value not in ("", None)]
+
     def _repr_html_(self) -> str:
-        rows = [(name, value) for name, value in self._summary() if value not in ("", None)]
-        return html_table((type(self).__name__, ""), rows)
+        return html_table((type(self).__name__, ""), self.summary())
 
 
 def number_text(value: float, unit: str = "", digits: int = 6) -> str:

@@ -155,21 +155,12 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
-def disc_words(p: Parameters) -> str:
-    """Description of the disc."""
-    return p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
-
-
-def case_lines(p: Parameters, choice: ModeChoice | None) -> list[tuple[str, str]]:
-    """The case, and its modes if they were chosen: the first lines of every command on one case."""
-    case = f"N = {p.N:g} N, Omega = {p.Omega:g} rad/s, {disc_words(p)}, {p.contact} (key {p.key})"
-    return [("case", case), *choice_lines(choice)]
-
-
-def choice_lines(choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
-    """Result of ``--n-diameters auto``."""
+def model_lines(p: Parameters, choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
+    """The model of a case in words, and the result of ``--n-diameters auto``."""
+    modes = p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
+    yield "model", f"{modes}, {p.contact} contact"
     if choice is not None:
-        p, name = choice.parameters, choice.quantity.replace("_", " ")
+        name = choice.quantity.replace("_", " ")
         right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
         of_plate = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
         size = of_plate if p.disc is None else f"the first {len(p.disc.omega)} of the table"
@@ -192,7 +183,7 @@ def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> No
     if options.csv:
         typer.echo(disc_table(p), nl=False)
         return
-    print_rows(choice_lines(choice))
+    print_rows(model_lines(p, choice))
     arrays = mode_arrays(p)
     rows = [
         (str(c), str(l), f"{omega:.3f}", f"{omega / math.tau:.3f}", f"{psi:.6g}", f"{psi**2:.6f}", f"{ratio:.3g}")
@@ -201,7 +192,7 @@ def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> No
         )
     ]
     heads = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
-    table(f"Modes of the disc ({disc_words(p)})", heads, rows, justify="right")
+    table("Modes of the disc", heads, rows, justify="right")
     if p.disc is None or p.disc.static_compliance is not None:
         give = residual_flexibility(p)
         numbers = (f"{give.total:.7g}", f"{give.remainder:.1e}", f"{give.kept:.7g}", f"{give.residual:.7g}")
@@ -226,22 +217,8 @@ def floquet(p: Parameters, choice: ModeChoice | None, options: FloquetOptions) -
     from disc_model.stability.cycle import floquet as cycle_of
 
     cycle = cycle_of(p, tol=options.tol)
-    exists = cycle.status is CycleStatus.OK
-    lines = [*case_lines(p, choice), ("status", cycle.message or cycle.status.value)]
-    if exists:
-        verdict = "small disturbances die out" if cycle.stable else "small disturbances grow"
-        lines += [
-            ("growth rate", f"{cycle.growth_rate:.6g} 1/s ({verdict})"),
-            ("period", f"{cycle.period:.9g} s ({1 / cycle.period:.6g} Hz), {cycle.stick_fraction:.2%} of it sticking"),
-            ("a period has", f"{cycle.releases} releases, {cycle.separations} separations"),
-            ("leading multiplier", f"{cycle.multipliers[0]:.6g}, modulus {abs(cycle.multipliers[0]):.9g}"),
-        ]
-    else:
-        lines.append(("advice", cycle.status.advice))
-    rate = cycle.sliding.growth_rate
-    sliding = f"growth rate {rate:.6g} 1/s" if math.isfinite(rate) else cycle.sliding.message
-    print_rows([*lines, ("steady sliding", sliding)])
-    if not exists:
+    print_rows([*cycle.summary(), *model_lines(p, choice)])
+    if cycle.status is not CycleStatus.OK:
         raise typer.Exit(1)
 
 
@@ -251,10 +228,9 @@ def sliding(p: Parameters, choice: ModeChoice | None, _: Strict) -> None:
     from disc_model.stability.sliding import SlidingStatus, sliding_modes, steady_sliding
 
     state = steady_sliding(p)
-    print_rows([*case_lines(p, choice), ("status", state.message)])
+    print_rows([*model_lines(p, choice), *state.summary()])
     if state.status is not SlidingStatus.OK:
         raise typer.Exit(1)
-    print_rows([("growth rate", f"{state.growth_rate:.6g} 1/s"), ("unstable modes", f"{state.unstable_modes}")])
     modes = sliding_modes(p, state)
     rows = [
         (f"{f:.4f}", f"{rate:.6g}", f"{xi:.3g}", "in the plane" if l < 0 else f"{l}", f"{wave:.2f}" if l > 0 else "")
@@ -371,14 +347,15 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
     result = simulate(
         p, options.t_end, options.window, tol=options.tol, stop_at=options.stop_at, ramps=options.ramp, execution=limits
     )
-    print_rows(_summary(result, choice))
-    complete = result.status.complete
+    speed = f"{result.final_state.time / max(result.statistics['wall_time'], 1e-9):.0f} simulated seconds a second"
+    wall = ("wall time", f"{result.statistics['wall_time']:.3g} s ({speed})")
+    print_rows([*result.summary(), *model_lines(p, choice), wall, ("key", p.key)])
     if options.save is not None:
         result.save(options.save)
         print_rows([("saved", str(options.save))])
     if options.plot is not None:
         _save_plot(result, [*options.window] or None, options.plot)
-    if not complete:
+    if not result.status.complete:
         raise typer.Exit(1)
 
 
@@ -393,29 +370,3 @@ def _save_plot(result: Any, windows: list[str] | None, path: Path) -> None:
     except OSError as error:
         raise ParameterError(f"plot={str(path)!r}: cannot be written ({error.strerror})") from None
     print_rows([("figure", str(path))])
-
-
-def _summary(result: Any, choice: ModeChoice | None) -> list[tuple[str, str]]:
-    """Summary of one run: chosen modes, status, events, time in each phase and effort, a line each."""
-    s, reached, first = result.statistics, float(result.final_state.time), result.first_separation
-    lines = [
-        *case_lines(result.parameters, choice),
-        ("status", result.message or result.status.value),
-        ("time reached", f"{reached:.9g} s of {result.t_end:g} s"),
-        ("first separation", "none" if math.isnan(first) else f"{first:.9f} s"),
-        ("events", str(s["events"])),
-    ]
-    counts = result.events["kind"].value_counts()
-    lines += [(f"  {kind}", str(count)) for kind, count in counts.items() if count]
-    for phase in ("stick", "slip", "separation"):
-        share = s[f"time_{phase}"] / reached if reached else 0.0
-        lines.append((f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({share:.2%})"))
-    ratio = f"{reached / s['wall_time']:.0f}" if s["wall_time"] > 0 else "-"
-    lines += [
-        ("steps", str(s["steps"])),
-        ("wall time", f"{s['wall_time']:.3g} s ({ratio} simulated seconds a second)"),
-        ("energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"),
-    ]
-    if not math.isnan(s["surface_speed"]):
-        lines.append(("surface speed", f"{s['surface_speed']:.3g} (largest, over that of the drive)"))
-    return lines if result.status.complete else [*lines, ("advice", result.status.advice)]

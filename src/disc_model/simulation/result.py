@@ -237,14 +237,17 @@ class Result(Summarised, Pictures):
     def _summary(self) -> Iterator[tuple[str, object]]:
         s, reached = self.statistics, float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
-        yield "status", self.status.value
-        yield "time reached", number_text(reached, "s", 9)
+        yield "status", self.message or self.status.value
+        yield "advice", "" if self.status.complete else self.status.advice
+        yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
-        yield "separations", f"{s['separations']} of {s['events']} events"
+        yield "events", s["events"]
+        yield from ((f"  {kind}", count) for kind, count in self.events["kind"].value_counts().items() if count)
         for phase in PHASES:
-            yield f"time in {phase}", number_text(s[f"time_{phase}"], "s")
-        if not math.isnan(s["surface_speed"]):
-            yield "surface speed over the drive's", f"{s['surface_speed']:.3g}"
+            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({s[f'time_{phase}'] / (reached or 1.0):.2%})"
+        yield "steps", s["steps"]
+        yield "energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"
+        yield "surface speed", number_text(s["surface_speed"], "(largest, over that of the drive)", 3)
         yield "windows", ", ".join(self.samples)
 
     def raise_for_status(self) -> Result:

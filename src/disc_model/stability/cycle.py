@@ -95,14 +95,17 @@ class FloquetResult(Summarised):
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
+        verdict = f"1/s (small disturbances {'die out' if self.stable else 'grow'})"
         yield "case", values_text(dict(self.parameters))
-        yield "status", self.status.advice
-        yield "growth rate", number_text(self.growth_rate, "1/s")
+        yield "status", self.message or self.status.value
+        yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
+        yield "growth rate", number_text(self.growth_rate, verdict)
         yield "period", number_text(self.period, "s", 9)
         yield "share of stick", number_text(self.stick_fraction, "", 3)
-        yield "releases, separations", f"{self.releases}, {self.separations}" if self.releases else ""
-        yield "leading multiplier", f"{self.multipliers[0]:.6g}" if self.multipliers.size else ""
-        yield "steady sliding", self.sliding.status.advice
+        yield "a period has", f"{self.releases} releases, {self.separations} separations" if self.releases else ""
+        yield from (("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1])
+        rate = self.sliding.growth_rate
+        yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
         """Draw the multipliers in the complex plane, and the unit circle; raises `CycleError` without a cycle.

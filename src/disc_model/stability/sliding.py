@@ -89,10 +89,11 @@ class SteadySliding(Summarised):
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "status", self.status.advice
+        yield "status", self.message
         yield "contact force", number_text(self.contact_force, "N")
         yield "angle psi", number_text(self.psi, "rad")
         yield "growth rate", number_text(self.growth_rate, "1/s")
+        yield "unstable modes", self.unstable_modes if self.eigenvalues.size else ""
         grows = self.eigenvalues[(self.eigenvalues.real > 0) & (self.eigenvalues.imag >= 0)]
         yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in grows)
 
