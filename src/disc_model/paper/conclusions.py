@@ -38,10 +38,10 @@ def very_different(*cases: CaseView, factor: float) -> Answer:
         narrow = measures.width_ratio(case, bonded) * factor <= 1
         differ.append(narrow and max(shares) >= factor * min(shares))
         rows.append(
-            f"{case.place}: sticks {100 * shares[0]:.1f} % of the time, without separation {100 * shares[1]:.1f} %; "
-            f"disc within {mm(case.disc.width)} and {mm(bonded.disc.width)}"
+            f"{case.place}: sticks {100 * shares[0]:.1f} instead of {100 * shares[1]:.1f} % of the time, and the range "
+            f"of the disc is {mm(case.disc.width)} instead of {mm(bonded.disc.width)}"
         )
-    return Answer(any(differ), f"{'; '.join(rows)}.")
+    return Answer(any(differ), f"With separation instead of without: {'; '.join(rows)}.")
 
 
 def not_monotonous(*evidence: Any) -> Answer:

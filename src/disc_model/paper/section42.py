@@ -91,7 +91,9 @@ def far_below(*cases: CaseView, share: float) -> Answer:
     lower = [case for case in cases if case["Omega"] < share * critical and case.separates]
     speeds = [case["Omega"] for case in lower]
     shares = [100 * speed / critical for speed in speeds]
-    text = f"Contact is lost at {listed(speeds, 'g')} rad/s, {listed(shares, '.1f')} % of {critical:.2f} rad/s."
+    text = (
+        f"Contact is lost at {listed(speeds, 'g')} rad/s. These are {listed(shares, '.1f')} % of {critical:.2f} rad/s."
+    )
     return Answer(bool(lower), text if lower else "No separation.")
 
 

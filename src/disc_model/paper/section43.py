@@ -191,9 +191,7 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
     stated = facts(study)
     return Answer(
         PART if holds and returns else holds,
-        f"At {cases[0].place}: "
-        + "; ".join(f"k = {1e-3 * case['k']:g} kN/m: {case.first_separation()}" for case in cases)
-        + ".",
+        f"{'; '.join(f'{case.place}: {case.first_separation()}' for case in cases)}.",
         f"On the map at {stated['N']:g} N, a spring separates within {stated['horizon']:g} s and a softer one does not "
         f"at {listed(returns, '.4g')} rad/s."
         if returns
