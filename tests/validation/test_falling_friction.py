@@ -6,6 +6,7 @@ import pytest
 from disc_model import Execution, Parameters, floquet, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.engine import exit_codes
 from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import FALLING
 from tests.references import stored, taylor
@@ -86,3 +87,16 @@ def test_cycles_with_falling_friction_come_to_the_paper_s():
     for name, size in (("growth_rate", 3.0), ("period", 0.01)):
         first, second, last = (getattr(cycle, name) for cycle in cycles)
         assert abs(second - last) < 0.02 * abs(first - last) < 1e-4 * size
+
+
+@pytest.mark.compiled
+def test_a_friction_limit_that_is_only_touched_releases_nothing():
+    """Newton's method took points of the section where the limit rises for cycles of no duration."""
+    p = Parameters(N=385, Omega=10, c_p=1, friction_decay=3, normalization="orthonormal")
+    map_, outcomes = ReturnMap(p), []
+    for velocity in (0.1, -0.1):  # of all modes, over the deflection's
+        x = map_.static.copy()
+        x[map_.size // 2 :] += velocity * map_.deflection
+        outcomes.append(map_.evaluate(x, tangent=False).outcome)
+    assert outcomes == [exit_codes.RETURNED, exit_codes.OFF_SECTION]
+    assert floquet(p).status == "no_cycle"

@@ -229,6 +229,12 @@ def enter_slip(model, state, direction):
     return CONSISTENT
 
 
+@inlined
+def friction_drops(model):
+    """Whether friction drops at a release."""
+    return model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
+
+
 @helper
 def release(model, state, direction, at_once):
     """Release: begin slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
@@ -236,8 +242,7 @@ def release(model, state, direction, at_once):
     at_once: stick had no duration, so that the spring may pull harder than friction can hold.
     """
     outcome = enter_slip(model, state, direction)
-    falls_at_once = model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
-    if state.x[layout.PHASE] == layout.SLIP and not falls_at_once and not at_once:
+    if state.x[layout.PHASE] == layout.SLIP and not friction_drops(model) and not at_once:
         # friction does not jump: f' = 0, despite the error of the event's time
         state.x[layout.KNOWN] = 2
     return outcome

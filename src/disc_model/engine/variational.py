@@ -12,7 +12,7 @@ from .jit.packing import packed
 from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI_ENTRY, TINY, stepped
 from .layout import PHASE, PSI, SEPARATION, STICK
-from .saltation import count_event, event_change, event_gradient, slider_rows
+from .saltation import count_event, event_change, event_gradient, event_times, rates, slider_rows
 from .tangent import slider_row
 
 
@@ -75,6 +75,11 @@ def _leave_section(model, s, state, t, course, section, start):
         for c in range(0, t.columns, WIDTH):
             dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
             store(t.now, c * t.rows + slider_row(model, PSI) * WIDTH, dpsi)
+    if not transitions.friction_drops(model):
+        # then slip begins only where the friction limit falls below the pull, and does not just touch it
+        rates(model, state, t.before)
+        if not event_times(model, state, t, transitions.RELEASE_FORWARD, False) < 0.0:
+            return OFF_SECTION
     if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == NO_SOLUTION:
         return NO_SOLUTION
     # the release itself belongs to the integration that ended here
