@@ -6,21 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from disc_model import Disc, ParameterError, Parameters
 from tests.processes import python
-
-
-def test_numbers_may_come_as_text_or_numpy_scalars() -> None:
-    p = Parameters(N="385", Omega="1.51e1", E="150e9", n_diameters="4", D_star=np.float32(0))
-    assert p == Parameters(N=385, Omega=15.1, D_star=0)
-    assert Parameters(N=np.int64(3), Omega=1, n_circles=np.int64(2)).n_circles == 2
-    # circles were not counted
-    assert Disc(diameters=["1", 1], omega=["1490", 1700], amplitude=np.ones(2)).circles == (0, 1)
 
 
 def test_key_depends_on_values_not_on_spelling() -> None:

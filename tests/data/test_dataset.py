@@ -147,13 +147,6 @@ def test_no_folder_is_made(path: Path) -> None:
     assert os.listdir(path.parent) == ["case.nc"]
 
 
-@pytest.mark.parametrize("length", [-1, 40, 0])
-def test_a_file_cut_short_is_not_read(path: Path, length: int) -> None:
-    path.write_bytes(path.read_bytes()[:length])
-    with pytest.raises(UnreadableFile, match=r"case\.nc: cannot be read"):
-        load(path)
-
-
 def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:
     other, intact = path.with_name("other file.nc"), path.with_name("intact.nc")
     intact.write_bytes(path.read_bytes())

@@ -33,18 +33,6 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     assert lines(ax)["no event while sampled"].get_xdata() == [3]
 
 
-def test_what_has_not_settled_is_grey_and_what_has_not_converged_ringed() -> None:
-    samples, exponents = made_up_samples()
-    samples["settled"][:] = [2, 1, 2]  # words of "undecided changing settled"
-    exponents["converged"][:] = [[2], [2], [1]]
-    above, _, below = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes
-    assert list(lines(above)["not settled, or undecided"].get_xdata()) == [2, 2]
-    assert 2 not in lines(above)["stick"].get_xdata()
-    ring, _in_the_legend = (line for line in below.lines if line.get_markerfacecolor() == "none")
-    assert list(ring.get_xdata()) == [3]
-    assert ring.get_color() == lines(below)["largest exponent"].get_color()
-
-
 def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.MonkeyPatch) -> None:
     """A quiet branch with a fold at 13, and one that separates above it."""
     values = {

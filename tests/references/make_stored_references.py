@@ -1,4 +1,4 @@
-"""Compute the stored references of tests/references/data (an hour); run from the repository's root::
+"""Compute the stored references of tests/references/data and of the benchmark (an hour); run from the root::
 
     python -m tests.references.make_stored_references
 
@@ -8,13 +8,16 @@ for roots: they agree with these to 1e-17 s.
 """
 
 import json
+from pathlib import Path
 
 import numpy as np
 
+from disc_model import benchmarks
+from disc_model.benchmarks.scenes import problem
 from disc_model.errors import script
 from tests.contact_laws import LAWS
-from tests.references.stored import DATA, State, load, rounded
-from tests.references.taylor import TRUNCATION, Reference, stored_problem, violent_start
+from tests.references.stored import DATA, State, as_json, engine_state, load, reference_state, rounded
+from tests.references.taylor import TRUNCATION, Reference, problem_of, stored_problem, violent_start
 
 #: s; violent motion is chaotic (neighbours part by a factor of e in 3 ms): it is stored in pieces, each from the
 #: state, rounded to doubles, in which the one before ended.
@@ -118,6 +121,21 @@ def contact(name):
     write(f"contact_{name}", {"parameters": parameters, "runs": runs})
 
 
+def of_benchmark(name):
+    """A scene of the benchmark: event times, kinds and the state at the end."""
+    task = problem(name)
+    q, start = problem_of(task.parameters), reference_state(task.start, task.parameters)
+    run, difference = repeated(q, start, task.t_end)
+    return {
+        "parameters": task.parameters.key,
+        "t_end": task.t_end,
+        "largest_difference_to_check_run": difference,
+        "kinds": [e["kind"] for e in run.events],
+        "times": [decimal(e["time"]) for e in run.events],
+        "final": as_json(engine_state(rounded(run.state()), task.parameters)),
+    }
+
+
 @script
 def main():
     case = published()
@@ -133,3 +151,6 @@ def main():
     write("first_separation", case | found | {"shift_per_unit_in_last_place": shifts(case, time)})
     for name in LAWS:
         contact(name)
+    data = {name: of_benchmark(name) for name in ("stick_slip", "separating", "many_modes")}
+    target = Path(benchmarks.__file__).parent / "data" / "benchmark_reference.json"
+    target.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")

@@ -100,15 +100,6 @@ def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
         State.load(tmp_path / "result.nc")
 
 
-def test_a_state_can_be_given_another_time() -> None:
-    """What the clock had lost to rounding stayed behind, and was more than the last digit of 0."""
-    state = simulate(P, 0.0371).final_state.replace(time_low=3e-18)
-    moved = state.replace(time=0)
-    assert (moved.time, moved.time_low) == (0, 0.0)
-    assert simulate(P, 0.01, initial_state=moved).status.complete
-    assert state.replace(psi=0.1).time_low == state.time_low
-
-
 def test_a_height_that_contradicts_contact_is_refused() -> None:
     """It used to be passed over in silence: in contact the disc says where the slider is."""
     state = simulate(P, 0.0371).final_state

@@ -28,14 +28,6 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
     assert all(len(name) == 12 for name in grid.batches)
 
 
-def test_zipped_pairs_are_one_dimension() -> None:
-    zipped = {"Omega": [20, 10, 20], "N": [200, 385, 200]}
-    grid = parse_grid(study(axes={"D_star": [0, 1e-5]}, zip=zipped, batch={"size": 2}))
-    assert [dim.name for dim in grid.dims] == ["N_Omega", "D_star"]
-    assert grid.dims[0].values == ((200.0, 20.0), (385.0, 10.0))
-    assert points(grid) == [[[200.0, 20.0, 0.0], [200.0, 20.0, 1e-5]], [[385.0, 10.0, 0.0], [385.0, 10.0, 1e-5]]]
-
-
 def test_spelling_order_and_the_sign_of_zero_do_not_matter() -> None:
     axes = {"Omega": ["20.0", 1.5e1, 10], "N": [300, 100, 200.0]}
     other = parse_grid(study(axes=axes, title="called otherwise"))

@@ -11,7 +11,7 @@
     rad/s that nothing excites
 
 The answers of the first three are stored in ``data/benchmark_reference.json``. The script
-``tests/references/make_benchmark_reference.py`` computes them in long double. That of the last is `rigid_cycle`.
+``tests/references/make_stored_references.py`` computes them in long double. That of the last is `rigid_cycle`.
 """
 
 import enum

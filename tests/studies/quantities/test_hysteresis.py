@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model.analysis.settling import Settled, Settling
 from disc_model.parameters import Parameters
@@ -11,14 +10,6 @@ from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SCAN, compute
-
-
-def test_hysteresis_is_the_gap_between_the_ways(sweep: xr.Dataset) -> None:
-    one = sweep.squeeze("normalization").sel(N=200)
-    assert one["onset_speed"] == 14.0
-    assert one["offset_speed"] == 13.0
-    assert (one["separation_rate"].sel(direction="up") > 0).values.tolist() == [False] * 4 + [True] * 3
-    assert (one["separation_rate"].sel(direction="down") > 0).values.tolist() == [False] * 2 + [True] * 5
 
 
 @pytest.mark.usefixtures("fake_motions")
