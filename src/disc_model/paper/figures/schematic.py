@@ -84,11 +84,12 @@ class Composite(CasePlot):
         drawing.envelope(ax, ignored, "w_point", color=PALE)
         drawing.envelope(ax, followed, "w_point")
         top = 1e3 * float(ignored["w_point_max"].max()) or 1.0
-        for share, text, colour in ((1.24, "separation ignored", "0.35"), (1.06, "with separation", DISC)):
-            ax.text(ax.get_xlim()[1], share * top, text, ha="right", color=colour, fontsize=7, fontweight="bold")
-        ax.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.4 * top))
+        for share, text, colour in ((1.08, "separation ignored", "0.35"), (-0.05, "with separation", "white")):
+            place = (0.98 * ax.get_xlim()[1], share * top)
+            ax.text(*place, text, ha="right", color=colour, fontsize=7, fontweight="bold")
+        ax.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.25 * top))
         if (lost := float(case["first_separation"])) <= ax.get_xlim()[1]:
-            ax.axvline(lost, ymax=0.86, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
+            ax.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
             drawing.say(ax, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED)
         drawing.show_thickness(ax, case, "y")
 
