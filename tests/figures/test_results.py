@@ -115,3 +115,13 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
     with pytest.raises(dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"):
         dm.plot_sweep(plane, "perod")
+
+
+def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
+    shapes = [[0.0, 1.0], [0.0, 4.0]]
+    disc = dm.Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], radii=[0.05, 0.12], shapes=shapes)
+    assert repr(disc) == "Disc(2 modes, 159 to 318 Hz)"
+    assert "318.31" in disc._repr_html_()
+    assert len(disc.plot(most=2)) == 2
+    with pytest.raises(dm.ParameterError, match="no eigenvalues: The disc is not driven"):
+        dm.steady_sliding(P.replace(Omega=0)).plot()

@@ -30,6 +30,8 @@ WINDOWS = {"windows": {"late": {"rate": 100}}}
 CASE: dict[str, Any] = {"title": "", "t_end": 1, "parameters": {"N": 1, "Omega": 1}, "record": WINDOWS}
 MAP = {"kind": "heat_map", "variable": "outcome", "x": "Omega", "y": "k"}
 
+LINE = {"kind": "curve", "variable": "outcome", "x": "Omega"}
+
 
 def axes(**others: Any) -> dict[str, Any]:
     return {"axes": {"Omega": [10, 20], **others}}
@@ -89,6 +91,12 @@ GRIDS: list[tuple[dict[str, Any], str]] = [
     (figure(variable="outcom"), "figures.f.variable 'outcom' outcome"),
     (figure(y="k", x="k"), "figures.f.y 'k' differ"),
     (figure(units={"speed": "rpm"}), "figures.f.units.speed unit"),
+    (figure(at={"k": 4e4}), "figures.f.at.k no dimension remains"),
+    ({"figures": {"f": {"kind": "curve", "variable": "outcome", "x": "Omega"}}}, "figures.f.at.k required by"),
+    ({"figures": {"f": LINE | {"at": {"k": 1}}}}, "figures.f.at.k 1 one of"),
+    ({"figures": {"f": LINE | {"by": "k"}}} | axes(k={"start": 1, "stop": 2, "count": 60}), "figures.f.by 60 values"),
+    ({"figures": {"f": LINE | {"x": "k"}}} | axes(k=[1]), "figures.f.x two values"),
+    ({"figures": {"f": LINE | {"x": "normalization"}}} | axes(normalization=["orthonormal"]), "figures.f.x number"),
     (figure(overlays={"growth": "s"}), "figures.f.overlays.growth unknown"),
 ]
 CASES: list[tuple[dict[str, Any], str]] = [
