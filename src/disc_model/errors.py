@@ -232,7 +232,15 @@ class StatusBase(enum.StrEnum):
 
 
 class Status(StatusBase):
-    """How a simulation ended; `advice` says what to do."""
+    """How a simulation ended; `advice` says what to do.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> status = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60, execution=dm.Execution(max_steps=100)).status
+    >>> status.complete, status.advice
+    (False, 'The allowed number of steps was used up: raise max_steps, or shorten t_end.')
+    """
 
     OK = "ok", "The simulation reached t_end."
     STOPPED = "stopped", "The simulation stopped where stop_at asked it to."

@@ -143,6 +143,13 @@ class Disc(Checked):
     ------
     ParameterError
         Naming everything that breaks a rule, its value and the rule, in one message.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> disc = dm.Disc(diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3] * 2)
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1, disc=disc), 0.1).status.value
+    'ok'
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
@@ -413,6 +420,17 @@ class Parameters(Checked):
     ParameterError
         Naming every parameter that breaks a rule, its value and the rule, in one message. Rules between parameters are
         checked where each value by itself is right.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N="385 N", Omega="145 rpm", mu_k_over_mu_s=0.5)
+    >>> round(case.Omega, 3), case.mu_k, case.replace(mu_s=0.5).mu_k
+    (15.184, 0.2, 0.25)
+    >>> dm.Parameters(N=-1, Omga=3)
+    Traceback (most recent call last):
+        ...
+    disc_model.errors.ParameterError: N=-1: must be >= 0; Omega: is required; ... did you mean Omega?
     """
 
     _word: ClassVar[str] = "parameter"

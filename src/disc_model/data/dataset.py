@@ -160,6 +160,14 @@ def load(path: str | Path) -> xr.DataTree:
         If the file is damaged, or not one of netCDF.
     disc_model.data.dataset.MissingFile
         If there is no such file.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
+    >>> sorted(dm.load("run.nc").children)
+    ['events', 'final_state', 'late']
     """
     file = regular_file(path)
     try:

@@ -59,6 +59,13 @@ def residual_flexibility(p: Parameters) -> Flexibility:
         If `p` is not a `Parameters`.
     ModeError
         If the modes cannot be computed.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> flexibility = dm.residual_flexibility(dm.Parameters(N=385, Omega=15.1, normalization="orthonormal"))
+    >>> f"{flexibility.residual:.3g} m/N"
+    '3.17e-07 m/N'
     """
     raise_faults(foreign_case(p))
     of_kept_modes = _modal_sum(p)

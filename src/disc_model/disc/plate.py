@@ -58,6 +58,17 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
         If `p` is not a `Parameters`.
     ModeError
         If the modes cannot be distinguished or an amplitude overflows.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.plate_modes(dm.Parameters(N=385, Omega=15.1)).round(3)
+       circles  diameters     omega    psi
+    0        0          0  1491.927 -1.306
+    1        0          1  1516.757  8.173
+    2        0          2  1823.881  1.534
+    3        0          3  2774.194  1.150
+    4        0          4  4383.044  0.984
     """
     import pandas as pd
 
@@ -150,6 +161,12 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
     (number of real modes,). Contact is rigid as in the paper, whatever the contact of the case. Raises ParameterError
     if `p` is not a `Parameters`, and ModeError as `plate_modes`.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.coupled_natural_frequencies(dm.Parameters(N=385, Omega=15.1))[:3].round(2)
+    array([ 850.86, 1492.55, 1516.76])
     """
     raise_faults(foreign_case(p))
     modes = mode_arrays(p)

@@ -14,7 +14,18 @@ from disc_model.parameters import Parameters
 
 
 class ImplausibleValue(UserWarning):
-    """A value is allowed but implausible."""
+    """A value is allowed but implausible.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     run = dm.simulate(dm.Parameters(N=385, Omega=15, E=150), 1e-3)
+    >>> {warning.category.__name__ for warning in caught}
+    {'ImplausibleValue'}
+    """
 
 
 class Rule(NamedTuple):

@@ -77,6 +77,13 @@ class Execution:
     progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
         compilation; False shows nothing
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> short = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60, execution=dm.Execution(max_steps=100))
+    >>> short.status.value
+    'step_limit'
     """
 
     audit_every_step: bool = False

@@ -98,6 +98,13 @@ class Window(Span):
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
         samples that do not fill a bin are left out
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, {"late": dm.Window(last=0.5, rate="10 kHz")})
+    >>> run["late"]["P"].sizes["time"], run.windows["late"].start
+    (5001, 0.5)
     """
 
     rate: Annotated[Positive, Unit("Hz")]
@@ -122,7 +129,15 @@ class Window(Span):
 
 
 class Poincare(Checked):
-    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`; `theta` as in a window."""
+    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`; `theta` as in a window.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, {"turns": dm.Poincare()})
+    >>> run["turns"]["time"].values.round(4)
+    array([0.    , 0.4161, 0.8322])
+    """
 
     start: Time = 0.0
     stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf

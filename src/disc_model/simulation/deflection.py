@@ -41,6 +41,12 @@ def snapshots(
         If times are not ascending finite numbers, or begin too early; and as `disc_model.simulate`.
     SimulationError
         If the motion ends before the last time.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
+    ['stick', 'slip']
     """
     numbers = _numbers(times)
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
@@ -81,6 +87,15 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     ------
     ParameterError
         If a radius is off the disc, an angle is not finite, a state has other modes, or the disc has no shapes.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> import numpy as np
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> w = dm.deflection(case, dm.snapshots(case, [0.0, 0.1]), np.linspace(0.044, 0.12, 20), np.linspace(0, 6.28, 73))
+    >>> dict(w.sizes)
+    {'time': 2, 'r': 20, 'theta': 73}
     """
     import xarray as xr
 

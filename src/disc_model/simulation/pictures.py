@@ -74,7 +74,14 @@ class Pictures:
     def plot_phase_portrait(
         self, window: str | None = None, *, x: str = "psi", y: str = "psi_velocity", ax: Axes | None = None
     ) -> Axes:
-        """Draw one variable over another, coloured by phase; of the last cycles if no window is named."""
+        """Draw one variable over another, coloured by phase; of the last cycles if no window is named.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot_phase_portrait().get_xlabel()
+        'Angle ψ (rad)'
+        """
         return draw("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
 
     def plot_spectrum(
@@ -83,11 +90,24 @@ class Pictures:
         """Draw the amplitude of a variable over the frequency, up to one in Hz.
 
         Without a named window it is that of the last 8 s, or of the second half of a shorter run.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_spectrum(highest=500).get_xlabel()
+        'Frequency (Hz)'
         """
         return draw("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
 
     def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
-        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes."""
+        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_poincare().shape
+        (2,)
+        """
         return draw("plot_poincare", self._case("poincare"), ax=ax)
 
     def animate(
@@ -104,6 +124,11 @@ class Pictures:
         Returns
         -------
         matplotlib.animation.FuncAnimation
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
         counts = (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1")
         raise_faults(violations(counts))

@@ -27,6 +27,14 @@ class Ramp(Checked):
     parameter : "Omega" or "N"
     to : rad/s or N, the value at ``end``
     start, end : s, absolute times
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> stop = dm.Ramp(parameter="Omega", to=5, start=1, end=4)
+    >>> braked = dm.simulate(dm.Parameters(N=385, Omega=15.1), 5, ramps=stop)
+    >>> braked.value_at("Omega", [0.5, 2.5, 5]).round(3)
+    array([15.1 , 10.05,  5.  ])
     """
 
     parameter: Ramped

@@ -57,6 +57,15 @@ class Result(Summarised, Pictures):
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
         energy_residual_transverse, energy_residual_inplane, audited_steps, wall_time (s)
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1)
+    >>> run
+    Result(N=385 N, Omega=15.1 rad/s: ok at 1 s, no separation, 135 events, 0 windows)
+    >>> print(run.events["kind"].iloc[0], round(run.events["time"].iloc[0], 6))
+    stick_to_slip 0.005099
     """
 
     parameters: Parameters

@@ -44,6 +44,19 @@ class State:
     case_key : the case in which it was computed; in any other case, the phase after an event is determined anew
     mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
         with other amplitudes refuses the state. None if the state was made by hand
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> first = dm.simulate(case, 0.5)
+    >>> second = dm.simulate(case, duration=0.5, initial_state=first.final_state)
+    >>> len(first.events) + len(second.events) == len(dm.simulate(case, 1).events)
+    True
+    >>> pushed = dm.simulate(case, 1, initial_state=dm.simulate(case, 1e-6).final_state.replace(psi=0.001))
+    >>> first.final_state.save("state.nc")
+    >>> dm.State.load("state.nc").time
+    0.5
     """
 
     time: float
