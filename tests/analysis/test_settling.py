@@ -5,10 +5,9 @@ import pytest
 
 from disc_model.analysis.settling import SLOWEST, Settled, settling
 
-RNG = np.random.default_rng(1)
 TIME = np.arange(0.0, 1000.0, 0.05)
 BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))
-NOISE = RNG.standard_normal(TIME.size)
+NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 
 
 @pytest.mark.parametrize(
@@ -44,9 +43,10 @@ def test_events_that_become_rarer_are_a_change() -> None:
 
 @pytest.mark.parametrize("rate", [-10 * SLOWEST, 10 * SLOWEST])
 def test_changes_are_found_in_irregular_motions_and_their_absence_is_not_taken_for_one(rate: float) -> None:
-    found = [settling(TIME, RNG.standard_normal(TIME.size) * np.exp(rate * TIME)).answer for _ in range(30)]
+    rng = np.random.default_rng(1)
+    found = [settling(TIME, rng.standard_normal(TIME.size) * np.exp(rate * TIME)).answer for _ in range(30)]
     assert found.count(Settled.CHANGING) >= 28
-    still = [settling(TIME, RNG.standard_normal(TIME.size)).answer for _ in range(30)]
+    still = [settling(TIME, rng.standard_normal(TIME.size)).answer for _ in range(30)]
     assert still.count(Settled.CHANGING) <= 2
 
 
