@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from disc_model.analysis.classify import share
 from disc_model.data.variables import (
     EXCLUDED,
     OUTCOMES_TO_HORIZON,
@@ -122,13 +123,10 @@ Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator
 
 Array = NDArray[np.float64]
 FAILED = "failed"
-FOLLOWED = tuple(word for word in SAMPLE_OUTCOMES if word not in ("not_simulated", FAILED))
-KNOWN = tuple(word for word in SAMPLE_CYCLES if word != FAILED)
 
 
-def _with_interval(name: str, words: str, dims: tuple[str, ...] = ()) -> dict[str, Variable]:
-    ends = ("", ", lower end", ", upper end")
-    return with_ends(name, (Variable("1", f"{words}{end}", dims=dims) for end in ends))
+def _with_interval(name: str, words: str) -> dict[str, Variable]:
+    return with_ends(name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end")))
 
 
 class Sensitivity(Quantity):
@@ -178,14 +176,6 @@ class Sensitivity(Quantity):
         "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
         **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
-        **_with_interval(
-            "cycle_fraction", "share of the samples near whose static start there is this", ("cycle_class",)
-        ),
-        **_with_interval("outcome_fraction", "share of the simulated samples with this outcome", ("outcome_class",)),
-    }
-    SUMMARY_COORDINATES: ClassVar = {
-        "cycle_class": Coordinate("", "class of the cycle near the static start", lambda o: KNOWN),
-        "outcome_class": Coordinate("", "what becomes of the static start", lambda o: FOLLOWED),
     }
 
     @property
@@ -275,10 +265,10 @@ class Sensitivity(Quantity):
             "n_known_cycles": np.count_nonzero(cycles != FAILED),
             "n_known_outcomes": np.count_nonzero(outcomes != FAILED),
         }
-        values |= _shares("cycle_fraction", cycles, [(word,) for word in KNOWN])
-        values |= _shares("outcome_fraction", outcomes, [(word,) for word in FOLLOWED])
-        values |= _shares("probability_unstable", cycles, [UNSTABLE])
-        values |= _shares("probability_separation", outcomes, [("separation",)])
+        for name, words, hit in (("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))):
+            known = words[words != FAILED]
+            chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
+            values |= with_ends(f"probability_{name}", chance)
         return values
 
 
@@ -367,12 +357,3 @@ def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
 
     result = find_outcome(p, options.horizon, tol=options.motion_tol)
     return {"outcome": result.word, "first_separation": result.first_separation}, result.message
-
-
-def _shares(name: str, words: NDArray[np.str_], classes: list[tuple[str, ...]]) -> dict[str, Any]:
-    """Fraction of each class of words among those that are known, with its interval."""
-    from disc_model.analysis.classify import share
-
-    known = words[words != FAILED]
-    shares = np.array([share(int(np.isin(known, word).sum()), len(known), len(words) - len(known)) for word in classes])
-    return with_ends(name, shares[0] if len(classes) == 1 else shares.T)
