@@ -54,14 +54,6 @@ def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
     assert simulate(ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)).status.complete
 
 
-@pytest.mark.parametrize("change", [{"r_0": 0.09}, {"rho": 7000.0}, {"normalization": "orthonormal"}], ids=str)
-def test_a_state_of_another_disc_is_carried_over_or_refused(change: dict) -> None:
-    state, p = simulate(P, 0.1).final_state, P.replace(**change)
-    with pytest.raises(ParameterError, match="the state belongs to other modes"):
-        simulate(p, 0.2, initial_state=state)
-    assert simulate(p, 0.1, initial_state=transfer_state(p, state)).status.complete
-
-
 # ---- at a switch
 
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from disc_model import Execution, Parameters, Result, State, Status, Window, plate_modes, simulate
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.engine.stepping import LONGEST_STEP
-from disc_model.simulation.states import engine_case, static_start
+from disc_model.simulation.states import static_start
 
 # phase left -> (kind, phase entered): the table of switches
 LEGAL = {
@@ -201,71 +200,7 @@ def test_no_preload_slips_at_once_and_never_separates() -> None:
     assert result.final_state.psi == pytest.approx(15 / rate * np.sin(rate), abs=1e-11)
 
 
-@pytest.mark.parametrize("in_stick", [-0.07, -0.4, -0.65])
-def test_the_spring_can_hold_the_slider_on_where_stick_could_not(in_stick: float) -> None:
-    """f reaches 0 where P would be negative in stick, but B F, the pull on a slope, makes it positive in slip."""
-    p = Parameters(N=300, Omega=20)
-    quiet, modes = simulate(p, 1e-6).final_state, plate_modes(p)
-    psi, omega = modes.psi.to_numpy(), modes.omega.to_numpy()
-    b, a = quiet.b.copy(), quiet.a.copy()
-    b[1] = -0.01 / psi[1]
-    # (1 + m S2) P_stick = N + k (u - u_0) + m A, made what is wanted by the displacement of one mode
-    wanted = (1 + p.m * psi @ psi) * in_stick
-    static = p.N + p.k * (psi @ a - quiet.u) - p.m * (psi * omega**2) @ a
-    a[1] += (wanted - static) / (psi[1] * (p.k - p.m * omega[1] ** 2))
-    turning = quiet.replace(phase="slip", direction=1, f=1e-7, psi=-0.03, a=a, b=b, u=float(psi @ a), _roots=(0, 0))
-    turning = turning.replace(alpha=0 * a, beta=0 * a)
-    result = simulate(p, 1e-3, initial_state=turning)
-    assert result.status is Status.OK
-    assert result.events.kind[0] == "slip_reversal"
-    # P = (wanted + B F) / denominator, with F = k_p psi = -600 N/m and B = -0.01; f takes 2e-11 s to vanish
-    held = (wanted + 6) / (1 + p.m * psi @ psi + p.mu_k * 0.01 / p.r_0)
-    assert result.events.P[0] == pytest.approx(held, abs=1e-6)
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("phase", ["stick", "slip"])
-@pytest.mark.parametrize(("Omega", "mu"), [(0.0, 0.4), (0.0, 0.0), (1e-9, 0.4)])
-def test_a_start_that_pulls_at_the_slider_is_a_separation_that_has_begun(phase: str, Omega: float, mu: float) -> None:
-    """The gap opens as t**2, and not as t**3 as where P has come down to zero."""
-    p = Parameters(N=100, Omega=Omega, mu_s=mu, mu_k=mu)
-    quiet = simulate(p, 1e-6).final_state
-    random = np.random.default_rng(1)
-    apart = 0
-    for _ in range(60):
-        a, alpha = quiet.a + 1e-3 * random.normal(size=5), quiet.alpha + random.normal(size=5)
-        psi = plate_modes(p).psi.to_numpy()
-        here = {"a": a, "alpha": alpha, "u": float(psi @ a)}
-        start = quiet.replace(time=0.0, phase=phase, direction=int(phase == "slip"), _roots=(0, 0), **here)
-        found = simulate(p, 2e-3, tol=1e-12, initial_state=start)
-        if "separation" not in set(found.events.kind[found.events.time == 0]):
-            continue
-        apart += 1
-        off = start.replace(phase="separation", direction=0, u_velocity=float(psi @ alpha), _roots=(2, 0))
-        right = simulate(p, 2e-3, tol=1e-12, initial_state=off)
-        times = found.events.time[found.events.time > 0].to_numpy()
-        np.testing.assert_allclose(times, right.events.time.to_numpy(), rtol=0, atol=1e-11)
-    assert apart > 10
-
-
 # ------------------------------------------------------------------------------------ where a step or a run ends
-# whose steps, and whose falls, are powers of two
-NO_DISC = Parameters(N=0.5, Omega=0, k=0, k_p=2.0**18, m=0.25, n_diameters=-1)
-
-
-def over_a_rigid_disc(p: Parameters, **values: float | str) -> State:
-    return static_start(p).replace(phase="separation", **values)
-
-
-@pytest.mark.parametrize("halvings", range(1, 9))
-def test_a_fall_that_ends_on_a_halving_point_of_a_step_is_seen(halvings: int) -> None:
-    """A drop by 1 mm was seen after four times its duration, 15 mm below the disc."""
-    step = LONGEST_STEP * engine_case(NO_DISC).model.unit
-    duration = step / 2**halvings
-    start = over_a_rigid_disc(NO_DISC, u=0.5 * NO_DISC.N / NO_DISC.m * duration**2)
-    events = simulate(NO_DISC, step, initial_state=start, tol=1e-14).events
-    assert events.kind[0] == "reattachment"
-    assert events.time[0] == pytest.approx(duration, rel=1e-15)
 
 
 @pytest.mark.parametrize("late", [1e-15, 1e-12, 1e-9])

@@ -33,7 +33,7 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
                 time.sleep(0.01)
             time.sleep(moments.uniform(0.0, 4.0))
             os.killpg(study.pid, signal.SIGINT)  # as a terminal does
-            code = study.wait(60)
+            code = study.wait(300)
             log.seek(0)
             assert (code, list(locks.glob("*"))) == (130, []), log.read()
 
