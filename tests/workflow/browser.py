@@ -69,14 +69,7 @@ class Page:
         steps: list[dict[str, Any]] = [{"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0}]
         if click:
             steps += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
-        self._act({"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": steps})
-
-    def press(self, *keys: str) -> None:
-        """Press keys, one after the other, as WebDriver calls them."""
-        steps = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]
-        self._act({"type": "key", "id": "keyboard", "actions": steps})
-
-    def _act(self, source: dict[str, Any]) -> None:
+        source = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": steps}
         self.call("POST", "/actions", {"actions": [source]})
 
     def messages(self) -> list[dict[str, Any]]:
