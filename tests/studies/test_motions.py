@@ -3,7 +3,9 @@
 import json
 
 import numpy as np
+import pytest
 
+from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -46,3 +48,16 @@ def test_samples_are_those_of_the_motion():
         # one sample may fall on a jump of P at a switch, on either side
         close = np.isclose(found[name], expected, atol=1e-4 * np.ptp(expected), rtol=0)
         assert close.sum() >= SAMPLES - 8
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("quantity", "Omega", "options"),
+    [("floquet", 14.0, {}), ("outcome", 14.0, {"horizon": 5}), ("outcome", 15.1, {"horizon": 60})],
+)
+def test_a_quantity_shows_the_motion_that_it_tells_of(quantity: str, Omega: float, options: dict[str, float]) -> None:
+    motion = histories(quantity, [385], [Omega], **options).isel(point=0)
+    assert int(motion["status"]) == 0
+    assert 0 < float(motion["length"]) < 1
+    phases = set(flag_names(motion["phase"]).tolist())
+    assert phases == {"stick", "slip"} | ({"separation"} if Omega > 15 else set())
