@@ -105,11 +105,11 @@ def lines(
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
     peaks = _maxima(amplitude, RESOLVED if apart is None else max(1, round(apart / step)))
-    places, heights = _interpolated(frequency, amplitude, peaks)
-    inside = (places > above) & (places < below)
+    frequencies, heights = _interpolated(frequency, amplitude, peaks)
+    inside = (frequencies > above) & (frequencies < below)
     bins = np.where(inside, amplitude[peaks], 0.0)
     high = inside & (bins >= floor * bins.max(initial=0.0))
-    return [Line(float(f), float(a)) for f, a in zip(places[high], heights[high], strict=True)]
+    return [Line(float(f), float(a)) for f, a in zip(frequencies[high], heights[high], strict=True)]
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:

@@ -63,13 +63,13 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
         sets = np.atleast_1d(pyuff.UFF(str(path)).read_sets()).tolist()
     except Exception as error:  # pyuff raises what the text of the file happens to lead to
         raise _fault(path, f"must be a universal file that can be read ({error})") from None
-    places = {
+    positions = {
         int(number): position
         for data in sets
         if data["type"] in (15, 2411)
         for number, *position in zip(*(data[name] for name in ("node_nums", "x", "y", "z")), strict=True)
     }
-    modes = [_uff_mode(data, places, r_0, path) for data in sets if data["type"] == 55]
+    modes = [_uff_mode(data, positions, r_0, path) for data in sets if data["type"] == 55]
     pairs: list[list[dict[str, Any]]] = []
     for mode in sorted((mode for mode in modes if mode), key=lambda mode: mode["omega"]):
         halves = next((pair for pair in pairs if _is_half(mode, pair)), None)
@@ -99,7 +99,9 @@ def _is_half(mode: dict[str, Any], pair: list[dict[str, Any]]) -> bool:
     return same and mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]
 
 
-def _uff_mode(data: dict[str, Any], places: dict[int, list[float]], r_0: float, path: object) -> dict[str, Any] | None:
+def _uff_mode(
+    data: dict[str, Any], positions: dict[int, list[float]], r_0: float, path: object
+) -> dict[str, Any] | None:
     """Diameters, frequency, damping, amplitude and shape of a dataset 55; None of one that moves in the plane."""
     if data["analysis_type"] == 2:
         omega, damping, mass = math.tau * data["freq"], data["modal_damp_vis"], data["modal_m"]
@@ -108,8 +110,8 @@ def _uff_mode(data: dict[str, Any], places: dict[int, list[float]], r_0: float, 
         omega, damping = abs(pole), -pole.real / abs(pole)
         mass = (complex(data["modal_a"]) / (2j * pole.imag)).real
     moves = np.real(data["r3"])
-    known = [i for i, node in enumerate(data["node_nums"]) if int(node) in places]
-    x, y, _ = np.transpose([places[int(data["node_nums"][i])] for i in known] or np.zeros((0, 3)))
+    known = [i for i, node in enumerate(data["node_nums"]) if int(node) in positions]
+    x, y, _ = np.transpose([positions[int(data["node_nums"][i])] for i in known] or np.zeros((0, 3)))
     radius, angle, moves = np.hypot(x, y), np.arctan2(y, x), moves[known]
     circle = np.abs(radius - r_0) < SAME_RADIUS * r_0
     rule = f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
