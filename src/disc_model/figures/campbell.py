@@ -1,7 +1,7 @@
 """Campbell diagrams: frequencies of steady sliding and of the stick-slip cycle over the speed, with their crossings."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -66,7 +66,14 @@ class Campbell(Plot):
         nothing = "the cycle's growth rate has no peak at a crossing"
         phrase = "\n".join([heading if met else nothing, *(f"{i}  {note.phrase}" for i, note in enumerate(met, 1))])
         below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
-        figure.legend(handles=_handles(study), loc="outside lower center", ncols=5, columnspacing=1.2)
+        handles = [
+            *mode_handles(l for l, _ in _parts(study, "sliding_frequency")),
+            drawing.sample(marker=".", label="stick-slip cycle, in (a)", **DOT),
+            drawing.sample(color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
+            drawing.sample(marker="o", label="crossing", **RING),
+            drawing.sample(marker="o", label="numbered crossing", **DOT),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=5, columnspacing=1.2)
         return figure
 
 
@@ -242,12 +249,7 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
     return (np.clip(level, low, high - steps[-1]) + steps).tolist()  # type: ignore[no-any-return]
 
 
-def _handles(study: xr.Dataset) -> list[Line2D]:
-    shown = sorted({l for l, _ in _parts(study, "sliding_frequency")})
-    return [
-        *(drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        drawing.sample(marker=".", label="stick-slip cycle, in (a)", **DOT),
-        drawing.sample(color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
-        drawing.sample(marker="o", label="crossing", **RING),
-        drawing.sample(marker="o", label="numbered crossing", **DOT),
-    ]
+def mode_handles(diameters: Iterable[int]) -> list[Line2D]:
+    """Legend entries of the colours of modes by their nodal diameters."""
+    shown = sorted({*diameters})
+    return [drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown]

@@ -200,8 +200,10 @@ def draw_sections(
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
             label, factor, _ = drawing.sampled(variable, samples)
             coordinates.append(samples[variable].values * factor)
-            limits = _limits(np.concatenate([section[variable] for section in (samples, *compared)]) * factor)
-            ax.set(**{f"{axis}label": label, f"{axis}lim": limits})
+            shown = np.concatenate([section[variable] for section in (samples, *compared)]) * factor
+            low, high = float(shown.min()), float(shown.max())
+            margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)  # room for the marks
+            ax.set(**{f"{axis}label": label, f"{axis}lim": (low - margin, high + margin)})
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
             mask = getattr(masks, stage) & (np.arange(len(time)) >= len(time) - (last or len(time)))
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
@@ -263,13 +265,6 @@ class PoincareSections(CasePlot):
             for ax, text in zip(axes, "abcdefgh"[2 * i :], strict=False):
                 drawing.letter(ax, text)
         return figure
-
-
-def _limits(values: np.ndarray) -> tuple[float, float]:
-    """Limits of an axis with room for the marks."""
-    low, high = float(values.min()), float(values.max())
-    margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)
-    return low - margin, high + margin
 
 
 # ----------------------------------------------------------------------------------------------------

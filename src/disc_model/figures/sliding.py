@@ -8,9 +8,9 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.campbell import colour_of
+from disc_model.figures.campbell import colour_of, mode_handles
 from disc_model.figures.cells import Look, edges_of, fill, patches
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, Line2D, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, panels
 from disc_model.figures.kind import Plot, Role, Roles
 from disc_model.units import Positive, Unit
 
@@ -27,15 +27,6 @@ def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
         known = np.isfinite(mode["frequency"].values)
         if known.any():
             yield int(mode["diameters"].values[known.argmax()]), mode
-
-
-def handles_of(study: xr.Dataset) -> list[Line2D]:
-    """Legend entries of the modes' colours, and of the width of those that grow."""
-    shown = sorted({l for l, _ in modes_of(study)})
-    return [
-        *(drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown),
-        drawing.sample(color=GREY, linewidth=THICK, label="grows"),
-    ]
 
 
 class SlidingModes(Plot):
@@ -71,7 +62,9 @@ class SlidingModes(Plot):
             xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -2 * max(high, 0.1)), 1.1 * max(high, 0.1))
         )
         drawing.letters([top, bottom])
-        figure.legend(handles=handles_of(study), loc="outside lower center", ncols=7)
+        grows = drawing.sample(color=GREY, linewidth=THICK, label="grows")
+        handles = [*mode_handles(l for l, _ in modes_of(study)), grows]
+        figure.legend(handles=handles, loc="outside lower center", ncols=7)
         return figure
 
 
@@ -98,7 +91,7 @@ class RootLocus(Plot):
         ax.axvline(0, color=BLACK, linewidth=0.6)
         ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")
         figure.colorbar(points, ax=ax, label=label, pad=0.01, aspect=30)
-        figure.legend(handles=handles_of(study)[:-1], loc="outside lower center", ncols=7)
+        figure.legend(handles=mode_handles(l for l, _ in modes_of(study)), loc="outside lower center", ncols=7)
         return figure
 
 
