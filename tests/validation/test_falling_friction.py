@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import Execution, Parameters, floquet, simulate, steady_sliding
+from disc_model import Execution, Parameters, continue_cycle, floquet, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.engine import exit_codes
@@ -100,3 +100,18 @@ def test_a_friction_limit_that_is_only_touched_releases_nothing():
         outcomes.append(map_.evaluate(x, tangent=False).outcome)
     assert outcomes == [exit_codes.RETURNED, exit_codes.OFF_SECTION]
     assert floquet(p).status == "no_cycle"
+
+
+@pytest.mark.compiled
+def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
+    """By continuation in speed; and in the decay itself, from a cycle to that of another decay."""
+    folds = []
+    for decay in (1e4, 1e6, np.inf):
+        branch = continue_cycle(Parameters(N=385, Omega=14.9, friction_decay=decay), "Omega", (14.8, 15.2))
+        assert len(branch.folds) == 1
+        folds.append(branch.values.max())
+    assert 15.11 < folds[0] < 15.12
+    assert 0 < folds[1] - folds[2] < 0.02 * (folds[0] - folds[2])
+    branch = continue_cycle(Parameters(N=385, Omega=14, friction_decay=50), "friction_decay", (40, 100))
+    reached = Parameters(N=385, Omega=14, friction_decay=branch.values[-1, 0])
+    assert branch.growth_rate[-1] == pytest.approx(floquet(reached).growth_rate, abs=1e-8)
