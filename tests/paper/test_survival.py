@@ -1,4 +1,4 @@
-"""Conclusions under four models: each on data made up so that it is true, that it is not, or that they do not tell."""
+"""Conclusions under five models: each on data made up so that it is true, that it is not, or that they do not tell."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,7 +13,7 @@ from disc_model.data.variables import STATUSES
 from disc_model.paper import SURVIVAL_GRIDS
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Finding
-from disc_model.paper.survival import CONCLUSIONS, MODELS, page_of
+from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, evidence_of, judge_models, page_of
 from disc_model.studies.study import load_study
 from tests.paper.made_up import grid, kept_events, logistic
 
@@ -138,6 +138,7 @@ def case(
     intervals: np.ndarray | None = None,
     stick: float = 0.0,
     before: float = 0.1,
+    status: str = "ok",
 ) -> CaseView:
     """A run of 300 s; widths of the disc's motion in quarters of the time after 100 s, each of 50 s.
 
@@ -153,7 +154,7 @@ def case(
     rows = [(240.0, "slip_to_stick", "stick"), (released, "stick_to_slip", "slip")]
     for time in times[(times > released) & (times < 299)]:
         rows += [(time, "separation", "separation"), (time + 1e-4, "reattachment", "slip")]
-    scalars = {"N": N, "Omega": 20.0, "status": STATUSES.index("ok"), "first_separation": first or NAN}
+    scalars = {"N": N, "Omega": 20.0, "status": STATUSES.index(status), "first_separation": first or NAN}
     scalars |= {"n_separations": 5 * (first > 0), "time_reached": 300.0, "time_stick": 300 * before}
     root = xr.Dataset(scalars, attrs={"parameters": p.canonical_json})
     groups = {"/": root, "/history": history, "/events": kept_events(sorted(rows), 240.0, 300.0)}
@@ -174,6 +175,8 @@ SMALLER, STICK, PERIODIC = "Smaller vibration", "Stick vanishes", "Not periodic 
         (SMALLER, (case(1, 1, 1, 1.3), BONDED), NOT_COMPUTED),  # it still grows
         (SMALLER, (case(1, 1, 4, 4), BONDED), FALSE),
         (SMALLER, (case(1, 1, 1, 1),), NOT_COMPUTED),  # nothing to compare with
+        (SMALLER, (case(1, 1, 1, 1), case(1, 1, 1, 3, first=0, status="paradox")), TRUE),  # it grew until the end
+        (SMALLER, (case(1, 1, 1, 1), case(1, 1, 1, 3, first=0, status="failed")), NOT_COMPUTED),
         (STICK, (case(stick=5e-4),), TRUE),
         (STICK, (case(stick=5e-4), case(N=300, stick=0.01)), TRUE),
         (STICK, (case(stick=5e-4, before=5e-4),), FALSE),  # it never stuck
@@ -191,56 +194,51 @@ def test_conclusions_about_cases(title: str, cases: Sequence[CaseView], verdict:
 
 
 def test_each_model_is_judged_by_its_own_data() -> None:
-    """One map of growth for all four: separations from a stable cycle in one of them only."""
-    dim = "normalization_contact_compliance_contact_force"
-    normalizations, compliant, forces = zip(*MODELS.values(), strict=True)
-    models = {
-        "normalization": (dim, [*normalizations]),
-        "contact_compliance": (dim, [3e-7 * each for each in compliant]),
-        "contact_force": (dim, [*forces]),
-    }
-    apart = [outcome(letters) for letters in ("qqsqgs", "qqsqgs", "qssqgs", "qqqqgg")]
+    """One map of growth for all: separations from a stable cycle in one of them only."""
+    models = {}
+    for name, values in zip(CHANGED, zip(*MODELS.values(), strict=True), strict=True):
+        models[name] = ("model", [1e-3 * value if isinstance(value, bool) else value for value in values])
+    apart = [outcome(letters) for letters in ("qqsqgs", "qqsqgs", "qssqgs", "qqqqgg", "qqsqgs")]
     rates = growth(-0.1, -0.2, 0.1, -0.1, 0.05, NAN)
-    parts = {"curves": [curves("fold", 29.0, 29.0)] * 4, "growth": [rates] * 4, "outcome": apart}
+    parts = {"curves": [curves("fold", 29.0, 29.0)] * 5, "growth": [rates] * 5, "outcome": apart}
     nodes = {
-        f"survival_{name}": xr.DataTree(xr.concat(each, dim, combine_attrs="override").assign_coords(models))
+        f"survival_{name}": xr.DataTree(xr.concat(each, "model", combine_attrs="override").assign_coords(models))
         for name, each in parts.items()
     }
-    for share, (normalization, give, force) in zip((1e-4, 0.01, 1e-4, 6e-4), MODELS.values(), strict=True):
-        p = Parameters(N=200, Omega=20, normalization=normalization, contact_force=force)
-        p = p.replace(contact_compliance="residual" if give else 0.0)
+    for share, (scale, give, force, bends) in zip((1e-4, 0.01, 1e-4, 6e-4, 0.01), MODELS.values(), strict=True):
+        p = Parameters(N=200, Omega=20, normalization=scale, contact_force=force)
+        p = p.replace(contact_compliance="residual" if give else 0.0, friction_offset="surface" if bends else 0.0)
         node = case(stick=share).node
         groups = {
             "/": node.to_dataset().assign_attrs(parameters=p.canonical_json),
             "/events": node["events"].to_dataset(),
         }
-        nodes[f"case{share}{force}{give}"] = xr.DataTree.from_dict(groups)
-    (_, _, verdicts), *sections = page_of({name: CaseView(name, node) for name, node in nodes.items()})
-    assert [heading for heading, _, _ in sections] == [*BY_TITLE]
-    rows = dict(zip(BY_TITLE, verdicts.drop(columns=["Conclusion", "Place"]).to_numpy().tolist(), strict=True))
-    assert rows["Onset"] == [TRUE, TRUE, FALSE, NOT_COMPUTED]
-    assert (
-        sections[0][2]["Found"]
-        .iloc[0]
-        .startswith(
-            "2 of 6 points separate: 1 from an unstable cycle, 1 where none is found, 0 from a stable one; 3 with"
-        )
-    )
-    assert rows[STICK] == [TRUE, FALSE, TRUE, TRUE]
-    assert rows[CRITICAL] == [NOT_COMPUTED] * 4
+        nodes[f"case{share}{force}{give}{bends}"] = xr.DataTree.from_dict(groups)
+    table = judge_models({name: CaseView(name, node) for name, node in nodes.items()})
+    rows = page_of(table)[2].set_index("Conclusion").drop(columns="True if")
+    verdicts = dict(zip(BY_TITLE, rows.to_numpy().tolist(), strict=True))
+    assert verdicts["Onset"] == [TRUE, TRUE, FALSE, NOT_COMPUTED, TRUE]
+    assert verdicts[STICK] == [TRUE, FALSE, TRUE, TRUE, FALSE]
+    assert verdicts[CRITICAL] == [NOT_COMPUTED] * 5
+    headings, _, sections = zip(*evidence_of(table), strict=True)
+    assert [*headings] == [*BY_TITLE]
+    told = "2 of 6 points separate: 1 from an unstable cycle, 1 where none is found, 0 from a stable one; 3 with"
+    assert sections[0]["Found"].iloc[0].startswith(told)
 
 
-def test_the_files_ask_for_the_four_models() -> None:
+def test_the_files_ask_for_the_five_models() -> None:
     study = load_study(CONFIG / "survival.yaml")
     kinds = {(spec.parameters.N, spec.parameters.Omega, spec.parameters.contact) for spec in study.specs.values()}
     assert len(study.specs) == len(MODELS) * len(kinds)
-    found = residual_flexibility(Parameters(N=200, Omega=20, normalization="orthonormal"))
+    asked = {tuple(getattr(spec.parameters, name) for name in CHANGED) for spec in study.specs.values()}
+    assert {(scale, give != 0, force, offset != 0) for scale, give, force, offset in asked} == {*MODELS.values()}
+    plate = residual_flexibility(Parameters(N=200, Omega=20, normalization="orthonormal"))
     for name in SURVIVAL_GRIDS:
         raw = yaml.safe_load((CONFIG / "survival" / f"{name}.yaml").read_text())
         zips = raw["zip"] if isinstance(raw["zip"], list) else [raw["zip"]]
-        (models,) = [one for one in zips if "normalization" in one]
-        for model, (normalization, compliance, force) in zip(
-            MODELS.values(), zip(*models.values(), strict=True), strict=True
-        ):
-            assert (normalization, compliance != 0, force) == model
-            assert compliance == pytest.approx((found.total - found.kept) * model[1], rel=1e-12)
+        (models,) = [columns for columns in zips if "normalization" in columns]
+        points = zip(*(models[parameter] for parameter in CHANGED), strict=True)
+        for model, (scale, compliance, force, offset) in zip(MODELS.values(), points, strict=True):
+            assert (scale, compliance != 0, force, offset != 0) == model
+            assert compliance == pytest.approx((plate.total - plate.kept) * model[1], rel=1e-12)
+            assert offset == Parameters(N=200, Omega=20).h / 2 * model[3]

@@ -79,6 +79,7 @@ rule compare_normalisations:
         published="results/paper/cases.nc",
         orthonormal="results/paper_orthonormal/cases.nc",
     output:
+        csv="results/paper/normalisation.csv",
         md="results/paper/normalisation.md",
         html=report(
             "results/paper/normalisation.html",
@@ -103,12 +104,13 @@ rule judge_survival:
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
         png="results/survival_growth/figures/survival_growth.png",
     output:
+        csv="results/paper/survival.csv",
         md="results/paper/survival.md",
         html=report(
             "results/paper/survival.html",
             caption="../report/survival.rst",
             category="Model sensitivity",
-            labels={"page": "The paper's conclusions under four models"},
+            labels={"page": "The paper's conclusions under five models"},
         ),
         png=report(
             "results/paper/survival_growth.png",
@@ -123,5 +125,5 @@ rule judge_survival:
     params:
         made_of=made_of("judge_survival"),
     shell:
-        "(job judge_survival {output.md} {output.html} {input.cases} {input.grids}"
+        "(job judge_survival {output.csv} {output.md} {output.html} {input.cases} {input.grids}"
         " && cp {input.png} {output.png}) > {log} 2>&1"

@@ -1,4 +1,4 @@
-"""Set the cases of both normalisations beside each other, as Markdown and as a page."""
+"""Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as HTML."""
 
 from pathlib import Path
 
@@ -10,8 +10,9 @@ from disc_model.paper.normalisation import TEXTS, compare
 
 
 @script
-def main(md: str, html: str, published: str, orthonormal: str) -> None:
+def main(csv: str, md: str, html: str, published: str, orthonormal: str) -> None:
     models = load_inputs([Path(published), Path(orthonormal)])
-    sections = compare(*(views({"cases": cases}) for cases in models))
-    for file in (md, html):
-        write_page(file, TEXTS["title"], *sections)
+    parts = compare(*(views({"cases": cases}) for cases in models))
+    parts["cases"][2].to_csv(csv, index=False)
+    write_page(md, TEXTS["title"], parts["brief"], parts["modes"])
+    write_page(html, TEXTS["title"], *parts.values())

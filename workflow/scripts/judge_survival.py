@@ -1,4 +1,4 @@
-"""Judge the paper's conclusions under four models of disc and contact; write the page as Markdown and as HTML."""
+"""Judge the paper's conclusions under five models of disc and contact: evidence as CSV, the page, and both as HTML."""
 
 from pathlib import Path
 
@@ -6,11 +6,13 @@ from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from disc_model.paper.measures import views
-from disc_model.paper.survival import TEXTS, page_of
+from disc_model.paper.survival import TEXTS, evidence_of, judge_models, page_of
 
 
 @script
-def main(md: str, html: str, *inputs: str) -> None:
-    sections = page_of(views(load_cases([*map(Path, inputs)])))
-    for file in (md, html):
-        write_page(file, TEXTS["title"], *sections)
+def main(csv: str, md: str, html: str, *inputs: str) -> None:
+    table = judge_models(views(load_cases([*map(Path, inputs)])))
+    table.to_csv(csv, index=False)
+    page = page_of(table)
+    write_page(md, TEXTS["title"], page)
+    write_page(html, TEXTS["title"], page, *evidence_of(table))

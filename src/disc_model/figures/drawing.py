@@ -274,6 +274,8 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
         label = f"{label.rpartition(' (')[0]} ({unit})"
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
+    if by == "friction_offset":
+        return f"friction {value * factor:g} mm above the middle plane" if value else "friction in the middle plane"
     name, _, unit = label.rpartition(" (")
     return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"
 

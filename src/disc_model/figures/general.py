@@ -51,7 +51,7 @@ class General(Plot):
     """
 
     several = True
-    room: ClassVar[int] = 4
+    room: ClassVar[int] = 6
     """Greatest number of values of `by`."""
 
     variable: str
@@ -213,17 +213,26 @@ class HeatMap(General):
         study = drawing.picked(study, self.at)
         array = study[self.variable]
         shown = drawing.slices(array, remaining(array, [*self.axes.values()]))
-        figure, axes = panels(PAGE if len(shown) > 1 else COLUMN * 1.2, 2.9, 1, len(shown), sharex=True, sharey=True)
+        rows = 1 + (len(shown) > 4)
+        columns = math.ceil(len(shown) / rows)
+        width = PAGE if len(shown) > 1 else COLUMN * 1.2
+        figure, axes = panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
+        for ax in axes[len(shown) :]:
+            ax.remove()
+        axes = axes[: len(shown)]
         handles = draw_maps(figure, axes, study, self.variable, self.x, self.y, self.log)
-        width = round(figure.get_figwidth() / len(axes) / 0.08)
+        width = round(figure.get_figwidth() / columns / 0.08)
         # a value stays on the line of its name
         names = [
             fill(f"({letter}) " + text.replace(" = ", "\u00a0=\u00a0"), width)
-            for letter, (text, _) in zip("abcd", shown, strict=False)
+            for letter, (text, _) in zip("abcdef", shown, strict=False)
         ]
         for ax, name in zip(axes, names, strict=True):
             ax.set_title(name if len(axes) > 1 else "", loc="left")
             ax.label_outer()
+        for ax in axes[-columns:]:  # below some of them there is none
+            ax.set_xlabel(axes[-1].get_xlabel())
+            ax.tick_params(labelbottom=True)
         if handles:
             figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
         return figure

@@ -12,37 +12,57 @@ from disc_model.disc.plate import plate_modes
 from disc_model.paper import section2
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, rate_text
-from disc_model.paper.model import NOT_COMPUTED, judge, read_texts
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
 
 TEXTS: dict[str, str] = read_texts("pages.yaml")["normalisation"]
+OLD, NEW = "As published", "With Eq. (17)"
+SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")
+"""Cases of the paper's figures with a separation."""
 
 
-def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> list[Section]:
-    """What changes with orthonormal modes, as sections of a page: in the modes, the cases and the verdicts."""
+def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:
+    """What changes with orthonormal modes: in "brief", then in the "modes", the "cases" and the "verdicts".
+
+    Cases of the second set alone are "instead", if there are any.
+    """
     shared = _once([case for name, case in published.items() if name in orthonormal])
     pairs = {name: (published[name], orthonormal[name]) for name in shared}
     failed = [name for name, pair in pairs.items() if "failed" in (case.status for case in pair)]
     whole = {name: pair for name, pair in pairs.items() if name not in failed}
-    separates = {name: tuple(case.separates for case in pair) for name, pair in whole.items()}
-    lost, gained, both = (
-        [name for name, kind in separates.items() if kind == wanted]
-        for wanted in ((True, False), (False, True), (True, True))
-    )
-    rates = {name: [case.growth_rate for case in pair] for name, pair in whole.items()}
-    known = {name: pair for name, pair in rates.items() if not any(map(math.isnan, pair))}
-    higher = [name for name, (before, after) in known.items() if after > before]
-    text = fill(
-        TEXTS["cases"], shared=shared, lost=lost, gained=gained, both=both, known=known, higher=higher, failed=failed
-    )
-    new = [case for name, case in orthonormal.items() if name not in published]
-    return [
-        ("The modes", TEXTS["modes"], _modes()),
-        ("The cases of the paper", text, _cases(*zip(*pairs.values(), strict=True))),
-        *([("Where instability goes instead", TEXTS["instead"], _cases(new))] if new else []),
-        ("Statements of the paper whose verdict changes", TEXTS["verdicts"], _verdicts(published, orthonormal)),
-    ]
+    verdicts = _verdicts(published, orthonormal)
+    before, after = (sum(case.separates for case in column) for column in zip(*whole.values(), strict=True))
+    text = fill(TEXTS["brief"], cases=len(whole), before=before, after=after, failed=failed)
+    parts = {
+        "brief": ("", text, _brief([*whole.values()], verdicts)),
+        "modes": ("The modes", TEXTS["modes"], _modes()),
+        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs.values(), strict=True))),
+    }
+    if new := [case for name, case in orthonormal.items() if name not in published]:
+        parts["instead"] = ("Where instability goes instead", TEXTS["instead"], _cases(new))
+    changed = verdicts[(verdicts[OLD] != verdicts[NEW]) & (verdicts[OLD] != NOT_COMPUTED)]
+    return parts | {"verdicts": ("Statements of the paper whose verdict changes", TEXTS["verdicts"], changed)}
+
+
+def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -> pd.DataFrame:
+    """How many cases separate, grow and agree with the paper under both; first separations of the paper's figures."""
+    known = [pair for pair in pairs if not any(math.isnan(case.growth_rate) for case in pair)]
+    rows = {
+        f"cases that separate, of {len(pairs)}": [
+            sum(case.separates for case in column) for column in zip(*pairs, strict=True)
+        ],
+        f"cases whose stick-slip cycle grows, of {len(known)} that have one under both": [
+            sum(case.growth_rate > 0 for case in column) for column in zip(*known, strict=True)
+        ],
+        f"statements that are true, of {len(verdicts)} that are judged by cases": [
+            sum(verdicts[name] == TRUE) for name in (OLD, NEW)
+        ],
+        "statements that are false": [sum(verdicts[name] == FALSE) for name in (OLD, NEW)],
+        "statements that no motion decides": [sum(verdicts[name] == NOT_COMPUTED) for name in (OLD, NEW)],
+    }
+    rows |= {f"first separation, {pair[0].place}": [*map(_first, pair)] for pair in pairs if pair[0].name in SHOWN}
+    return pd.DataFrame([(name, *map(str, values)) for name, values in rows.items()], columns=["", OLD, NEW])
 
 
 def _once(cases: Sequence[CaseView]) -> list[str]:
@@ -87,18 +107,18 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
 
 
 def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> pd.DataFrame:
+    """The rows of the ledger that are judged by cases, as they come out for both."""
     table = judge([row for row in ROWS if row.cases], {"published": published, "orthonormal": orthonormal})
     old, new = (part.set_index("id") for _, part in table.groupby("model", sort=False))
-    changed = (old["verdict"] != new["verdict"]) & (old["verdict"] != NOT_COMPUTED)
     by_model = new.index.isin([row.also for row in CONCLUSIONS])
     columns = {
         "Place": pd.Series({row.id: row.place for row in ROWS}),
         "Statement": pd.Series({row.id: f"“{row.quote}”" for row in ROWS}),
-        "As published": old["verdict"],
-        "With Eq. (17)": new["verdict"].mask(by_model, "see model sensitivity"),
-        "Found with Eq. (17)": new["here"],
+        OLD: old["verdict"],
+        NEW: new["verdict"].mask(by_model, "see model sensitivity"),
+        f"Found {NEW[0].lower()}{NEW[1:]}": new["here"],
     }
-    return pd.DataFrame(columns).loc[changed[changed].index]
+    return pd.DataFrame(columns).loc[old.index]
 
 
 def _first(case: CaseView) -> str:

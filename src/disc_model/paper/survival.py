@@ -1,4 +1,4 @@
-"""Model sensitivity: the paper's main conclusions, each judged under four models of disc and contact.
+"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact.
 
 Each model changes one more thing, so that the last has all changes. All conclusions are judged from the merged cases
 and grids of config/survival.yaml, by rows as the ledger's.
@@ -23,13 +23,15 @@ from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, liste
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge, read_texts, rows_of
 from disc_model.paper.section2 import moving_load_speed
 
+CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset")
 MODELS = {
-    "as published": ("as_published", False, "vertical"),
-    "orthonormal": ("orthonormal", False, "vertical"),
-    "+ residual flexibility": ("orthonormal", True, "vertical"),
-    "+ normal contact force": ("orthonormal", True, "normal"),
+    "as published": ("as_published", False, "vertical", False),
+    "orthonormal": ("orthonormal", False, "vertical", False),
+    "+ residual flexibility": ("orthonormal", True, "vertical", False),
+    "+ normal contact force": ("orthonormal", True, "normal", False),
+    "+ friction on the surface": ("orthonormal", True, "normal", True),
 }
-"""The models by name: normalization, whether the contact has a flexibility, contact_force."""
+"""The models by name: normalization, whether the contact gives, contact_force, whether friction is offset."""
 
 
 def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
@@ -38,17 +40,14 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
     for name, case in cases.items():
         study = case.node.to_dataset()
         if case.is_grid:
-            (dim,) = study["normalization"].dims
-            varied: list[Any] = [
-                study[name].values for name in ("normalization", "contact_compliance", "contact_force")
-            ]
+            varied: list[Any] = [study[parameter].values for parameter in CHANGED]
         else:
-            p = case.parameters
-            varied = [[p.normalization], [p.contact_compliance], [p.contact_force]]
-        points = [(normalization, give != 0, force) for normalization, give, force in zip(*varied, strict=True)]
+            varied = [[getattr(case.parameters, parameter)] for parameter in CHANGED]
+        points = [(scale, give != 0, force, offset != 0) for scale, give, force, offset in zip(*varied, strict=True)]
         for model, values in MODELS.items():
             if case.is_grid and points.count(values) == 1:
-                models[model][name] = CaseView(name, xr.DataTree(study.isel({dim: points.index(values)})))
+                point = {study["normalization"].dims[0]: points.index(values)}
+                models[model][name] = CaseView(name, xr.DataTree(study.isel(point)))
             elif points == [values]:
                 models[model][name] = case
     return models
@@ -139,9 +138,12 @@ def below_critical(*cases: CaseView, share: float) -> Answer:
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
-    """Cases that lose contact; raises `Missing` if one did not reach its end."""
+    """Cases that lose contact; raises `Missing` if one did not reach its end.
+
+    Bilateral contact may end in Painlevé's paradox, when the disc has grown so steep under the slider.
+    """
     for case in cases:
-        if case.status != "ok":
+        if case.status != "ok" and not (case.bonded and case.status == "paradox"):
             raise Missing(f"{case.status} (case {case.name})")
     return [case for case in cases if not case.bonded and case.separates]
 
@@ -160,15 +162,18 @@ def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
     smaller: list[bool | None] = []
-    rows = []
+    rows, steep = [], []
     for free, bonded in pairs([*_separating(cases), *(case for case in cases if case.bonded)]):
         fourth, third = free.last_quarters("w_point")
-        other = bonded.last_widths("w_point", STRETCH, STRETCHES)
+        ends = bonded.status == "paradox"
+        other = bonded.last_widths("w_point", STRETCH, 1 if ends else STRETCHES)
         below = fourth <= (1 + wider) * third and max(third, fourth) < min(other)
         above = min(third, fourth) >= max(other)
         smaller.append(False if above else True if below else None)
         rows.append(f"{free.place}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
-    return Answer(_all_cases(smaller), f"{'; '.join(rows) or 'No case separates'}.")
+        steep += [f"{free.place} after {bonded['time_reached']:.0f} s"] * ends
+    note = f"Bilateral contact ends in Painlevé's paradox at {'; '.join(steep)}." if steep else ""
+    return Answer(_all_cases(smaller), f"{'; '.join(rows) or 'No case separates'}.", note)
 
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
@@ -251,17 +256,24 @@ CONCLUSIONS = rows_of(sys.modules[__name__])
 TEXTS: dict[str, str] = read_texts("pages.yaml")["survival"]
 
 
-def page_of(cases: Mapping[str, CaseView]) -> list[Section]:
-    """Every conclusion under every model, as sections of a page: all verdicts at a glance, then their evidence."""
-    table = judge(CONCLUSIONS, by_model(cases))
+def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+    """The verdict on every conclusion under every model, with what was computed and what should be known besides."""
+    return judge(CONCLUSIONS, by_model(cases))
+
+
+def page_of(table: pd.DataFrame) -> Section:
+    """All verdicts of a table at a glance, with what decides."""
     verdicts = table.pivot(index="id", columns="model", values="verdict")
-    rows = [(row.statement, row.place, *verdicts.loc[row.id, [*MODELS]]) for row in CONCLUSIONS]
     names = [name[0].upper() + name[1:] for name in MODELS]
-    sections = [("At a glance", TEXTS["introduction"], pd.DataFrame(rows, columns=["Conclusion", "Place", *names]))]
+    rows = [(row.statement, *verdicts.loc[row.id, [*MODELS]], row.rule) for row in CONCLUSIONS]
+    return "", TEXTS["introduction"], pd.DataFrame(rows, columns=["Conclusion", *names, "True if"])
+
+
+def evidence_of(table: pd.DataFrame) -> list[Section]:
+    """What was computed under each model, a section for every conclusion."""
     columns = {"model": "Model", "verdict": "Verdict", "here": "Found", "notes": "Remark"}
-    for row in CONCLUSIONS:
-        evidence = table.loc[table["id"] == row.id, [*columns]].rename(columns=columns)
-        if not evidence["Remark"].any():
-            evidence = evidence.drop(columns="Remark")
-        sections.append((row.id, f"{row.statement} Rule: {row.rule}", evidence))
-    return sections
+    rows = table.rename(columns=columns)
+    return [
+        (row.id, f"{row.statement} True if {row.rule}.", rows.loc[rows["id"] == row.id, [*columns.values()]])
+        for row in CONCLUSIONS
+    ]
