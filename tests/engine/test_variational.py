@@ -38,11 +38,11 @@ SWITCHES = {
 RESIDUAL = {"contact_compliance": "residual", "normalization": "orthonormal"}
 CONTACTS = {
     "vertical": {}, **LAWS, "compliant": RESIDUAL, "residual_normal": RESIDUAL | {"contact_force": "normal"}, **COUPLED,
-    **FALLING,
+    **FALLING, "residual_normal_falling": RESIDUAL | {"contact_force": "normal", "friction_decay": 2.0},
 }  # fmt: skip
 #: Where nothing pulls the reference meets two switches at once; a compliant contact begins without tension.
 NOT_THERE = [
-    *((law, "contact lost in stick") for law in ("normal", "residual_normal", "normal_coupled", "normal_falling")),
+    *((law, "contact lost in stick") for law in CONTACTS if law.removeprefix("residual_").startswith("normal")),
     *((law, "impact, left in tension") for law in CONTACTS if "compliant" in law or "residual" in law),
 ]
 THROUGH = [
