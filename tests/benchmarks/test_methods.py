@@ -92,10 +92,6 @@ def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lift
 
 
 # ----------------------------------------------------------------------------------------------------
-# Orders
-
-
-# ----------------------------------------------------------------------------------------------------
 # The regularised model: its law, its contact, its order, its stiffness
 
 

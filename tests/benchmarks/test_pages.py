@@ -47,7 +47,3 @@ def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -
     assert "only, the package takes 1 ms for (a). heyoka always" in text
     with pytest.raises(DiscModelError, match="another machine"):
         pages.speed_numbers(dataset, dataset, priced.assign_attrs(machine="another machine"))
-
-
-# ----------------------------------------------------------------------------------------------------
-# Numbers of modes

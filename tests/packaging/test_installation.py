@@ -125,6 +125,3 @@ def test_a_study_needs_no_clone(installed: Installed) -> None:
     installed.run("disc-model", "study", "own/my_study.yaml", "-n", "--directory", "own")
     assert "my_study" in installed.run("disc-model", "list", "studies", "own/my_study.yaml")
     installed.run("snakemake", "-n", "--directory", "own", "-s", "own/Snakefile")
-
-
-# ---- the lock file

@@ -106,7 +106,3 @@ def test_the_workflow_is_told_of_every_scan_and_every_check_has_a_row() -> None:
 def test_parts_make_a_statement_true_in_part() -> None:
     assert [graded(parts) for parts in ([True, True], [True, False], [False, False])] == [TRUE, PART, FALSE]
     assert Answer(AMBIGUOUS, "").verdict == AMBIGUOUS
-
-
-# ----------------------------------------------------------------------------------------------------
-# Measures

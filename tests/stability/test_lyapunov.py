@@ -82,7 +82,3 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 10 s
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=1e-3)
-
-
-# ----------------------------------------------------------------------------------------------------
-# Systems whose exponents are known

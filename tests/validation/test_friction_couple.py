@@ -85,6 +85,3 @@ def test_events_are_those_of_the_reference(law):
         assert list(events["kind"]) == [event["kind"] for event in run.events]
         assert len(events) >= 3
         np.testing.assert_allclose(events["time"], [float(event["time"]) for event in run.events], rtol=0, atol=1e-13)
-
-
-# ------------------------------------------------------------------------ the references themselves
