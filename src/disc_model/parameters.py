@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import (
+    AfterValidator,
     BeforeValidator,
     Field,
     ModelWrapValidatorHandler,
@@ -96,6 +97,8 @@ def _or_word(word: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
+# Beyond, the start of slip is lost in rounding.
+_DECAY = AfterValidator(must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf"))
 # What only study files and the command line accept is refused with the name of the function to use instead.
 _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
 _READ = must(
@@ -473,7 +476,7 @@ class Parameters(Checked):
     friction_offset: Annotated[float | Literal["surface"], _or_word(SURFACE)] = _field(
         0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
     )
-    friction_decay: Real = _field(
+    friction_decay: Annotated[Real, _DECAY] = _field(
         math.inf, "s/m", "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed", ge=0
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(

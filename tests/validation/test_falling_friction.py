@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import Execution, Parameters, continue_cycle, floquet, simulate, steady_sliding
+from disc_model import Execution, ParameterError, Parameters, continue_cycle, floquet, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.engine import exit_codes
@@ -115,3 +115,18 @@ def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
     branch = continue_cycle(Parameters(N=385, Omega=14, friction_decay=50), "friction_decay", (40, 100))
     reached = Parameters(N=385, Omega=14, friction_decay=branch.values[-1, 0])
     assert branch.growth_rate[-1] == pytest.approx(floquet(reached).growth_rate, abs=1e-8)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("decay", [3.0, 1e3, 1e9])
+def test_event_times_are_as_exact_as_the_tolerance_says(decay):
+    """Up to three times `tol` after a second and a half; they were up to 3000 times as far off."""
+    p = Parameters(N=385, Omega=15.1, friction_decay=decay)
+    right = simulate(p, 1.5, tol=1e-15).events["time"]
+    for tol in (1e-8, 1e-10, 1e-12):
+        assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < 3 * tol
+
+
+def test_a_decay_beyond_rounding_is_refused():
+    with pytest.raises(ParameterError, match="friction_decay=10000000000000: must be at most 1e12 s/m, or inf"):
+        P.replace(friction_decay=1e13)

@@ -80,7 +80,12 @@ def step_size(model, s, order, tolerance, phase):
         usual_speed, share = series.drive(model, s), series.load_at(model, s) / model.N
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
-    error = _relative(last, scale) + _relative(_last_two(s.f, order, typical), speed)
+    weight = 1.0
+    if model.decaying and phase == layout.SLIP and model.decay > 0.0:
+        # slow slip grows by itself, and where friction falls the series converges like that of a fraction
+        slow, weight = abs(s.f[0]) + 1.0 / model.decay, 10.0
+        speed = min(speed, slow) if speed > 0.0 else slow
+    error = _relative(last, scale) + weight * _relative(_last_two(s.f, order, typical), speed)
     if model.compliant or phase == layout.SEPARATION:
         error += _relative(_last_two(s.v, order, typical), _scale(share * model.slider_scale, abs(s.v[0]), abs(s.v[1])))
     if phase != layout.SEPARATION:
