@@ -298,10 +298,9 @@ class UnreadableFile(DiscModelError):
 
 def regular_file(path: str | Path) -> Path:
     """A path that leads to a file or to nothing; raises `ParameterError` otherwise, as for a folder or a device."""
-    file = Path(path)
-    if file.exists() and not file.is_file():
+    if not isinstance(path, str | os.PathLike) or (Path(path).exists() and not Path(path).is_file()):
         raise ParameterError(Fault(("path",), as_text(str(path)), "must be the name of a file"))
-    return file
+    return Path(path)
 
 
 def write_atomically(path: Path, write: Callable[[str], object]) -> None:

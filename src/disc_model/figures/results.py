@@ -300,6 +300,9 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
 # ----------------------------------------------------------------------------------------------------
 # Grids and discs
 
+PREFERRED = ("growth_rate", "outcome", "separation_rate", "scan_first_separation", "kind")
+"""Variables that a sweep shows first."""
+
 
 @by_itself
 def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
@@ -336,11 +339,14 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
 def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool = False, ax: Any = None) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over two.
 
+    A second dimension of words, such as the direction of a sweep, gives a line for each.
+
     Parameters
     ----------
-    study : such as `disc_model.sweep` and `disc_model.run_study` return; of one or two dimensions of several values
+    study : such as `disc_model.sweep`, `disc_model.run_study` and `disc_model.hysteresis` return; of one or two
+        dimensions of several values
     variable : the growth rate, the outcome or the first number there is if not given
-    x : the dimension along the horizontal axis; the first of two for a map
+    x : the dimension along the horizontal axis; the first of numbers if not given
     log : whether the scale of the variable is logarithmic
     ax : axes to draw on
 
@@ -359,19 +365,22 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         )
     )
     study = study.squeeze()
-    grid = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
-    choices = [str(name) for name, values in study.items() if {*values.dims} and {*values.dims} <= {*grid}]
-    named = variable or next((name for name in ("growth_rate", "outcome") if name in choices), (*choices, "")[0])
+    numbers = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
+    choices = [str(name) for name, values in study.items()
+               if {*values.dims} & {*numbers} and {*values.dims} <= {*study.coords}]  # fmt: skip
+    first = [name for name in choices if study[name].dtype.kind in "fi"] + choices
+    named = variable or next((name for name in PREFERRED if name in choices), (*first, "")[0])
     if named not in choices:
         raise ParameterError(Fault.of(("variable",), named, f"must be one over the grid{suggestion(named, choices)}"))
     dims = [str(dim) for dim in study[named].dims]
-    across = x or dims[0]
-    if across not in dims or len(dims) > 2:
-        rule = f"must be one of {', '.join(dims)}, and these one or two: select values of others"
+    possible = [dim for dim in dims if dim in numbers]
+    across = x or possible[0]
+    if across not in possible or len(dims) > 2:
+        rule = f"must be one of {', '.join(possible)}, and one or two must vary: select values of others"
         raise ParameterError(Fault.of(("x",), across, rule))
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.9)
     handles: Sequence[Any]
-    if len(dims) == 1:
+    if len(dims) == 1 or len(possible) == 1:
         general.draw_lines(axes, study, named, across, log)
         handles = axes.get_legend_handles_labels()[0]
     else:
@@ -379,7 +388,7 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         handles = general.draw_maps(axes.figure, [axes], study, named, across, up, log)
     if handles:
         axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
-    base = next((what for what in ("base", "parameters") if what in study.attrs), None)
+    base = next((what for what in ("base", "parameters") if what in study.attrs), "")
     case = drawing.stated_in(study, base) if base else {}
     values = {name: value for name, value in case.items() if name not in study.coords}
     if ax is None:
