@@ -130,7 +130,7 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
         metadata["Title"] = title
     with styled():
         figure.savefig(path, metadata=metadata)
-    figure.set_layout_engine("none")
+        figure.set_layout_engine(None)  # not "none", with which all is drawn twice
 
 
 def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:

@@ -141,7 +141,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         ]
     raise_faults(violations(*rules))
     with drawing.styled():
-        figure = Figure(figsize=(6.4, 2.7))
+        figure = Figure(figsize=(6.4, 2.7), layout="constrained")
         film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
         if path is not None:
             film.save(path, writer=writer, fps=fps, dpi=100)

@@ -143,7 +143,6 @@ def sketch(p: Parameters) -> Figure:
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(PAGE, 0.97 * PAGE))
-    figure.set_layout_engine("none")  # the boxes are given
     boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
     axes = [figure.add_axes(box) for box in boxes]
     _side(axes[0])
