@@ -11,8 +11,9 @@ whether a polynomial that touches zero has a root is open, and one in x_end may 
 there.
 """
 
+import math
+
 import numpy as np
-from scipy.special import comb
 
 from .jit import helper, inlined
 from .jit.simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers_of, put, splat, spread, store, total
@@ -29,7 +30,7 @@ _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and th
 _MOST_HALVINGS = 20
 _COUNT = np.arange(float(ROWS))
 _HALVES = 0.5**_COUNT
-_BINOMIALS = np.rint(comb(_COUNT, _COUNT[:, None]))  # j over i at [i, j], exactly
+_BINOMIALS = np.array([[float(math.comb(j, i)) for j in range(ROWS)] for i in range(ROWS)])  # j over i at [i, j]
 # Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
 _CHOOSE = _BINOMIALS.ravel()
 _ONE_OVER_CHOOSE = np.divide(1.0, _BINOMIALS.T, out=np.zeros((ROWS, ROWS)), where=_BINOMIALS.T > 0.0).ravel()
