@@ -14,7 +14,7 @@ from disc_model.disc.tables import disc_table
 from disc_model.studies.study import load_study
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted({*(ROOT / "docs").glob("*.md"), ROOT / "README.md"})
+PAGES = sorted({*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("howto/*.md"), ROOT / "README.md"})
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
 
@@ -24,8 +24,9 @@ def blocks(page):
 
 
 @pytest.mark.parametrize("page", WITH_EXAMPLES, ids=lambda page: page.name)
-def test_examples_print_what_they_say(page):
+def test_examples_print_what_they_say(page, tmp_path, monkeypatch):
     """A page is one session."""
+    monkeypatch.chdir(tmp_path)
     test = doctest.DocTestParser().get_doctest("\n".join(blocks(page)), {}, page.name, str(page), 0)
     outcome = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE).run(test)
     assert outcome.attempted > 0

@@ -87,5 +87,9 @@ def test_there_is_one_version() -> None:
     cited = re.search(r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
     assert cited
     assert cited[1] == disc_model.__version__
+    recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
+    assert f'{{% set version = "{disc_model.__version__}" %}}' in recipe
+    needs = {re.split(r"[<>=]", text)[0].lower() for text in PROJECT["project"]["dependencies"]}
+    assert needs | {"python"} == set(re.findall(r"- (\w+)", recipe.partition("  run:\n")[2].partition("  run_c")[0]))
     released = re.findall(r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert released[:1] in ([], [disc_model.__version__])
