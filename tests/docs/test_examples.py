@@ -77,7 +77,7 @@ def test_everything_public_is_in_the_reference_and_shows_its_use():
     errors = {name for name, value in values.items() if isinstance(value, type) and issubclass(value, Exception)}
     for name in sorted(listed - errors):  # the table for those who read the page in a repository's browser
         paragraph = " ".join((inspect.getdoc(values[name]) or "").split("\n\n")[0].split())
-        assert f"| `{name}` | {re.split(r'(?<!Eq)(?<=[.]) ', paragraph)[0]} |" in text
+        assert f"| `{name}` | {re.split(r'(?<!Eq[.])(?<=[.]) ', paragraph)[0]} |" in text
     assert not [name for name in listed - errors if ">>> " not in (values[name].__doc__ or "")]
     drawing = [member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()]
     drawing = [member for member in drawing if getattr(member, "__name__", "").startswith(("plot", "animate"))]
