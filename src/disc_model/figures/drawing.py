@@ -201,7 +201,7 @@ def restate_axes(figure: Figure) -> None:
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
-    words = str(variable.attrs.get("long_name", variable.name))
+    words = str(variable.attrs.get("long_name", variable.name)).partition(", nan ")[0]
     for name in (str(variable.name), words):  # a scanned parameter is the long name of its dimension
         if name in SHOWN:
             return axis_of(name)
