@@ -87,7 +87,9 @@ def page_of(shown: list[tuple[str, str]]) -> str:
     for i in range(0, len(shown), COLUMNS):
         row = shown[i : i + COLUMNS] + [("", "")] * (i + COLUMNS - len(shown))
         titles = " | ".join(title for _, title in row)
-        pictures = " | ".join(f"[![{title}](gallery/{name})](gallery/{name})" if name else "" for name, title in row)
+        pictures = " | ".join(
+            f"[![{re.split('[:,] ', title)[0]}](gallery/{name})](gallery/{name})" if name else "" for name, title in row
+        )
         lines += [f"| {pictures} |", "| " + " | ".join(["---"] * COLUMNS) + " |", f"| {titles} |", ""]
     return "\n".join(lines)
 
@@ -114,5 +116,5 @@ def main() -> None:
         if source.is_file():
             shrink(source, small)
         if small.is_file():
-            shown.append((small.name, re.split(r"[.:] ", text)[0].rstrip(".")))
+            shown.append((small.name, re.split(r"(?<!Eq)[.:] ", text)[0].rstrip(".")))
     (docs / "gallery.md").write_text(page_of(shown), encoding="utf-8")
