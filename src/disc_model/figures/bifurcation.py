@@ -180,7 +180,8 @@ class Branches(Plot):
             xlim=(along[0], along[-1]),
             ylim=(LOWEST * 0.8, None),
         )
-        for color, text in ((BLACK, "in contact"), (SEPARATED, "separating")):
+        separating = (study["separations"].values > 0).any() or (study["sweep_separation_rate"].values > 0).any()
+        for color, text in ((BLACK, "in contact"), (SEPARATED, "separating"))[: 1 + separating]:
             ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
         ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
         handles, labels = ax.get_legend_handles_labels()
@@ -188,7 +189,9 @@ class Branches(Plot):
             [drawing.sample(linestyle="", marker=way, color=color, **SWEEP_MARK) for way in "^v"]
             for color in (BLACK, SEPARATED, UNSETTLED)
         )
-        simulated: dict[str, Any] = {"rising": rising, "falling": falling, "separating": tuple(both)}
+        simulated: dict[str, Any] = {"rising": rising, "falling": falling}
+        if separating:
+            simulated["separating"] = tuple(both)
         swept = np.isfinite(study["sweep_range"].values)
         if (flag_names(study["sweep_settled"])[swept] != "settled").any():
             simulated["not settled, or undecided"] = tuple(pale)
@@ -213,7 +216,8 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settle
     """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
     shown = np.maximum(y, LOWEST)
     for mask, color in ((settled & ~separates, BLACK), (settled & separates, SEPARATED), (~settled, UNSETTLED)):
-        ax.plot(x[mask], shown[mask], mark, color=color, clip_on=False, **SWEEP_MARK)
+        if mask.any():  # the layout leaves room for marks that are not clipped, even for none
+            ax.plot(x[mask], shown[mask], mark, color=color, clip_on=False, **SWEEP_MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
     x, y = x[order], shown[order]
     for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(10)):
