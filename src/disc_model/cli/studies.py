@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -45,7 +47,8 @@ def study(
     snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    chosen, grids, _ = _read(files)
+    with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
+        chosen, grids, _ = _read(files)
     targets = [*(target or []), *(_figure_file(name, chosen, grids) for name in figure or [])]
     options = [*targets, f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
     command = _command(files, [*options, *shlex.split(snakemake)])
@@ -151,18 +154,30 @@ def _plan(command: list[str]) -> int:
     return done.returncode
 
 
+@contextmanager
+def _on_interrupt(handler: Any) -> Iterator[None]:
+    """Set the handler of Ctrl-C for the duration of a block."""
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _run(command: list[str]) -> int:
     """Run Snakemake and return its exit code; after Ctrl-C, wait until it has stopped its jobs and unlocked the folder.
 
     The terminal sends the signal to both processes.
     """
-    with subprocess.Popen(command) as process:
-        try:
-            return process.wait()
-        except KeyboardInterrupt:
-            process.wait()
-            typer.echo("what is finished stays: the same command continues from there", err=True)
-            return INTERRUPTED
+    interrupts: list[int] = []
+    with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
+        if interrupts:  # Ctrl-C came before the second process
+            process.send_signal(signal.SIGINT)
+        code = process.wait()
+    if not (code and interrupts):
+        return code
+    typer.echo("what is finished stays: the same command continues from there", err=True)
+    return INTERRUPTED
 
 
 def _read(files: Sequence[Path]) -> tuple[Study, Grids, tuple[str, ...]]:
