@@ -27,7 +27,6 @@ from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.errors import script
-from disc_model.paper.measures import CaseView
 from disc_model.paper.survival import MODELS
 
 ROOT = Path(__file__).parents[1]
@@ -194,10 +193,6 @@ class Sources:
 
         return sum(row.print_error == print_error for row in ROWS)
 
-    def late_force(self, name: str) -> tuple[float, float]:
-        """Range of the contact force over the last 20 s of a case, N."""
-        return CaseView(name, self.case(name)).late
-
     def evidence(self, claim: str, unit: str = "") -> list[float]:
         """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
         text = _table(self.results / "paper" / "claims.csv").set_index("id")["here"][claim]
@@ -282,11 +277,6 @@ class Sources:
         """The same with friction in the middle plane."""
         return float(self.grid("critical_speed_orthonormal")["critical_speed"].sel(N=N, horizon=500))
 
-    def crossings(self, normalization: str, effect: str = "") -> int:
-        """Number of crossings in the Campbell diagram, all or those with an effect on the cycle's growth rate."""
-        names = flag_names(self.grid("campbell").sel(normalization=normalization)["crossing_effect"])
-        return int((names == effect).sum() if effect else (names != "none").sum())
-
     def critical_energy(self, Omega: float) -> float:
         return float(self.grid("basins")["critical_energy"].sel(Omega=Omega))
 
@@ -336,11 +326,6 @@ class Sources:
 
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 
-    def largest_change(self, study: str, N: float) -> float:
-        """By how much a parameter changes the probability of instability at most."""
-        names = self.uncertain(study, N)["parameter"].values
-        return max(float(np.ptp(self.thirds(study, N, name))) for name in names)
-
     def most_changing(self, study: str, N: float) -> str:
         """The three parameters that change the probability of instability most, between thirds of their ranges."""
         names = map(str, self.uncertain(study, N)["parameter"].values)
@@ -366,12 +351,6 @@ class Sources:
         """Points without a stable cycle that do not separate, by model."""
         return [n[1] - n[0] - n[5] for n in (self.survival("Onset", model) for model in MODELS)]
 
-    def stick_shares(self) -> list[float]:
-        """Shares of stick after a separation, %, in cases in which stick does not disappear; two models."""
-        cells = [self._found("Stick vanishes", model) for model in [*MODELS][:2]]
-        shares = [float(share) for cell in cells for share in re.findall(r"([\d.]+) %", cell)]
-        return [share for share in shares if share > 0.1]
-
     def models(self, conclusion: str, verdict: str) -> int:
         """Number of models under which a conclusion has a verdict."""
         table = _table(self.results / "paper" / "survival.csv")
@@ -392,19 +371,6 @@ class Sources:
         """How many times smaller they are with separation, under all models."""
         ranges = np.concatenate([self.ranges(model) for model in MODELS])
         return ranges[:, 1] / ranges[:, 0]
-
-    def separating(self, modes: str) -> int:
-        """Number of the paper's cases that separate: "as published", or with modes by "Eq. (17)"."""
-        return int(self._cases()[f"First separation, {modes}"].str.match(r"[\d.]+ s").sum())
-
-    def bilateral_cases(self) -> int:
-        return int((self._cases()["First separation, as published"] == "ignored").sum())
-
-    def runs(self) -> int:
-        return len(self._cases())
-
-    def _cases(self) -> pd.DataFrame:
-        return _table(self.results / "paper" / "normalisation.csv")
 
     def line(self, page: str, heading: str, start: str) -> list[float]:
         """Numbers in the first row of a table of docs/ that begins as stated, below a heading."""

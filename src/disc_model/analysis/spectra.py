@@ -193,10 +193,10 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
     length, step = round(window * rate), max(1, round(hop * rate))
     if len(values) < length + 2 * step:
         raise ValueError(f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s")
-    # scale_to="magnitude": the height of a line does not depend on the window's length
     from scipy.signal import ShortTimeFFT
     from scipy.signal.windows import hann
 
+    # scale_to="magnitude": the height of a line does not depend on the window's length
     transform = ShortTimeFFT(hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude")
     centred = np.asarray(values, dtype=float) - np.mean(values)
     first, last = transform.lower_border_end[1], transform.upper_border_begin(len(centred))[1]
