@@ -112,10 +112,10 @@ test-long: $(VENV)/.bench
 
 # Lines and branches of everything. Compiled kernels are not seen, so that the engine's own tests run once more without
 # compilation; there they are Python, a thousand times slower, and tests marked `compiled` are left out.
-coverage: env
+coverage: $(VENV)/.bench
 	$(BIN)/pytest -m "not slow and not workflow" --cov --cov-report=
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -m "not slow and not workflow and not compiled" tests/engine tests/validation \
-	  tests/stability/test_return_map.py \
+	  tests/stability/test_return_map.py tests/benchmarks/test_methods.py \
 	  --cov --cov-append --cov-fail-under=95 --durations=5
 
 # The whole pipeline on a study of a few seconds.

@@ -1,27 +1,24 @@
 """The rival methods: that each is right where it should be, and wrong where it must be."""
 
-import dataclasses
+import math
 
 import numpy as np
 import pytest
 
+from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, kernels, scipy_ivp
+from disc_model.benchmarks.methods import METHODS, scipy_ivp
 from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
 from disc_model.benchmarks.work_precision import fitted_order
 from tests import needs
-from tests.benchmarks.problems import BASE, judge, task
-from tests.references.printed import MOTIONS, P, Printed
+from tests.references.printed import MOTIONS, P, Printed, lively
 
 SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
+BASE = Parameters(N=385.0, Omega=15.1)
 UP = np.sign(Physics(P).shape)
 """Amplitudes that lift the disc under the slider."""
-
-
-# ----------------------------------------------------------------------------------------------------
-# Scenes
 
 
 @pytest.mark.compiled
@@ -50,7 +47,8 @@ UP = np.sign(Physics(P).shape)
 def test_every_method_finds_all_switches(name, scene, value, allowed):
     if METHODS[name].absent():
         pytest.skip(needs.RIVALS.reason)
-    result, off = judge(name, scene, value)
+    result = METHODS[name].solve(problem(scene), value, math.inf)
+    off = scenes.errors(problem(scene), answer(scene), result)
     assert (result.outcome, result.kinds) == (RunStatus.FINISHED, answer(scene).kinds)
     assert off.event_time < allowed
     if name == "series":
@@ -58,15 +56,6 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
     if name == "series-fewest":
         assert result.work < 100
         assert result.final.a.shape == problem(scene).start.a.shape
-
-
-# ----------------------------------------------------------------------------------------------------
-# Short motions of every phase, and single switches
-
-
-def solved(name, motion, tol):
-    """What a method finds at a tolerance, or in steps that are as good."""
-    return METHODS[name].solve(motion, 2e-6 if METHODS[name].setting == "step" else tol)
 
 
 @pytest.mark.parametrize("name", SHORT)
@@ -79,9 +68,9 @@ def solved(name, motion, tol):
     ],
 )
 def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lifted):
-    motion = task(phase, direction, span, p)
-    motion = dataclasses.replace(motion, start=motion.start.replace(a=motion.start.a + lifted * UP))
-    result = solved(name, motion, 1e-9)
+    start = lively(phase, direction, p)
+    motion = Problem(p, start.replace(a=start.a + lifted * UP), span)
+    result = METHODS[name].solve(motion, 2e-6 if METHODS[name].setting == "step" else 1e-9)
     assert (result.outcome, result.kinds) == (RunStatus.FINISHED, ())
     printed = Printed(p, motion.start)
     assert bool(lifted) == (printed.force() < 0)
@@ -89,35 +78,6 @@ def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lift
     for quantity in ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"):
         size = max(np.max(np.abs(end[quantity])), 1e-12)
         np.testing.assert_allclose(getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size)
-
-
-# ----------------------------------------------------------------------------------------------------
-# The regularised model: its law, its contact, its order, its stiffness
-
-
-@pytest.mark.parametrize("direction", [1, -1])
-def test_the_penalty_acts_on_disc_and_slider_alike(direction):
-    """What the contact adds to the free motion: on the disc down, on the slider up, friction against the slip."""
-    law, start = scipy_ivp.Law(Physics(P), 0.1), task("slip", direction).start
-    y = law.start(start)
-    force = law.force(y)
-    assert force == pytest.approx(Printed(P, start).force(), rel=1e-9)
-    leaving = y + 0.1 * (np.arange(len(y)) == law.physics.v)  # the damper holds what moves away, at 0.1 m/s
-    assert law.force(leaving) == pytest.approx(force - 0.1 * law.constants[3], rel=1e-9)
-    free, physics = np.empty_like(y), law.physics
-    kernels.rate(law.modes, law.c, kernels.SEPARATION, 0, y, free)
-    added = law.rate(y) - free
-    np.testing.assert_allclose(added[physics.alpha], -physics.shape * force, rtol=1e-9)
-    assert added[physics.v] == pytest.approx(force / P.m, rel=1e-9)
-    assert added[physics.f] == pytest.approx(-direction * P.mu_k * force / (P.m * P.r_0), rel=1e-3)
-
-
-def test_the_regularised_law_has_the_static_friction_as_its_maximum():
-    law = scipy_ivp.Law(Physics(BASE), 0.1)
-    friction = [kernels.smooth_friction(law.c, law.constants, f) for f in np.linspace(-10.0, 10.0, 40_001)]
-    assert max(friction) == pytest.approx(BASE.mu_s, rel=1e-6)
-    assert friction[-1] == pytest.approx(BASE.mu_k, rel=1e-3)
-    assert friction[0] == -friction[-1]
 
 
 def test_the_regularised_model_is_of_order_two_thirds_in_eps_and_stiff_in_proportion_to_its_sharpness():

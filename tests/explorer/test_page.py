@@ -1,32 +1,129 @@
-"""The page as text: all in it, nothing fetched, nothing that breaks out of its place."""
+"""The explorer's page: what it is told of studies and motions, all in one file, and nothing fetched."""
 
 import base64
 import io
 import json
 import re
+import zlib
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+import xarray as xr
 from PIL import Image
 
-from disc_model.explorer.page import PAGE_WIDTH, PICTURE_WIDTH, Picture, page
-from tests.explorer import made_up
+from disc_model.data.variables import PHASES
+from disc_model.explorer.page import BITS, LEVELS, PAGE_WIDTH, PICTURE_WIDTH, Picture, motion_contents, page
+from disc_model.explorer.page import study_contents as contents_of
+from disc_model.studies.motions import SAMPLES, Motions
+from disc_model.studies.run import describe
 
+AXES: dict[str, list[Any]] = {"N": [100.0, 200.0, 385.0], "Omega": [5.0, 10.0, 15.1, 20.0]}
+AXES["normalization"] = ["as_published", "orthonormal"]
+FAILED = {"N": 1, "Omega": 2, "normalization": 0}
+"""Place of the one point that failed."""
+MESSAGE = 'SimulationError: </script> & "worse"'
 CAPTION = 'A curve of f < 0 & "more"'
 
 
-@pytest.fixture
-def figure(tmp_path: Path) -> Path:
-    file = tmp_path / "fig.png"
-    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(file)
-    return file
+def flagged(words: str, first: int = 0) -> dict[str, object]:
+    return {"flag_values": np.arange(first, first + len(words.split()), dtype=np.int8), "flag_meanings": words}
 
 
-@pytest.fixture
-def text(figure: Path) -> str:
-    pictures = [Picture("Sec. 1", "One", CAPTION, figure), Picture("Sec. 2", "Two", CAPTION, figure)]
-    return page("A <title>", made_up.contents(), pictures)
+def plane() -> xr.Dataset:
+    """Two axes that are numbers and one of words."""
+    place, shape = tuple(FAILED.values()), tuple(map(len, AXES.values()))
+    status, outcome, message = np.zeros(shape, np.int8), np.zeros(shape, np.int8), np.full(shape, "", dtype=object)
+    status[place], outcome[1:, 2:], message[place] = 1, 1, MESSAGE
+    growth = np.linspace(-0.2, 0.4, status.size).reshape(shape)
+    growth[place] = np.nan
+    data = {
+        "status": ([*AXES], status, flagged("ok failed")),
+        "outcome": ([*AXES], outcome - 1, flagged("quiet separation", first=-1)),
+        "growth_rate": ([*AXES], growth, {"long_name": "growth rate", "units": "s-1"}),
+        "releases": (["N", "Omega"], np.arange(12).reshape(3, 4), {"long_name": "number of releases", "units": "1"}),
+        "message": ([*AXES], message),
+    }
+    coords = {name: (name, values, describe(name)) for name, values in AXES.items()}
+    return xr.Dataset(data, coords, {"title": "A plane <b>", "quantity": "outcome", "base": json.dumps({"k": 5e4})})
+
+
+def line() -> xr.Dataset:
+    """A zip, which has no coordinate of its own."""
+    data = {"period": ("N_Omega", [0.0148, 0.02, np.nan], {"long_name": "period", "units": "s"})}
+    coords = {"N": ("N_Omega", AXES["N"], describe("N")), "Omega": ("N_Omega", [20.0, 15.1, 12.0], describe("Omega"))}
+    return xr.Dataset(data, coords, {"title": "A line"})
+
+
+def force(N: float) -> np.ndarray:
+    """The contact force of a point, N."""
+    return (N * (1 + 0.5 * np.sin(np.linspace(0, 12, SAMPLES)))).astype(np.float32)
+
+
+def motions() -> xr.Dataset:
+    """Histories at three points of the plane, one of which failed; the slider sticks, slips and is apart in turn."""
+    points = [(100.0, 5.0, "as_published"), (385.0, 20.0, "as_published"), (100.0, 5.0, "orthonormal")]
+    phase = np.repeat([1, 2, 3, 1], SAMPLES // 4).astype(np.int8)
+    rows = {"P": np.stack([force(point[0]) for point in points]), "u": np.full((3, SAMPLES), -0.0088, np.float32)}
+    rows["psi"] = np.tile(np.linspace(0, 0.05, SAMPLES, dtype=np.float32), (3, 1))
+    data = {name: (("point", "sample"), values, Motions.COLUMNS[name].attributes) for name, values in rows.items()}
+    data |= {
+        "status": ("point", np.array([0, 0, 1], np.int8), flagged("ok failed")),
+        "length": ("point", [0.03, 0.05, np.nan], {"units": "s"}),
+        "phase": (("point", "sample"), np.tile(phase, (3, 1)), flagged(" ".join(("none", *PHASES)))),
+    }
+    return xr.Dataset(
+        data, {name: ("point", list(values)) for name, values in zip(AXES, zip(*points, strict=True), strict=True)}
+    )
+
+
+def contents() -> list[dict[str, Any]]:
+    """What the page is told of both studies."""
+    return [contents_of("plane", plane(), motions(), "After the transient."), contents_of("line", line())]
+
+
+def numbers(stored: dict[str, Any], kind: str) -> np.ndarray:
+    size = np.dtype(kind).itemsize
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(stored["data"])), np.uint8).reshape(size, -1)
+    return np.frombuffer(planes.T.tobytes(), kind)
+
+
+def test_numbers_flags_and_messages_come_through() -> None:
+    """Each as its words, whatever numbers stand for them; as JSON, and with units."""
+    told, study = contents()[0], plane()
+    assert json.loads(json.dumps(told, allow_nan=False)) == told
+    variables = {variable["name"]: variable for variable in told["variables"]}
+    assert set(variables) == set(study.data_vars) - {"message"}
+    for name in ("growth_rate", "releases"):
+        values = study[name].transpose(*variables[name]["dims"])
+        found = numbers(variables[name], "<f4").reshape(values.shape)
+        np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
+    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == ("s-1", "growth rate")
+    words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
+    assert words.tolist() == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
+    text = np.array(told["messages"]["words"])[numbers(told["messages"], "<u4")].reshape(study["message"].shape)
+    assert (text == study["message"].values).all()
+    spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
+    assert told["fixed"] == [spring]
+
+
+def test_motions_are_right_to_half_a_step_and_failed_ones_are_left_out() -> None:
+    told = contents()[0]["motions"]
+    assert [motion["at"] for motion in told["points"]] == [[100, 5, "as_published"], [385, 20, "as_published"]]
+    assert {trace["name"]: trace["unit"] for trace in told["traces"]} == {"P": "N", "u": "m", "psi": "rad"}
+    assert told["points"][0]["phase"] == [[0, 1], [SAMPLES // 4, 2], [SAMPLES // 2, 3], [3 * SAMPLES // 4, 1]]
+    trace = told["traces"][0]
+    found = numbers(trace, "<u2").reshape(2, SAMPLES)
+    for i, motion in enumerate(told["points"]):
+        expected = force(motion["at"][0]).astype(float)
+        error = np.abs(trace["least"][i] + trace["step"][i] * found[i] - expected).max()
+        # half a step, and rounding of what is about 600
+        assert error <= np.ptp(expected) / LEVELS / 2 + 1e-12
+    lost = motions()
+    lost["status"][:] = 1
+    assert motion_contents(lost)["points"] == []
 
 
 class Reader(HTMLParser):
@@ -46,25 +143,19 @@ class Reader(HTMLParser):
             self.code.append(data)
 
 
-def test_nothing_is_fetched(text):
+def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
+    """Nothing is fetched; a message ends no script, and a title brings no tag."""
+    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(tmp_path / "fig.png")
+    text = page("A <title>", contents(), [Picture(f"Sec. {i}", "One", CAPTION, tmp_path / "fig.png") for i in (1, 2)])
     reader = Reader(text)
     addresses = [value for _, attrs in reader.tags for name, value in attrs.items() if name in ("src", "href")]
     assert len(addresses) >= 4
     assert all(re.match(r"data:|#", str(address)) for address in addresses)
-    assert {"script", "style"} <= {tag for tag, _ in reader.tags}
     assert not re.search(r"url\(|@import|fetch\(|XMLHttpRequest|https?://", "".join(reader.code))
-
-
-def test_texts_of_studies_stay_in_their_place(text):
-    """A message that ends a script, a title with a tag."""
-    reader = Reader(text)
-    told = json.loads(next(code for code in reader.code if code.startswith("{")))
-    assert made_up.MESSAGE in told["studies"][0]["messages"]["words"]
     assert [tag for tag, _ in reader.tags].count("script") == 2
+    told = json.loads(next(code for code in reader.code if code.startswith("{")))
+    assert MESSAGE in told["studies"][0]["messages"]["words"]
     assert "<title>A &lt;title&gt;</title>" in text
-
-
-def test_figures_have_pictures_and_captions(text):
     (data, other) = re.findall(r'src="data:image/webp;base64,([^"]+)"', text)
     assert data == other
     with Image.open(io.BytesIO(base64.b64decode(data))) as picture:

@@ -8,12 +8,8 @@ import pytest
 
 from disc_model import Execution, Window, simulate
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import kernels, taylor_heyoka
-from disc_model.benchmarks.methods.kernels import Physics
-from disc_model.data.variables import PHASES
 from disc_model.engine import layout, transitions
 from disc_model.simulation.states import engine_case, read_state, write_state
-from tests import needs
 from tests.references.printed import MOTIONS, SPAN, THETA, P, Printed, lively
 
 ACCURACY = 1e-10
@@ -111,91 +107,3 @@ def test_release_conditions_of_stick():
         assert friction == pytest.approx(side * pull, rel=1e-9)
         slipping = "slip+" if side > 0 else "slip-"
         assert first["P"] == pytest.approx(printed.literal.contact(time, y, slipping), rel=1e-9)
-
-
-# ------------------------------------------------------------------------------------------------ rival methods
-def rival_rate(phase, direction, y):
-    """What `kernels.rate` fills in."""
-    out = np.empty_like(y)
-    kernels.rate(*kernels.tables(Physics(P)), PHASES.index(phase), direction, y, out)
-    return out
-
-
-def close_rates(start, rate):
-    """The rate of a state, as a vector, against the paper's."""
-    physics, wanted = Physics(P), Printed(P, start).rates()
-    places = {name: getattr(physics, name) for name in ("a", "b", "alpha", "beta", "psi", "f", "u")}
-    # u and u' are integrated in separation only
-    names = wanted.keys() - ({"u", "u_velocity"} if start.phase != "separation" else set())
-    places |= {"u_velocity": physics.v}
-    close({name: rate[places[name]] for name in names}, wanted, 1e-12, names)
-
-
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_right_hand_sides_of_the_rival_methods(phase, direction):
-    start = lively(phase, direction)
-    close_rates(start, rival_rate(phase, direction, Physics(P).pack(start)))
-
-
-@needs.RIVALS.mark
-@pytest.mark.parametrize("contact", ["unilateral", "bilateral"])
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_heyokas_merged_formulation_is_the_literal_one(phase, direction, contact):
-    """Constants merged, products shared, one division: the paper's rates, and the conditions of the other methods."""
-    import heyoka as hy
-
-    p = P.replace(contact=contact)
-    physics, start = Physics(p), lively(phase, direction, p)
-    y = physics.pack(start)
-    rows, conditions = taylor_heyoka.system(physics, phase)
-    function = hy.cfunc([rate for _, rate in rows] + conditions, vars=[variable for variable, _ in rows])
-    given = (p.N - p.k * physics.u_0, p.Omega, direction)
-    found = function(y[: len(rows)], pars=given[: function.nparams])
-    close_rates(start, found)
-    wanted = np.empty(3)
-    count = kernels.switch_values(*kernels.tables(physics), PHASES.index(phase), direction, y, wanted)
-    np.testing.assert_allclose(found[len(rows) :], wanted[count - len(conditions) : count], rtol=1e-11)
-
-
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_jacobians_of_the_rival_methods(phase, direction):
-    """Each column is a central difference: rates are all but quadratic over its step, and rounding takes six digits."""
-    physics = Physics(P)
-    y = physics.pack(lively(phase, direction))
-    J = np.empty((len(y), len(y)))
-    kernels.jacobian(*kernels.tables(physics), PHASES.index(phase), direction, y, J)
-    for j, step in enumerate(np.maximum(1e-5 * np.abs(y), 1e-9)):
-        if phase == "stick" and j == physics.f:
-            continue  # f is zero there
-        high, low = (rival_rate(phase, direction, y + sign * step * np.eye(len(y))[j]) for sign in (1, -1))
-        column = (high - low) / (2 * step)
-        np.testing.assert_allclose(J[:, j], column, rtol=1e-5, atol=1e-7 * np.max(np.abs(column)))
-
-
-@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
-def test_points_and_forces_of_the_rival_methods(phase, direction):
-    start = lively(phase, direction)
-    physics, printed = Physics(P), Printed(P, start)
-    y, now = physics.pack(start), printed.described(0.0, printed.y)
-    modes, c = kernels.tables(physics)
-    force, F = kernels.contact(modes, c, direction, y)
-    w, velocity = kernels.disc_point(modes, y)
-    assert (F, w) == pytest.approx((printed.literal.pull(0.0, printed.y), now["w"]), rel=1e-12)
-    assert physics.disc_point(y) == pytest.approx((w, velocity), rel=1e-12)
-    assert physics.u_0 == pytest.approx(printed.literal.w_0, rel=1e-12)
-    if phase == "separation":
-        assert velocity == pytest.approx(start.u_velocity - 0.2, rel=1e-12)
-        return
-    assert velocity == pytest.approx(now["u_velocity"], rel=1e-12)
-    assert force == pytest.approx(printed.force(), rel=1e-12)
-
-
-def test_impact_of_the_rival_methods():
-    start = lively("separation")
-    physics, printed = Physics(P), Printed(P, start)
-    expected = printed.described(0.0, printed.literal.impact(printed.y))
-    y = physics.pack(start)
-    kernels.switch(*kernels.tables(physics), PHASES.index("separation"), 0, y, np.zeros(2, np.int64))
-    got = {name: y[getattr(physics, name)] for name in ("a", "b", "alpha", "beta", "psi", "f")}
-    close(got, expected, 1e-12, got)
-    assert physics.disc_point(y)[1] == pytest.approx(expected["u_velocity"], rel=1e-12)
