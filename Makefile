@@ -51,7 +51,6 @@ explore: env
 orthonormal: reproduce
 	$(BIN)/snakemake -j$(CORES) --configfile config/paper.yaml config/paper_orthonormal.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/normalisation.html
-	cp results/paper/normalisation.md docs/normalisation.md
 
 # What survives of the paper's conclusions under other models of disc and contact: some minutes, mostly to compile.
 survival: env

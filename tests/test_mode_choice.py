@@ -39,7 +39,7 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Measured:
 
 def test_every_quantity_but_frequencies_is_measured() -> None:
     assert {*mode_choice.MEASURES, FREQUENCIES} == CHOSEN_BY.keys()
-    table = (Path(__file__).parents[1] / "docs" / "truncation.md").read_text(encoding="utf-8")
+    table = (Path(__file__).parents[1] / "docs" / "options.md").read_text(encoding="utf-8")
     assert all(f"| `{name}`" in table for name in CHOSEN_BY)
 
 

@@ -1,4 +1,4 @@
-"""Effect of truncation on the results of a study, with rigid contact and residual flexibility: docs/truncation.md."""
+"""Effect of truncation on the results of a study, with rigid contact and residual flexibility: docs/options.md."""
 
 import json
 import math

@@ -2,7 +2,7 @@
 
 A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. Its multipliers give the
 outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else within the
-horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/algorithms.md,
+horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/method.md,
 Regions, describes. Neutral curves and folds are thus resolved point by point, borders of separation to the grid's own
 intervals. In an undivided cell, points not decided by multipliers take the outcome of the simulated ones.
 """

@@ -1,6 +1,6 @@
 """Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-A motion is followed in legs of some seconds, as docs/algorithms.md, Settled motions, describes.  A motion that
+A motion is followed in legs of some seconds, as docs/method.md, Settled motions, describes.  A motion that
 stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
 the motion might only be passing an unstable one, and the record must show that the motion has settled
 (`disc_model.analysis.settling`).

@@ -1,6 +1,6 @@
 """The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
 
-The search is a machine whose `Stage` says what is known of the motion; docs/algorithms.md, Regions, describes the
+The search is a machine whose `Stage` says what is known of the motion; docs/method.md, Regions, describes the
 conclusions and the simulations. The static start is a point of the section of `disc_model.stability.return_map`, and
 usually lies near the cycle that Newton's method finds from it.
 """
