@@ -3,7 +3,7 @@
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.engine import layout, saltation, tangent, variational
+from disc_model.engine import event_loop, layout, saltation, tangent
 from disc_model.simulation.states import State, engine_case, series_order, write_state
 
 
@@ -49,5 +49,5 @@ class Full:
 
     def fly(self, duration, tangent=True):
         limits = (self.order, self.tol, 2.0, duration, 0)
-        course = variational.IntegrationLimits(*limits, may_separate=True, tangent=tangent)
-        return variational.integrate(self.model, self.series, self.state, self.tangent, course)
+        course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=tangent)
+        return event_loop.integrate(self.model, self.series, self.state, self.tangent, course)

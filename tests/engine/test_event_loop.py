@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
-from disc_model.engine import exit_codes, layout, transitions
+from disc_model.engine import layout, transitions
 from disc_model.errors import DiscModelError
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
@@ -61,11 +61,11 @@ def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
 
 def test_flights_say_how_they_end() -> None:
     map_, x = wild()
-    assert outcome(map_, map_.static) == exit_codes.RETURNED
-    assert outcome(map_, x) == exit_codes.STOPPED
-    assert outcome(map_, x, may_separate=True) == exit_codes.RETURNED
-    assert outcome(map_, -5 * map_.static) == exit_codes.OFF_SECTION  # P would be negative
-    assert outcome(map_, np.full(map_.size, math.nan)) != exit_codes.RETURNED
+    assert outcome(map_, map_.static) == transitions.RETURNED
+    assert outcome(map_, x) == transitions.STOPPED
+    assert outcome(map_, x, may_separate=True) == transitions.RETURNED
+    assert outcome(map_, -5 * map_.static) == transitions.OFF_SECTION  # P would be negative
+    assert outcome(map_, np.full(map_.size, math.nan)) != transitions.RETURNED
 
 
 def test_a_flight_into_a_paradox_has_no_solution() -> None:
@@ -74,16 +74,16 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
     x = map_.static.copy()
     # coordinates: a, b of the pair, then their velocities, then the axisymmetric mode
     x[1] = start.b[1] * map_.scale[1]
-    assert outcome(map_, x) == exit_codes.NO_SOLUTION
+    assert outcome(map_, x) == transitions.NO_SOLUTION
     slipping = start.replace(phase="slip", direction=1, f=10.0)
-    assert map_.next_release(slipping)[0] == exit_codes.NO_SOLUTION
+    assert map_.next_release(slipping)[0] == transitions.NO_SOLUTION
 
 
 def test_a_flight_that_overflows_is_not_finite() -> None:
     map_ = ReturnMap(P)
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
-        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == exit_codes.NON_FINITE
+        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == transitions.NON_FINITE
 
 
 @pytest.mark.parametrize(("gap", "known"), [(1e-16, 1), (1e-13, 0)])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
-from disc_model.engine import dense_output, layout, series, stick_modes, stick_propagator
+from disc_model.engine import dense_output, layout, series, stick_modes
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
@@ -23,8 +23,8 @@ COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 
 
 def _propagate(model: layout.Model, s: layout.Series, state: layout.EngineState, x: float) -> float:
-    length = stick_propagator.closed_form_length(model, s, state)
-    stick_propagator.propagate_stick(model, s, x, state)
+    length = dense_output.closed_form_length(model, s, state)
+    dense_output.propagate_stick(model, s, x, state)
     return float(length)
 
 
@@ -98,10 +98,10 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     model = engine_case(p).model
     s, state = layout.build_series(model, ORDER), _lively(model, seed)
     length = _propagate(model, s, state, 0.0)
-    assert stick_propagator.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
+    assert dense_output.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
     swing, lowest = 0.0, np.inf
     for x in np.linspace(0.0, length, 500):
-        stick_propagator.propagate_stick(model, s, x, state)
+        dense_output.propagate_stick(model, s, x, state)
         P = stick_force(model, state)
         pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
         lowest = min(lowest, p.mu_s * P - abs(pull))

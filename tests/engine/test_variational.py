@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import exit_codes, saltation, tangent, transitions
+from disc_model.engine import saltation, tangent, transitions
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
@@ -169,7 +169,7 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
         return flat(run.state())
 
     engine, sizes = disturbances.run(), disturbances.sizes
-    assert engine.fly(float(span)) == exit_codes.TIME_OVER
+    assert engine.fly(float(span)) == transitions.TIME_OVER
     ends = {"at rest": tangent.STICKS, "reversal": tangent.REVERSALS, "release": tangent.RELEASES}
     ends |= {"release backwards": tangent.BACK_RELEASES, "impact": None}
     counted = ends.get(switch.removesuffix(", slip backwards"), tangent.SEPARATIONS)

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine import exit_codes
+from disc_model.engine import transitions
 from disc_model.simulation.states import State
 from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes, split_rows
 from tests.contact_laws import ALL_LAWS, COMPILES
@@ -50,7 +50,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     assert sliding.message.startswith(f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = ")
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
-    assert run.fly(duration) == exit_codes.TIME_OVER
+    assert run.fly(duration) == transitions.TIME_OVER
     np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
     flow = np.linalg.eigvals(run.columns)
     expected = np.exp(sliding.eigenvalues * duration)

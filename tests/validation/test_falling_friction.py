@@ -6,7 +6,7 @@ import pytest
 from disc_model import Execution, ParameterError, Parameters, continue_cycle, floquet, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
-from disc_model.engine import exit_codes
+from disc_model.engine import transitions
 from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import FALLING
 from tests.references import stored, taylor
@@ -98,7 +98,7 @@ def test_a_friction_limit_that_is_only_touched_releases_nothing():
         x = map_.static.copy()
         x[map_.size // 2 :] += velocity * map_.deflection
         outcomes.append(map_.evaluate(x, tangent=False).outcome)
-    assert outcomes == [exit_codes.RETURNED, exit_codes.OFF_SECTION]
+    assert outcomes == [transitions.RETURNED, transitions.OFF_SECTION]
     assert floquet(p).status == "no_cycle"
 
 

@@ -1,5 +1,5 @@
 """The event-driven engine: kernels on floats and arrays only."""
 
-from . import event_loop, variational  # and with them all that is compiled
+from . import event_loop  # and with it all that is compiled
 
-__all__ = ["event_loop", "variational"]
+__all__ = ["event_loop"]

@@ -1,16 +1,128 @@
-"""State and contact force at a point of the dense output."""
+"""State and contact force anywhere in a step: from the series or, in stick, in closed form; uniform samples of both.
+
+Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` the contact force stays within
+|P - N| <= sum gain_i |q_i|.  The growing spring force reaches the friction limit mu_s P at the earliest where it meets
+mu_s (N - that sum).  Until then the state follows without steps.  The series then find the release.
+
+A sample at an event shows the side before it.  The time of an event is rounded, and differently on another way to the
+same event. A sample is therefore "at" an event up to `SAME_INSTANT` of the clock after it.
+"""
+
+import math
 
 from . import layout
-from .jit import inlined
-from .jit.simd import WIDTH, fma, load, splat, store
-from .layout import DRIVE_SERIES, LOAD_SERIES, ROWS, E
+from .jit import helper, inlined
+from .jit.simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
+from .layout import DRIVE_SERIES, LOAD_SERIES, PHASE, PSI, ROWS, STICK, U_VELOCITY, E, F, U
 from .polynomial import dot, set_powers
 from .series import lane_count
-from .stick_propagator import propagate_stick
-from .transitions import force_in_stick, stick_force
+from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
+from .transitions import disc_point, force_in_stick, stick_force
 
 # In place of a series' order where stick has a closed form instead.
 CLOSED_FORM = 0
+# The closed form saves time from about the length of a usual step (time units).
+SHORTEST_STICK = 5.0
+# Columns of a row of samples.
+ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
+
+# Of the clock: 256 units of rounding.  A release found by the series is rounded at each step, and deviates by up to 80
+# such units within 400 steps.
+SAME_INSTANT = 256 * 2.0**-52
+
+
+@helper
+def _enter_modes(model, disc, states, spring, amplitudes):
+    """Modal amplitudes of a disc under F = ``spring``, into ``amplitudes``.  Returns the bound on abs(P - N)."""
+    modes = model.modes
+    n, width, swing = len(modes.gain), len(modes.offset), 0.0
+    for b in range(0, width, WIDTH):
+        q = load(modes.offset, b)
+        if model.coupled:
+            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
+            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
+        for j in range(states):
+            q = fma(spread(disc, j), load(modes.enter, j * width + b), q)
+        store(amplitudes, b, q)
+    for i in range(n):
+        swing += modes.gain[i] * math.sqrt(amplitudes[i] ** 2 + amplitudes[n + i] ** 2)
+    return swing
+
+
+@inlined
+def _times(ar, ai, br, bi):
+    """Product of two complex numbers in every lane."""
+    return sub(mul(ar, br), mul(ai, bi)), fma(ar, bi, mul(ai, br))
+
+
+@helper
+def _leave_modes(model, amplitudes, x, spring, disc):
+    """The disc at ``x`` (time units) after ``amplitudes``, under F = ``spring`` there.
+
+    exp(lambda x) is taken from its series and tabled powers.
+    """
+    modes = model.modes
+    n, length = len(modes.gain), len(disc)
+    quanta = int(x / QUANTUM)
+    rest = splat(x - quanta * QUANTUM)
+    for b in range(0, n, WIDTH):
+        re, im = mul(load(modes.decay, b), rest), mul(load(modes.turn, b), rest)
+        er, ei = splat(1.0), splat(0.0)
+        for k in range(DEGREE, 0, -1):
+            er, ei = _times(mul(splat(1.0 / k), re), mul(splat(1.0 / k), im), er, ei)
+            er = add(splat(1.0), er)
+        qr, qi = _times(er, ei, load(amplitudes, b), load(amplitudes, n + b))
+        at, left = b, quanta
+        while left > 0:
+            if left % 2 == 1:
+                qr, qi = _times(qr, qi, load(modes.powers, at), load(modes.powers, at + n))
+            at += 2 * n
+            left //= 2
+        store(amplitudes, 2 * n + b, qr)
+        store(amplitudes, 3 * n + b, qi)
+    for b in range(0, length, WIDTH):
+        v = load(modes.rest, b)
+        if model.coupled:
+            v = fma(splat(model.r_0 * spring), load(modes.friction_rest, b), v)
+            v = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_rest, length + b), v)
+        for i in range(2 * n):
+            v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
+        store(disc, b, v)
+
+
+@inlined
+def closed_form_length(model, s, state):
+    """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be worth it."""
+    if len(model.modes.gain) == 0:
+        return 0.0
+    states = 2 * (len(model.shift) + len(model.mode_amplitude0))
+    if model.compliant:
+        state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
+        states += 2
+    spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
+    swing = _enter_modes(model, state.disc, states, spring, s.amplitudes)
+    s.psi[0] = state.x[PSI]
+    friction = model.mu_s * (model.N - swing) / model.r_0
+    # the spring force only grows, so that a backward release is impossible if it is impossible now
+    if not abs(spring) < friction:
+        return 0.0
+    growth = model.k_p * model.Omega * model.unit
+    if growth * LONGEST_STICK <= friction - spring:
+        return LONGEST_STICK
+    x = (friction - spring) / growth
+    return x if x >= SHORTEST_STICK else 0.0
+
+
+@inlined
+def propagate_stick(model, s, x, state):
+    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
+    psi = s.psi[0] + model.Omega * model.unit * x
+    _leave_modes(model, s.amplitudes, x, model.k_p * psi + model.c_p * model.Omega, state.disc)
+    if model.compliant:
+        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
+        state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
+    state.x[PHASE], state.x[F] = STICK, 0.0
+    state.x[PSI] = psi
 
 
 @inlined
@@ -85,3 +197,59 @@ def load_state(model, s, state):
     if model.ramped:
         s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], model.Omega_rate * model.unit
         s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], model.N_rate * model.unit
+
+
+@helper
+def point_motion(model, state, angle):
+    """Displacement and velocity of the disc's point (r_0, slider's angle + ``angle``)."""
+    w, velocity = 0.0, 0.0
+    for j in range(len(model.shift)):
+        if j % layout.WIDTH < layout.HALF:
+            turn = model.shift[j] * angle
+            cosine, sine = math.cos(turn), math.sin(turn)
+            w += model.mode_amplitude[j] * (state.z[j] * cosine + state.z[j + layout.HALF] * sine)
+            velocity += model.mode_amplitude[j] * (state.e[j] * cosine + state.e[j + layout.HALF] * sine)
+    for j in range(len(model.mode_amplitude0)):
+        w += model.mode_amplitude0[j] * state.y[j]
+        velocity += model.mode_amplitude0[j] * state.g[j]
+    return w, velocity
+
+
+@helper
+def _write_row(model, s, order, x, time, phase, theta, probe, row):
+    move_to(model, s, order, x, phase, probe)
+    w, velocity, _ = disc_point(model, probe)
+    angle = theta - (layout.drive_angle(model, time) - probe.x[layout.PSI])
+    row[1] = time
+    row[2] = force_at(model, s, order, phase, probe)
+    row[3], row[4], row[5] = w, velocity, w
+    if model.compliant or phase == layout.SEPARATION:
+        row[3], row[4] = probe.x[layout.U], probe.x[layout.U_VELOCITY]
+    row[6], row[7] = point_motion(model, probe, angle)
+    row[8] = probe.x[layout.PSI]
+    row[9] = layout.drive_now(model, probe) - probe.x[layout.F]
+    row[10] = phase
+
+
+@helper
+def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
+    """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
+
+    A sample at the end of the step, to rounding, belongs to this step: at an event it shows the side before. samplers:
+    shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,), samples
+    taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
+    """
+    start, low = state.x[layout.TIME], state.x[layout.TIME_LOW]
+    last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)
+    for i in range(len(samplers)):
+        while progress[i] < samplers[i, 2]:
+            # the last sample may lie a rounding error behind the end of the run
+            time = min(samplers[i, 0] + progress[i] * samplers[i, 1], samplers[i, 4])
+            x = ((time - start) - low) / model.unit
+            if x > last:
+                break
+            rows[filled, 0] = i
+            _write_row(model, s, order, max(x, 0.0), time, state.x[layout.PHASE], samplers[i, 3], probe, rows[filled])
+            filled += 1
+            progress[i] += 1
+    return filled

@@ -1,8 +1,8 @@
 """The event loop: expand the series, find the first event, move there, change phase, record; until the end.
 
 A `run` records the motion, and returns when a buffer is full: memory does not grow with the simulated time, and callers
-can show progress.  Pauses have no influence on results.  Elsewhere the same loop takes small changes along with the
-motion instead, and records nothing but counts: see ``variational``.
+can show progress.  Pauses have no influence on results.  An integration takes small changes along with the motion
+instead, to a time or back to a section, and records nothing but counts.
 """
 
 from typing import NamedTuple
@@ -11,15 +11,26 @@ import numpy as np
 
 from . import layout, transitions
 from .audit import SURFACE, audit_impact, audit_step, surface_velocity, transverse_energy
-from .dense_output import CLOSED_FORM, move_to
-from .exit_codes import CONSISTENT, NO_SOLUTION, NON_FINITE, PAUSED, STALLED, STEP_LIMIT, STOPPED, TIME_OVER
-from .jit import inlined, kernel
-from .saltation import pass_event
-from .sampling import sample_step
+from .dense_output import CLOSED_FORM, LONGEST_STICK, closed_form_length, move_to, sample_step
+from .jit import helper, inlined, kernel
+from .jit.packing import packed
+from .jit.simd import WIDTH, mul, splat, store
+from .laws import PSI_ENTRY, TINY, stepped
+from .saltation import count_event, event_change, event_gradient, event_times, pass_event, rates, slider_rows
 from .series import weakening
 from .stepping import advance_time, expand, first_event, set_course, step_size
-from .stick_propagator import LONGEST_STICK, closed_form_length
-from .tangent import take_step
+from .tangent import slider_row, take_step
+from .transitions import (
+    CONSISTENT,
+    NO_SOLUTION,
+    NON_FINITE,
+    OFF_SECTION,
+    PAUSED,
+    STALLED,
+    STEP_LIMIT,
+    STOPPED,
+    TIME_OVER,
+)
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -51,17 +62,39 @@ class Limits(NamedTuple):
     audit_every: int  # steps
 
 
+class IntegrationLimits(NamedTuple):
+    """End and accuracy of an integration."""
+
+    order: int  # of the series
+    tolerance: float  # of the series
+    longest: float  # step, time units: columns are rougher than the motion that sizes the steps; see ``longest_step``
+    t_max: float  # s, of the flight
+    releases: int  # it ends where stick is released forwards for that time; 0: at ``t_max``
+    may_separate: bool  # if not, a loss of contact ends it
+    tangent: bool  # whether the columns travel along
+
+
 class RunBuffers(NamedTuple):
     """Outputs of a run beside its state."""
 
     counters: np.ndarray  # shape (N_COUNTERS,)
     phase_times: np.ndarray  # s, shape (3,)
     audit: np.ndarray  # see ``audit``
-    samplers: np.ndarray  # see ``sampling``
-    sampled: np.ndarray  # see ``sampling``
-    sample_rows: np.ndarray  # see ``sampling``
+    samplers: np.ndarray  # see ``dense_output.sample_step``
+    sampled: np.ndarray  # see ``dense_output.sample_step``
+    sample_rows: np.ndarray  # see ``dense_output.sample_step``
     sample_capacity: int  # rows that may be filled before the machine pauses
     event_rows: np.ndarray  # shape (capacity, len(EVENT_ROW)); capacity 0 keeps no events
+
+
+@packed
+class Section(NamedTuple):
+    """Points of the section "stick is about to be released forwards", n coordinates each, and the map's Jacobian."""
+
+    rows: np.ndarray  # (n,), where each coordinate stands in a column
+    scale: np.ndarray  # (n,), coordinate over the state's entry
+    end: np.ndarray  # (n,)
+    jacobian: np.ndarray  # (n, columns)
 
 
 @inlined
@@ -137,16 +170,8 @@ def _advance_clock(model, state, order, x_end, dt):
 
 
 @inlined
-def _full(buffers):
-    """Whether a buffer lacks room for the output of a step."""
-    counters, rows = buffers.counters, len(buffers.event_rows)
-    events = rows > 0 and counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
-    return events or counters[SAMPLE_ROWS] > buffers.sample_capacity
-
-
-@inlined
 def follow(model, s, state, probe, limits, buffers, t):
-    """Advance ``state`` until a reason to return: see ``exit_codes``.
+    """Advance ``state`` until a reason to return: see the exit codes in ``transitions``.
 
     The motion is recorded in ``buffers``; or ``t`` is a tuple of one `Tangent`, which takes counts and small changes,
     and ``limits`` are `IntegrationLimits`. The compiler drops the branches of the other use. ``probe`` is a work state.
@@ -159,7 +184,9 @@ def follow(model, s, state, probe, limits, buffers, t):
         if len(t) == 0:
             if buffers.counters[STEPS] >= limits.max_steps:
                 return STEP_LIMIT
-            if _full(buffers) or buffers.counters[STEPS] >= pause:
+            rows = len(buffers.event_rows)
+            full = rows > 0 and buffers.counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
+            if full or buffers.counters[SAMPLE_ROWS] > buffers.sample_capacity or buffers.counters[STEPS] >= pause:
                 return PAUSED
             left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
             if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
@@ -217,3 +244,99 @@ def follow(model, s, state, probe, limits, buffers, t):
 def run(model, s, state, probe, limits, buffers):
     """Advance ``state`` and record the motion: see `follow`.  Returns the exit code."""
     return follow(model, s, state, probe, limits, buffers, ())
+
+
+# ----------------------------------------------------------------------------------------------------
+# Integration with derivatives: from phase to phase, and back to a section
+
+
+@inlined
+def _entry_at(model, state, row):
+    """Array and index of the entry of a state that stands at ``row`` of a column."""
+    slider = row - slider_row(model, layout.PSI)
+    return (state.disc, row) if slider < 0 else (state.x, layout.PSI + slider)
+
+
+@kernel
+def release_angle(model, state):
+    """psi at a forward release; the event function is linear in it."""
+    i, _ = transitions.instant(model, state)
+    margin = transitions.event_function(model, stepped(i, PSI_ENTRY), transitions.RELEASE_FORWARD, False)
+    return i.psi - margin.real / (margin.imag / TINY)
+
+
+@helper
+def _leave_section(model, s, state, t, course, section, start):
+    """Put state and, if requested, columns just after the release at ``start``.  Returns CONSISTENT or an exit code."""
+    rows, scale = section.rows, section.scale
+    t.log[:] = 0.0
+    state.x[:] = 0.0
+    for i in range(len(rows)):
+        entries, at = _entry_at(model, state, rows[i])
+        entries[at] = start[i] / scale[i]
+    state.x[layout.PHASE] = layout.STICK
+    if not transitions.stick_force(model, state) > 0.0:
+        return OFF_SECTION
+    state.x[layout.PSI] = release_angle(model, state)
+    if course.tangent:
+        t.now[:] = 0.0
+        for i in range(len(rows)):
+            t.now[((i // WIDTH) * t.rows + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
+        event_gradient(model, state, t, transitions.RELEASE_FORWARD)
+        by_psi = splat(-1.0 / t.gradient[PSI_ENTRY])
+        for c in range(0, t.columns, WIDTH):
+            dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
+            store(t.now, c * t.rows + slider_row(model, layout.PSI) * WIDTH, dpsi)
+    if not transitions.friction_drops(model):
+        # then slip begins only where the friction limit falls below the pull, and does not just touch it
+        rates(model, state, t.before)
+        if not event_times(model, state, t, transitions.RELEASE_FORWARD, False) < 0.0:
+            return OFF_SECTION
+    if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == NO_SOLUTION:
+        return NO_SOLUTION
+    # the release itself belongs to the integration that ended here
+    count_event(state, transitions.NOTHING, t.log)
+    if state.x[layout.PHASE] == layout.SEPARATION and not course.may_separate:
+        return STOPPED
+    if course.tangent:
+        slider_rows(model, state, t)
+    return CONSISTENT
+
+
+@kernel
+def _flight(model, s, state, t, course, section, start, from_section):
+    """Common part of ``integrate`` and ``section_map``: separately, each would compile nearly the whole engine."""
+    if from_section:
+        outcome = _leave_section(model, s, state, t, course, section, start)
+        if outcome != CONSISTENT:
+            return outcome
+    outcome = follow(model, s, state, state, course, None, (t,))
+    for i in range(len(section.rows)):
+        entries, place = _entry_at(model, state, section.rows[i])
+        section.end[i] = entries[place] * section.scale[i]
+        if course.tangent:
+            for c in range(t.columns):
+                at = ((c // WIDTH) * t.rows + section.rows[i]) * WIDTH + c % WIDTH
+                section.jacobian[i, c] = t.now[at] * section.scale[i]
+    return outcome
+
+
+_NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0, 0)))
+
+
+def integrate(model, s, state, t, course):
+    """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
+
+    At the last release the columns are projected onto the section (their event time is t.tau, the state still in
+    stick). An integration that ends at ``t_max`` is not projected.  ``t.log`` is incremented.
+    """
+    return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)
+
+
+def section_map(model, s, state, t, course, section, start):
+    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
+
+    A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
+    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns the exit code; ``t.log`` is set.
+    """
+    return _flight(model, s, state, t, course, section, start, True)

@@ -7,12 +7,11 @@ time, J the Jacobian of the jump and v the rates before and after,
 """
 
 from . import laws, tangent, transitions
-from .exit_codes import CONSISTENT, NO_SOLUTION, RETURNED
 from .jit import helper, inlined, kernel
 from .jit.simd import WIDTH, fma, load, mul, splat, store, sub, total
 from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, STICK, U_VELOCITY, F, U
 from .tangent import N_SCALARS, point_change, slider_row
-from .transitions import change_phase, disc_point, event_function, instant
+from .transitions import CONSISTENT, NO_SOLUTION, RETURNED, change_phase, disc_point, event_function, instant
 
 # An event function passed its root before the phase began if it did so earlier than this, in radians of the fastest
 # motion: less is rounding of the time at which a motion was cut.

@@ -100,20 +100,9 @@ def _row(model, row, b):
 
 
 @inlined
-def _z(s, at):
-    """Block of displacements at index ``at`` = order * width + block."""
-    return load(s.modes, at)
-
-
-@inlined
 def _e(s, width, at):
-    """Block of velocities."""
+    """Block of velocities at index ``at`` = order * width + block, where that of displacements is ``s.modes[at]``."""
     return load(s.modes, E * width + at)
-
-
-@inlined
-def _set_z(s, at, v):
-    store(s.modes, at, v)
 
 
 @inlined
@@ -143,7 +132,7 @@ def _modal_sum(model, s, row, k):
     """Sum of a row of the model times row k of ``Series.modes``: displacements of order k, or velocities from E on."""
     width, lanes = lane_count(model), splat(0.0)
     for b in range(0, width, WIDTH):
-        lanes = fma(_row(model, row, b), _z(s, k * width + b), lanes)
+        lanes = fma(_row(model, row, b), load(s.modes, k * width + b), lanes)
     return total(lanes)
 
 
@@ -167,7 +156,7 @@ def _products(s, width, b, k, f_high, e_low, z_low):
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
         f_low = spread(s.slider, F_SERIES + k - i)
-        e, z = _e(s, width, at), _z(s, at + width)
+        e, z = _e(s, width, at), load(s.modes, at + width)
         e_low, z_low = fma(f_low, e, e_low), fma(f_low, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
         f_high = f_low
@@ -185,10 +174,10 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
         f_mid, f_low = spread(s.slider, F_SERIES + k - i), spread(s.slider, F_SERIES + k - i - 1)
-        e, z = _e(s, width, at), _z(s, at + width)
+        e, z = _e(s, width, at), load(s.modes, at + width)
         e_low, z_low = fma(f_mid, e, e_low), fma(f_mid, z, z_low)
         e_high, z_high = fma(f_high, e, e_high), fma(f_high, z, z_high)
-        e, z = _e(s, width, at + width), _z(s, at + 2 * width)
+        e, z = _e(s, width, at + width), load(s.modes, at + 2 * width)
         e_low2, z_low2 = fma(f_low, e, e_low2), fma(f_low, z, z_low2)
         e_high2, z_high2 = fma(f_mid, e, e_high2), fma(f_mid, z, z_high2)
         f_high = f_low
@@ -208,13 +197,13 @@ def _inner_terms(s, width, b, k, e_last, z_last):
         e_low, z_low = _kept(s, _E_HIGH, width, b), _kept(s, _Z_HIGH, width, b)
         if k > 2:
             f = splat(s.slider[F_SERIES + k - 1])
-            e_low, z_low = fma(f, _e(s, width, width + b), e_low), fma(f, _z(s, 2 * width + b), z_low)
+            e_low, z_low = fma(f, _e(s, width, width + b), e_low), fma(f, load(s.modes, 2 * width + b), z_low)
         f = splat(s.slider[F_SERIES + 1])
         return fma(f, e_last, e_low), fma(f, z_last, z_low)
     e_high, z_high = e_low, z_low
     if k > 1:
         f = splat(s.slider[F_SERIES + k - 1])
-        e_low, z_low = mul(f, _e(s, width, width + b)), mul(f, _z(s, 2 * width + b))
+        e_low, z_low = mul(f, _e(s, width, width + b)), mul(f, load(s.modes, 2 * width + b))
         if ONE_REGISTER:
             e_low, z_low, e_high, z_high = _products_apart(s, width, b, k, f, e_low, z_low)
         else:
@@ -247,14 +236,14 @@ def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
     shift, damping, at = _row(model, SHIFT, b), _row(model, DAMPING, b), k * width + b
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
     e = fma(push, _kept(s, _PUSHED, width, b) if model.coupled else _row(model, FORCES, b), e)
-    turned = swap_halves(fma(f, _z(s, b), carried))
+    turned = swap_halves(fma(f, load(s.modes, b), carried))
     z_next = mul(fma(shift, turned, e), up)
-    carried = fma(first, z_next, fma(f, _z(s, width + b), z_inner))
+    carried = fma(first, z_next, fma(f, load(s.modes, width + b), z_inner))
     free = fma(_row(model, STIFFNESS, b), z_last, mul(damping, e))
     turned = swap_halves(fma(first, e, fma(f, _e(s, width, b), e_inner)))
     e_next = mul(sub(mul(shift, turned), free), up)
     _set_e(s, width, at, e)
-    _set_z(s, at + width, z_next)
+    store(s.modes, at + width, z_next)
     return part, _pending(s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
 
 
@@ -262,7 +251,7 @@ def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
 def _order_from_memory(model, s, width, b, k, f, f0, push):
     """As ``_order`` for the blocks after the first, whose values are not kept in registers between orders."""
     at, carried = k * width + b, _kept(s, _CARRIED, width, b)
-    e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), _z(s, at)
+    e, e_last, z_last = _e(s, width, at), _e(s, width, at - width), load(s.modes, at)
     part, pending, e, carried, _, _ = _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last)
     _set_e(s, width, at + width, e)
     _keep(s, _CARRIED, width, b, carried)
@@ -274,13 +263,13 @@ def _order_zero(model, s, width, b, f0, braked):
     """One block of order 0: finds z_1, and e_1 without P_0.  Returns what it leaves pending for order 1."""
     if model.coupled:
         _keep(s, _PUSHED, width, b, mul(low_halves(splat(1.0), splat(braked)), _row(model, FORCES, b)))
-    shift, z, e = _row(model, SHIFT, b), _z(s, b), _e(s, width, b)
+    shift, z, e = _row(model, SHIFT, b), load(s.modes, b), _e(s, width, b)
     first, up = splat(f0), splat(s.slider[UP])
     z_next = mul(fma(first, mul(shift, swap_halves(z)), e), up)
     bound = fma(_row(model, DAMPING, b), e, mul(_row(model, STIFFNESS, b), z))
     e_next = mul(sub(mul(first, mul(shift, swap_halves(e))), bound), up)
     carried = mul(first, z_next)
-    _set_z(s, width + b, z_next)
+    store(s.modes, width + b, z_next)
     _set_e(s, width, width + b, e_next)
     _keep(s, _CARRIED, width, b, carried)
     minus_force_damping = _row(model, MINUS_AMPLITUDE_DAMPING, b)
@@ -328,16 +317,16 @@ def _begin_orders(model, s, f0, braked):
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
     for b in range(0, width, WIDTH):
         pending = add(pending, _order_zero(model, s, width, b, f0, braked))
-        z, e = _z(s, b), _e(s, width, b)
+        z, e = load(s.modes, b), _e(s, width, b)
         now = add(now, _pending(s, width, b, e, z, zero))
         by_e = fma(_row(model, DW_DTHETA, b), e, by_e)
         by_z = fma(_row(model, BEND, b), z, by_z)
-        by_z1 = fma(_row(model, DW_DTHETA, b), _z(s, width + b), by_z1)
+        by_z1 = fma(_row(model, DW_DTHETA, b), load(s.modes, width + b), by_z1)
     coriolis = total(by_e)
     by_f, by_f_rate = coriolis + f0 * total(by_z), total(by_z1)
     # C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - coriolis)
-    first = _e(s, width, width), _kept(s, _CARRIED, width, 0), _e(s, width, 0), _z(s, width)
+    first = _e(s, width, width), _kept(s, _CARRIED, width, 0), _e(s, width, 0), load(s.modes, width)
     return acceleration, pending, by_f, by_f_rate, first
 
 
@@ -484,7 +473,7 @@ def _stick_order(model, s, b, k, push, e, z):
     z_next = mul(e, up)
     e_next = sub(splat(0.0), mul(fma(damping, e, mul(_row(model, STIFFNESS, b), z)), up))
     _set_e(s, width, at, e)
-    _set_z(s, at + width, z_next)
+    store(s.modes, at + width, z_next)
     _set_e(s, width, at + width, e_next)
     return _stick_pending(model, b, e_next, z_next), e_next, z_next
 
@@ -520,14 +509,14 @@ def stick_series(model, s, order):
     by_force = inverse * (model.m * model.damped_inverse_mass - model.c * model.inverse_effective_mass)
     pending, impulse, friction, vertical = zero, 0.0, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     for b in range(0, width, WIDTH):
-        pending = add(pending, _stick_pending(model, b, _e(s, width, b), _z(s, b)))
-    e_first, z_first = _e(s, width, 0), _z(s, 0)
+        pending = add(pending, _stick_pending(model, b, _e(s, width, b), load(s.modes, b)))
+    e_first, z_first = _e(s, width, 0), load(s.modes, 0)
     for k in range(order):
         push = _push(model, impulse, friction)
         more, e_first, z_first = _stick_order(model, s, 0, k, push, e_first, z_first)
         part, pending = pending, more
         for b in range(WIDTH, width, WIDTH):
-            more, _, _ = _stick_order(model, s, b, k, push, _e(s, width, k * width + b), _z(s, k * width + b))
+            more, _, _ = _stick_order(model, s, b, k, push, _e(s, width, k * width + b), load(s.modes, k * width + b))
             pending = add(pending, more)
         single, up = _axisymmetric(model, s, k, impulse), s.slider[UP + k]
         modes = total(part)
@@ -613,15 +602,6 @@ def _slope(model, s, k):
 
 
 @inlined
-def _disc_velocity(model, s):
-    """Order 0 of the disc's velocity under the slider, without f_0 B."""
-    v = _modal_sum(model, s, AMPLITUDE_ROW, E)
-    for j in range(len(model.mode_amplitude0)):
-        v += model.mode_amplitude0[j] * s.g[j * ROWS]
-    return v
-
-
-@inlined
 def _closing(model, s, k, e, carried):
     """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and f_k."""
     width = lane_count(model)
@@ -696,7 +676,10 @@ def compliant_slip_series(model, s, order, direction):
     stiffness, friction = 1.0 / model.compliance, friction_coefficient(model, direction, s.slider[F_SERIES])
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse, braked, part = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    w, slope, closing = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0), _disc_velocity(model, s)
+    w, slope = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0)
+    closing = _modal_sum(model, s, AMPLITUDE_ROW, E)  # and below, order 0 of w' but for f_0 B
+    for j in range(len(model.mode_amplitude0)):
+        closing += model.mode_amplitude0[j] * s.g[j * ROWS]
     share_of_V = 1.0 if model.normal or model.decaying else friction
     _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, share_of_V)
     for k in range(order):
@@ -754,7 +737,7 @@ def compliant_stick_series(model, s, order):
         s.slider[V_SERIES + k + 1] = (V - _weight(model, s, k)) * lightness * up
         for b in range(0, width, WIDTH):
             at = k * width + b
-            _stick_order(model, s, b, k, _push(model, impulse, friction), _e(s, width, at), _z(s, at))
+            _stick_order(model, s, b, k, _push(model, impulse, friction), _e(s, width, at), load(s.modes, at))
         _axisymmetric(model, s, k, impulse)
         impulse = V * up
         if model.coupled:

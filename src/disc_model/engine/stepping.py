@@ -152,7 +152,8 @@ def _touchdown(model, s, state, order, x_end, x):
 
     A run that was cut just after a separation knows no root there, but the gap, and its rates, are still rounding.
     """
-    rounding, known = transitions.gap_rounding(model, state), 0
+    # of the gap, and of its rates per radian of the fastest motion
+    rounding, known = transitions.ROUNDING * transitions.deflection_size(model, state), 0
     while known < 3 and abs(s.switch[known]) <= rounding:
         known += 1
     if known == 0:

@@ -1,4 +1,4 @@
-"""The modes of stick, for the closed form of ``stick_propagator``.
+"""The modes of stick, for the closed form of ``dense_output``.
 
 With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
 

@@ -1,11 +1,21 @@
 """Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
 
 from . import laws, layout
-from .exit_codes import CONSISTENT, NO_SOLUTION
 from .jit import helper, inlined
 from .jit.simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 from .laws import Instant
 from .layout import drive_now, load_now
+
+# Exit codes of events, of runs and of integrations, in one numbering.
+# The motion continues: after an event; after a pause because a buffer is full; after a requested stop, at the first
+# loss of contact.
+CONSISTENT, PAUSED, STOPPED = 0, 1, 2
+# The end time is reached; the section is reached.
+TIME_OVER, RETURNED = 3, 4
+# It cannot continue: Painleve's paradox, events without the clock advancing, overflow.
+NO_SOLUTION, STALLED, NON_FINITE = 5, 6, 7
+# It was stopped: too many steps; a point that is not on the section.
+STEP_LIMIT, OFF_SECTION = 8, 9
 
 # Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
@@ -84,7 +94,7 @@ def inplane_force_per_radius(model, state):
 
 
 @inlined
-def _deflection_size(model, state):
+def deflection_size(model, state):
     """Size of w - u where both are states: of the modes' parts of w, which may nearly cancel."""
     sizes = splat(0.0)
     for b in range(0, len(model.mode_amplitude), WIDTH):
@@ -96,16 +106,10 @@ def _deflection_size(model, state):
 
 
 @inlined
-def gap_rounding(model, state):
-    """Rounding error of the gap u - w, and of its rates per radian of the fastest motion."""
-    return ROUNDING * _deflection_size(model, state)
-
-
-@inlined
 def _rounding(model, state, i, size):
     """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""
     if model.compliant:
-        return ROUNDING * _deflection_size(model, state) / i.compliance
+        return ROUNDING * deflection_size(model, state) / i.compliance
     return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.display import Progress, simulating
-from disc_model.engine import audit, event_loop, exit_codes, layout
+from disc_model.engine import audit, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
@@ -57,12 +57,12 @@ STEPS_PER_PAUSE = 100_000
 """Steps between two pauses of the engine where a step is cheapest: about 0.1 s of work."""
 
 _STATUS = {
-    exit_codes.TIME_OVER: Status.OK,
-    exit_codes.STOPPED: Status.STOPPED,
-    exit_codes.STEP_LIMIT: Status.STEP_LIMIT,
-    exit_codes.NO_SOLUTION: Status.PARADOX,
-    exit_codes.STALLED: Status.STALLED,
-    exit_codes.NON_FINITE: Status.NON_FINITE,
+    transitions.TIME_OVER: Status.OK,
+    transitions.STOPPED: Status.STOPPED,
+    transitions.STEP_LIMIT: Status.STEP_LIMIT,
+    transitions.NO_SOLUTION: Status.PARADOX,
+    transitions.STALLED: Status.STALLED,
+    transitions.NON_FINITE: Status.NON_FINITE,
 }
 
 
@@ -164,9 +164,9 @@ def simulate(  # noqa: PLR0913
                 warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
-    if code == exit_codes.PAUSED or callable(execution.progress):  # a short run has no progress to show
+    if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show
         with simulating(execution.progress, end) as tell:
-            while code == exit_codes.PAUSED:
+            while code == transitions.PAUSED:
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
@@ -293,9 +293,9 @@ class _Run:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
-        if code == exit_codes.TIME_OVER and self.limits.t_end < self.t_end:
+        if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
             self._enter(self.index + 1)
-            code = exit_codes.PAUSED
+            code = transitions.PAUSED
         self.collector.drain()
         self.wall_time += clock.perf_counter() - began
         return code

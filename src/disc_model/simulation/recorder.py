@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import event_loop, sampling
+from disc_model.engine import dense_output, event_loop
 from disc_model.engine.audit import N_SUMS
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
@@ -19,7 +19,7 @@ Array = NDArray[Any]
 
 BUFFER = 1 << 15  # rows of a buffer: large enough for cheap draining, small enough to stay in the cache
 SMALL_BUFFER = 1 << 8  # rows of the first buffer of events: a large one takes longer to make than a short simulation
-_COLUMN = {name: i for i, name in enumerate(sampling.ROW)}
+_COLUMN = {name: i for i, name in enumerate(dense_output.ROW)}
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
@@ -36,13 +36,13 @@ class Collector:
         grids = [_grid(window, p, start, t_end) for window in windows.values()]
         capacity = BUFFER if grids else 0
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        longest = longest_step + sampling.SAME_INSTANT * t_end
+        longest = longest_step + dense_output.SAME_INSTANT * t_end
         per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
         if grids:
             self._check_room([float(grid[2]) for grid in grids], per_step)
         counters, sampled = np.zeros(event_loop.N_COUNTERS, np.int64), np.zeros(len(grids), np.int64)
         samplers = np.array(grids) if grids else np.zeros((0, 5))
-        sample_rows = np.empty((capacity + per_step, len(sampling.ROW)))
+        sample_rows = np.empty((capacity + per_step, len(dense_output.ROW)))
         event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
         # in order, as this takes half the time that names do
         self.buffers = event_loop.RunBuffers(
@@ -58,7 +58,7 @@ class Collector:
     def _check_room(self, counts: list[float], per_step: int) -> None:
         """Raise `ParameterError` if memory cannot hold the recorded rows, open bins included, and those of a step."""
         rows = [n if fold is None else n / fold + 2 * min(fold, n) for n, fold in zip(counts, self._folds, strict=True)]
-        size, room = 8.0 * len(sampling.ROW) * (sum(rows) + per_step), _memory()
+        size, room = 8.0 * len(dense_output.ROW) * (sum(rows) + per_step), _memory()
         if size > room:
             path = ("windows", self._names[rows.index(max(rows))])
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
@@ -97,7 +97,7 @@ class Collector:
 
     def finish(self) -> dict[str, dict[str, Array]]:
         """Samples of each window."""
-        columns = [sampling.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
+        columns = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
         shaped = list(map(_columns, self._samples, columns))
         for samples in shaped:
             samples.pop("sampler", None)
@@ -138,7 +138,7 @@ def _memory() -> float:
 
 
 def _grid(window: Window | Poincare, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
-    """Sampling grid of a window in a run, as `sampling.sample_step` has it."""
+    """Sampling grid of a window in a run, as `dense_output.sample_step` has it."""
     if isinstance(window, Window):
         return _uniform(window, start, t_end)
     return _stroboscopic(window, p.Omega, start, t_end)

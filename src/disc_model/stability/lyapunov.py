@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import Summarised, draw, number_text
-from disc_model.engine import exit_codes, layout, saltation, tangent, variational
+from disc_model.engine import event_loop, layout, saltation, tangent, transitions
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
@@ -154,15 +154,15 @@ def lyapunov_exponents(
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest = longest_step(model, order, 10 * tolerance)
     length = duration / steps
-    course = variational.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
+    course = event_loop.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
     logs, status = np.full((steps, count), -math.inf), Status.OK
     done = 0
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
-        code = variational.integrate(model, series, state, t, course)
-        if code != exit_codes.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = Status.NON_FINITE if code == exit_codes.TIME_OVER else Status(ENDS[code])
+        code = event_loop.integrate(model, series, state, t, course)
+        if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
+            status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break
         _bind(model, state, t)
         growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)

@@ -3,7 +3,7 @@
 The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
 coordinates alone, because psi follows from the release condition. They are scaled to the norm of the disc's energy:
 omega a, omega b, alpha, beta.  The map's Jacobian and its derivatives with respect to parameters come from the
-variational equations (`disc_model.engine.variational`).
+variational equations (`disc_model.engine.event_loop`).
 """
 
 import math
@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import exit_codes, layout, variational
+from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
@@ -28,15 +28,15 @@ ComplexArray = NDArray[np.complex128]
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
 
-RETURNED = exit_codes.RETURNED
+RETURNED = transitions.RETURNED
 ENDS = {
-    exit_codes.RETURNED: "returned",
-    exit_codes.TIME_OVER: "time_over",
-    exit_codes.NO_SOLUTION: "paradox",
-    exit_codes.STALLED: "stalled",
-    exit_codes.NON_FINITE: "non_finite",
-    exit_codes.STOPPED: "lost_contact",
-    exit_codes.OFF_SECTION: "off_section",
+    transitions.RETURNED: "returned",
+    transitions.TIME_OVER: "time_over",
+    transitions.NO_SOLUTION: "paradox",
+    transitions.STALLED: "stalled",
+    transitions.NON_FINITE: "non_finite",
+    transitions.STOPPED: "lost_contact",
+    transitions.OFF_SECTION: "off_section",
 }
 
 
@@ -201,7 +201,7 @@ class ReturnMap:
         for i, name in enumerate(parameters, self._first):
             changes[i // layout.WIDTH, :, i % layout.WIDTH] = parameter_change(p, model, name)
         jacobian = np.zeros((n, self._tangent.columns))
-        self._section = variational.Section(rows, self.scale, np.zeros(n), jacobian)
+        self._section = event_loop.Section(rows, self.scale, np.zeros(n), jacobian)
         self.static = self._coordinates()
         self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
@@ -225,11 +225,11 @@ class ReturnMap:
         if coarse:
             order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
         longest = longest_step(self.model, order, of_columns) if tangent else math.inf
-        course = variational.IntegrationLimits(
+        course = event_loop.IntegrationLimits(
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
         start = np.array(x, dtype=float)
-        code = variational.section_map(self.model, self._series, self._state, t, course, self._section, start)
+        code = event_loop.section_map(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
         counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())
         jacobian, last = self._section.jacobian, self._first + len(self._names)
@@ -239,10 +239,10 @@ class ReturnMap:
     def next_release(self, start: State) -> tuple[int, Array]:
         """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
         write_state(self._case, start, self._state)
-        course = variational.IntegrationLimits(
+        course = event_loop.IntegrationLimits(
             self.order, self.tolerance, math.inf, self.longest, 1, may_separate=True, tangent=False
         )
-        code: int = variational.integrate(self.model, self._series, self._state, self._tangent, course)
+        code: int = event_loop.integrate(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
 
     def point(self, state: State) -> Array:
@@ -257,7 +257,7 @@ class ReturnMap:
         state.disc[:], state.x[:] = 0.0, 0.0
         state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(column, [self._slider])
         state.x[layout.PHASE] = layout.STICK
-        state.x[layout.PSI] = variational.release_angle(self.model, state)
+        state.x[layout.PSI] = event_loop.release_angle(self.model, state)
         return read_state(self._case, state)
 
     def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
