@@ -27,9 +27,8 @@ _NAMES = {
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
     "simulation.api": "simulate Execution",
-    "simulation.case": "Window Poincare",
+    "simulation.case": "Window Poincare Ramp",
     "simulation.deflection": "snapshots deflection",
-    "simulation.ramps": "Ramp",
     "simulation.result": "Result",
     "simulation.states": "State",
     "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
@@ -63,9 +62,8 @@ if TYPE_CHECKING:
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
     from disc_model.simulation.api import Execution, simulate
-    from disc_model.simulation.case import Poincare, Window
+    from disc_model.simulation.case import Poincare, Ramp, Window
     from disc_model.simulation.deflection import deflection, snapshots
-    from disc_model.simulation.ramps import Ramp
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
     from disc_model.stability.continuation import continue_cycle

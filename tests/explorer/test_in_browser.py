@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from disc_model.explorer.page import LEVELS, WORDS, Picture, page
+from disc_model.explorer import LEVELS, WORDS, Picture, page
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, contents, force, plane
 from tests.workflow.browser import Page, browser

@@ -15,8 +15,8 @@ import xarray as xr
 from PIL import Image
 
 from disc_model.data.variables import PHASES
-from disc_model.explorer.page import BITS, LEVELS, PAGE_WIDTH, PICTURE_WIDTH, Picture, motion_contents, page
-from disc_model.explorer.page import study_contents as contents_of
+from disc_model.explorer import BITS, LEVELS, PAGE_WIDTH, PICTURE_WIDTH, Picture, motion_contents, page
+from disc_model.explorer import study_contents as contents_of
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
 

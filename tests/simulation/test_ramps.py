@@ -12,7 +12,7 @@ import pytest
 
 from disc_model import ParameterError, Parameters, Ramp, Window, simulate
 from disc_model.data.dataset import load
-from disc_model.simulation.ramps import pieces, values_at
+from disc_model.simulation.case import pieces, values_at
 from tests.contact_laws import LAWS
 from tests.simulation.equal import same
 

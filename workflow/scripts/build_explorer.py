@@ -12,7 +12,7 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_inputs
 from disc_model.errors import script
-from disc_model.explorer.page import Picture, page, study_contents
+from disc_model.explorer import Picture, page, study_contents
 
 
 @script

@@ -6,7 +6,7 @@ does not repeat within half the record is quasi-periodic or irregular. The 0-1 t
 (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
 
 `motion_of` judges recorded intervals. Claims use it, because a case stores events and no state. Grids and diagrams have
-a state: `disc_model.stability.attractor.arrival.regularity` finds the period alike, and then decides by the
+a state: `disc_model.stability.attractor.outcome.regularity` finds the period alike, and then decides by the
 largest Lyapunov exponent. The two may differ where only jumps part neighbouring motions, such as a release that one of
 them has. The exponent is that of small disturbances and does not see jumps. With E = 100 GPa, N = 200 N and 11 rad/s it
 is zero within 3e-4/s. A disturbance of 1e-8 keeps its size there for a minute, then parts the motions. The 0-1 test

@@ -1,7 +1,7 @@
 """Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows.
 
 This is the one test behind "settled" in studies, figures and verdicts. A stable cycle that the motion follows
-(`disc_model.stability.attractor.arrival`) proves more, since its multipliers know every rate. A
+(`disc_model.stability.attractor.outcome`) proves more, since its multipliers know every rate. A
 record shows no rate far below one over its length: what stays unseen, such as a slow departure from an unstable cycle
 or a sudden end of a chaotic transient, is excluded by no record.
 """

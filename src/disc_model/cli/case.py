@@ -25,8 +25,7 @@ from disc_model.disc.tables import damping_ratios, disc_table, read_disc
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
 from disc_model.parameters import AUTO, CHOOSING, Parameters
-from disc_model.simulation.case import Window
-from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.case import Ramp, Window
 from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
 
 # ----------------------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import logging
 import math
 import time as clock
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -21,9 +21,7 @@ from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.simulation import ramps as courses
-from disc_model.simulation.case import CaseSpec, Poincare, Start, Windows, resolved_windows, windows_faults
-from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import (
@@ -208,12 +206,7 @@ def _faults(  # noqa: PLR0913
         (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
         (shows, "progress", how.progress, "must be a function of the time, or False"),
     )
-    if windows is not None:
-        faults += windows_faults(windows)
-    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
-        turns = windows.values() if isinstance(windows, Mapping) else ()
-        faults += courses.faults(p, ramps, poincare=any(isinstance(window, Poincare) for window in turns))
-    return faults
+    return [*faults, *request_faults(p, windows, ramps)]
 
 
 @dataclass(eq=False)
@@ -250,7 +243,7 @@ class _Run:
             max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1))),
             1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
         )
-        self.pieces = courses.pieces(self.p, self.ramps)
+        self.pieces = pieces(self.p, self.ramps)
         # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < self.t_end:

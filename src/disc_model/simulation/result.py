@@ -19,9 +19,8 @@ from disc_model.display import Summarised, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Poincare, Window, Windows
+from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
 from disc_model.simulation.pictures import Pictures
-from disc_model.simulation.ramps import RAMPED, Ramp, values_at
 from disc_model.simulation.states import MODAL, PLAIN, Array, State, is_finite_array
 
 if TYPE_CHECKING:

@@ -29,9 +29,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.figures.kind import Kind, kind_of, library_kinds
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
-from disc_model.simulation.case import CaseSpec, Poincare, SomeParameters, Span, Start, Window
-from disc_model.simulation.ramps import RAMPED, Ramp
-from disc_model.simulation.ramps import faults as ramp_faults
+from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
 from disc_model.studies.quantity import quantity_names, quantity_of
 from disc_model.studies.ranges import Blocks, Range, checked_rule
 from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
@@ -247,7 +245,7 @@ class NamedCase(Strict):
             span = self._within(Span() if record.events is True else record.events, ("record", "events"), faults)
             events = span.start, span.stop
         for fault in ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ():
-            faults.append(fault.inside(("parameters",)) if fault.path[0] in RAMPED else fault)
+            faults.append(fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault)
         if faults:
             raise ParameterError(*faults)
         return CaseSpec(

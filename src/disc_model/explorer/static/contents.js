@@ -26,7 +26,7 @@ const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.
 
 // Stored numbers
 
-/** Numbers as `disc_model.explorer.page.packed` wrote them. */
+/** Numbers as `disc_model.explorer.packed` wrote them. */
 async function unpacked(text, Kind) {
   const deflated = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
   const stream = new Blob([deflated]).stream().pipeThrough(new DecompressionStream("deflate"));

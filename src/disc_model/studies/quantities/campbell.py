@@ -99,7 +99,7 @@ class Campbell(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
-        from disc_model.stability.campbell import frequencies
+        from disc_model.stability.cycle import frequencies
 
         campbell = frequencies(point.parameters, tol=self.tol)
         cycle = campbell.cycle

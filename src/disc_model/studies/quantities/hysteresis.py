@@ -61,7 +61,7 @@ class Hysteresis(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Sweep the speed up and down; the point's own Omega is not used."""
-        from disc_model.stability.attractor.arrival import sweep
+        from disc_model.stability.attractor.outcome import sweep
 
         speeds = self.scan.values
         shape = 2, len(speeds)

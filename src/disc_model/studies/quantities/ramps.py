@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.simulation.ramps import Ramp
+from disc_model.simulation.case import Ramp
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed
 from disc_model.studies.ranges import Range
 from disc_model.units import Seconds, Speed, Tolerance, Unit
