@@ -115,9 +115,9 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert {"engine/event_loop.py", "simulation/recorder.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
-    assert {"config/paper.yaml", "paper/section42.yaml"} <= of(SCRIPTS / "check_claims.py")
+    assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
-    assert {"benchmarks/methods/compiled.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
+    assert {"benchmarks/methods/installed.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"
     )
     assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.truncation")

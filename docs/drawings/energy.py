@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.paper.energy import course, in_the_end
+from disc_model.paper.section41 import course, in_the_end
 
 FONT = {"font.size": 9, "mathtext.fontset": "cm", "svg.hashsalt": "energy", "font.family": "DejaVu Sans"}
 PAIRS = {(200, 20): (800, 1000), (300, 20): (480, 400), (200, 50): (400, 240)}

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
-from disc_model.figures.curves import Curve
+from disc_model.figures.maps import Curve
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed
 

@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.kind import kind_of
-from disc_model.figures.sliding import AGREEMENTS, agreement, common_points
+from disc_model.figures.modes import AGREEMENTS, agreement, common_points
 from disc_model.studies.study import StudyError, parse_study
 from tests.studies.conftest import SMALL, computed
 

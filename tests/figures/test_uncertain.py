@@ -5,8 +5,8 @@ import json
 import numpy as np
 import xarray as xr
 
-from disc_model.figures import sensitivity
-from disc_model.figures.campbell import gaps
+from disc_model.figures.modes import gaps
+from disc_model.figures.uncertain import probabilities
 from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.reading import draw
 from tests.studies.quantities import test_sensitivity as uncertain
@@ -20,7 +20,7 @@ def test_instability_against_each_parameter() -> None:
     states = np.where(drawn[..., 1] > np.median(drawn[..., 1]), words.index("unstable"), words.index("stable"))
     study["cycle"] = (("N", "sample"), states.astype(np.int8), study["cycle"].attrs)
     for N in range(study.sizes["N"]):
-        of_mu, of_k = (sensitivity.probabilities(study.isel(N=N), name) for name in ("mu_s", "k"))
+        of_mu, of_k = (probabilities(study.isel(N=N), name) for name in ("mu_s", "k"))
         assert of_mu[[0, -1], 0].tolist() == [0, 1]
         assert np.all((of_k[:, 1] < 0.5) & (of_k[:, 2] > 0.5))
     figure = draw("sensitivity", study)

@@ -101,7 +101,7 @@ print(json.dumps({"status": result.status.value, "steps": int(result.statistics[
 
 def test_it_works_without_the_sources(installed: Installed) -> None:
     """A run, a dataset, and every module with the data it reads."""
-    optional = [f"disc_model.benchmarks.methods.{name}" for name in ("cvode", "taylor_heyoka")]
+    optional = [f"disc_model.benchmarks.methods.{name}" for name in ("extra",)]
     phrase = installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE.replace("*OPTIONAL", f"*{optional}"))
     result = json.loads(phrase.splitlines()[-1])
     assert result["status"] == "ok"

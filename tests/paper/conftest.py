@@ -3,7 +3,7 @@
 import pytest
 import xarray as xr
 
-from disc_model.paper import energy, measures
+from disc_model.paper import measures, section41
 from tests.paper import made_up
 
 
@@ -17,6 +17,6 @@ def told() -> xr.DataTree:
 def cycles_as_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """Growth rates, energies and repeated simulations that fit it, without a search for cycles and a simulation."""
     monkeypatch.setattr(measures, "separates_within", lambda p, until: p.Omega > 15.05)
-    monkeypatch.setattr(energy, "course", made_up.course_as_told)
-    monkeypatch.setattr(energy, "of_windows", made_up.windows_as_told)
+    monkeypatch.setattr(section41, "course", made_up.course_as_told)
+    monkeypatch.setattr(section41, "of_windows", made_up.windows_as_told)
     monkeypatch.setattr(measures, "cycle_of", made_up.cycle_as_told)

@@ -22,8 +22,8 @@ import yaml
 from disc_model.data.dataset import events_dataset, samples_dataset, scalars_dataset
 from disc_model.data.variables import PHASES, STATUSES
 from disc_model.disc.plate import coupled_natural_frequencies
-from disc_model.paper.energy import Powers
 from disc_model.paper.measures import CaseView
+from disc_model.paper.section41 import Powers
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.studies.study import load_study

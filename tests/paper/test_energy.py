@@ -2,8 +2,8 @@
 
 import pytest
 
-from disc_model.paper.energy import Powers, at_width, course, in_the_end
 from disc_model.paper.measures import Absent
+from disc_model.paper.section41 import Powers, at_width, course, in_the_end
 from disc_model.parameters import Parameters
 
 pytestmark = pytest.mark.compiled

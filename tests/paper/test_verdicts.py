@@ -12,7 +12,7 @@ import xarray as xr
 from disc_model import Parameters
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import energy, measures, normalisation, section2, section44
+from disc_model.paper import measures, normalisation, section2, section41, section44
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS
@@ -38,7 +38,7 @@ class World:
     def verdicts(self) -> dict[str, str]:
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(measures, "cycle_of", self.cycle)
-            patch.setattr(energy, "course", self.course)
+            patch.setattr(section41, "course", self.course)
             for name, function in self.disc.items():
                 for module in (section2, section44):
                     patch.setattr(module, name, function, raising=False)

@@ -111,8 +111,8 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
-        ("src/disc_model/paper/section42.py", lambda _: {"check_claims"}),
-        ("src/disc_model/paper/section42.yaml", lambda _: {"check_claims"}),
+        ("src/disc_model/paper/section41.py", lambda _: {"check_claims"}),
+        ("src/disc_model/paper/section41.yaml", lambda _: {"check_claims"}),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:

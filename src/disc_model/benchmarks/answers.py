@@ -182,10 +182,7 @@ class Broken(Exception):
 
 
 def first_separation(
-    solve: Solve,
-    budget: float,
-    p: Parameters = SEPARATING,
-    horizon: float = SEPARATION_HORIZON,
+    solve: Solve, budget: float, p: Parameters = SEPARATING, horizon: float = SEPARATION_HORIZON
 ) -> Replies:
     """Time of the first loss of contact after the static start."""
     problem = Problem(p, static_start(p), horizon, stop=True)

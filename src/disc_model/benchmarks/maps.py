@@ -13,19 +13,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.benchmarks import scenes
-from disc_model.benchmarks.answers import (
-    AnswerStatus,
-    AnswerVerdict,
-    Reply,
-    Solve,
-    first_separation,
-    setting_of,
-    verdict,
-)
+from disc_model.benchmarks import answers, scenes
+from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, Solve, setting_of
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.compiled import STABILITY_LIMIT
+from disc_model.benchmarks.methods.installed import STABILITY_LIMIT
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
 from disc_model.disc.plate import mode_arrays
@@ -95,7 +87,7 @@ def answer_map(
         if reply.status is AnswerStatus.TOO_SLOW:
             late.add(diameters)
         yield {
-            "verdict": verdict("first_separation", reply, right[diameters]),
+            "verdict": answers.verdict("first_separation", reply, right[diameters]),
             "error": abs(reply.value - right[diameters]),
             "status": reply.status,
             "found": reply.value,
@@ -151,4 +143,4 @@ def engine_answer(scene: str, diameters: int) -> Answer:
 
 
 def _separation(solve: Solve, budget: float, diameters: int) -> Reply:
-    return first_separation(solve, budget, CASE.replace(n_diameters=diameters), HORIZON)["first_separation"]
+    return answers.first_separation(solve, budget, CASE.replace(n_diameters=diameters), HORIZON)["first_separation"]

@@ -10,39 +10,18 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.cells import CELL_LOOKS, OUTCOME_LOOKS, edges_of, fill, outcome_cells, patches
-from disc_model.figures.curves import LOAD, SPEED, crossings, curves_of, draw_curves, parted, span
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    COLUMN,
-    END,
-    GREEN,
-    ONSET,
-    ORANGE,
-    PAGE,
-    PAPER,
-    PURPLE,
-    SKY,
-    Artist,
-    Axes,
-    Figure,
-    panels,
-)
+from disc_model.figures import drawing, maps
+from disc_model.figures.drawing import BLACK, COLUMN, END, ONSET, ORANGE, PAGE, PAPER, Artist, Axes, Figure, panels
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
+from disc_model.figures.maps import LOAD, OUTCOME_LOOKS, SPEED, crossings, curves_of, draw_curves, parted, patches, span
 from disc_model.units import Finite
 
 Array = NDArray[np.float64]
 
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
-LOOKS = (("white", "o"), (SKY, "s"), (GREEN, "^"), (PURPLE, "D"), (BLUE, "v"))
+LOOKS = (("white", "o"), (drawing.SKY, "s"), (drawing.GREEN, "^"), (drawing.PURPLE, "D"), (drawing.BLUE, "v"))
 """Colour and marker of each horizon, the longest first."""
-EDGES: dict[str, Any] = {
-    "markersize": 2.4,
-    "markeredgecolor": BLACK,
-    "markeredgewidth": 0.5,
-}
+EDGES: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5}
 """What all these marks have in common: black edges, to be seen on any area."""
 
 
@@ -185,10 +164,10 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     from matplotlib.patches import Patch
 
     if "outcome" in cycle:
-        words, horizon = outcome_cells(ax, cycle["outcome"]), stated_in(cycle, "options")["horizon"]
-        return [*patches(CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
+        words, horizon = maps.outcome_cells(ax, cycle["outcome"]), stated_in(cycle, "options")["horizon"]
+        return [*patches(maps.CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
     stable = np.where(cycle["growth_rate"].values < 0, "quiet", "")
-    fill(ax, edges_of(cycle["growth_rate"]), stable, {"quiet": STABLE})
+    maps.fill(ax, maps.edges_of(cycle["growth_rate"]), stable, {"quiet": STABLE})
     return [*patches({"quiet": STABLE}, stable)]
 
 
@@ -270,12 +249,7 @@ class RampedSpeeds(Plot):
         ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end, falling ramp")
         late = rates[np.isnan(onset) & ~gone]
         if late.size:
-            look: dict[str, Any] = {
-                "color": ONSET,
-                "markersize": 4,
-                "markerfacecolor": "white",
-                "clip_on": False,
-            }
+            look: dict[str, Any] = {"color": ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
             ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
         if "curves" in overlays:
             folds = [crossings(curve, load) for curve in curves_of(overlays["curves"]) if curve.kind == "fold"]

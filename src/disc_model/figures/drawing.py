@@ -19,19 +19,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 import xarray as xr
 
-from disc_model.data import dataset
+from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import (
-    EXCLUDED,
-    SHOWN,
-    WITHOUT_CYCLE,
-    angles_text,
-    axis_of,
-    flag_names,
-    stated_in,
-    typeset,
-    values_text,
-)
+from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
 from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
@@ -245,8 +235,8 @@ def what_case(values: Mapping[str, Any]) -> str:
     words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
-    numbers = values_text({name: value for name, value in values.items() if not isinstance(value, str)}, UNITS.get())
-    return ", ".join(filter(None, [numbers, *words]))
+    numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+    return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
 
 
 def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
@@ -285,7 +275,7 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
 
     The label of the disc's fixed point states its angle.
     """
-    angles = angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
+    angles = variables.angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
 

@@ -13,20 +13,9 @@ from pydantic import Field
 from disc_model.data.variables import EXCLUDED
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.cells import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
-from disc_model.figures.drawing import (
-    BLACK,
-    COLUMN,
-    GREY,
-    PAGE,
-    Axes,
-    Figure,
-    FigureBase,
-    Patch,
-    ScalarMappable,
-    panels,
-)
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Axes, Figure, FigureBase, Patch, ScalarMappable, panels
 from disc_model.figures.kind import NORM, Plot
+from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Unit
 
@@ -215,7 +204,7 @@ class HeatMap(General):
         shown = drawing.slices(array, remaining(array, [*self.axes.values()]))
         rows = 1 + (len(shown) > 4)
         columns = math.ceil(len(shown) / rows)
-        width = PAGE if len(shown) > 1 else COLUMN * 1.2
+        width = PAGE if len(shown) > 1 else drawing.COLUMN * 1.2
         figure, axes = panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
         for ax in axes[len(shown) :]:
             ax.remove()
@@ -323,7 +312,7 @@ class CurvePlot(General):
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a line, or one for each value of a second dimension."""
-        figure, [ax] = panels(COLUMN, 2.9)
+        figure, [ax] = panels(drawing.COLUMN, 2.9)
         draw_lines(ax, drawing.picked(study, self.at), self.variable, self.x, self.log)
         if self.limits is not None:
             ax.set_ylim(self.limits)

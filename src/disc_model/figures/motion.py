@@ -21,21 +21,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures import drawing
-from disc_model.figures.drawing import (
-    AFTER,
-    BEFORE,
-    COLUMN,
-    GREY,
-    PAGE,
-    PHASE_COLOURS,
-    SEPARATED,
-    Artist,
-    Axes,
-    Figure,
-    FigureBase,
-    QuadMesh,
-    panels,
-)
+from disc_model.figures.drawing import COLUMN, GREY, PAGE, SEPARATED, Artist, Axes, Figure, FigureBase, QuadMesh, panels
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, as_samples, as_spectrum
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
@@ -49,7 +35,7 @@ RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 MOST_SHADED = 60
 """Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
 SHADES: dict[str, dict[str, Any]] = {
-    "stick": {"color": PHASE_COLOURS["stick"], "alpha": 0.22},
+    "stick": {"color": drawing.PHASE_COLOURS["stick"], "alpha": 0.22},
     "separation": {"color": SEPARATED, "alpha": 0.5},
 }
 """Looks of the phases behind a history, told apart by darkness in grey print; slip is left white."""
@@ -138,7 +124,7 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
     (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
     for i, name in enumerate(PHASES):
         inside = samples["phase"].values == i
-        look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+        look: dict[str, Any] = {"color": drawing.PHASE_COLOURS[name], "label": name}
         width = 1.5 if name == "separation" else 0.5  # distinct in grey print
         if inside.any():
             # broken where the phase changes, so that no chord is drawn across others
@@ -170,8 +156,8 @@ class Portrait(CasePlot):
 # Poincaré sections
 
 MARKS: dict[str, dict[str, Any]] = {
-    "early": {"marker": "x", "color": BEFORE, "s": 9, "linewidths": 0.5},
-    "later": {"marker": "o", "color": AFTER, "s": 3.5, "linewidths": 0},
+    "early": {"marker": "x", "color": drawing.BEFORE, "s": 9, "linewidths": 0.5},
+    "later": {"marker": "o", "color": drawing.AFTER, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 """Symbol by stage: told apart by shape as well as by colour."""

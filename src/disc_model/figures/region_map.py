@@ -11,11 +11,10 @@ from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault
-from disc_model.figures import cells, drawing
-from disc_model.figures.cells import CYCLE_LOOKS, OUTCOME_LOOKS, growth_panels, patches, scale_of
-from disc_model.figures.curves import curves_of, draw_curves, parted, span
+from disc_model.figures import drawing, maps
 from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, Line2D, panels
 from disc_model.figures.kind import CURVES, Plot, Roles, Values
+from disc_model.figures.maps import OUTCOME_LOOKS, curves_of, draw_curves, growth_panels, parted, patches, span
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
 
@@ -85,14 +84,14 @@ class RegionMap(Plot):
         outcomes: set[str] = set()
         lines: list[Artist] = []
         for upper, lower, plane in zip(above, below, shown, strict=True):
-            outcomes |= cells.outcome_cells(upper, plane["outcome"])
+            outcomes |= maps.outcome_cells(upper, plane["outcome"])
             for ax in (upper, lower):
                 lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
         named = {line.get_label(): line for line in lines}.values()
-        handles = [*patches(cells.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
+        handles = [*patches(maps.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
         said = drawing.sample(linestyle="", label="\n".join(_captions(study, self)))
-        handles = [*patches(CYCLE_LOOKS, gaps), said]
+        handles = [*patches(maps.CYCLE_LOOKS, gaps), said]
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
         return figure
 
@@ -117,9 +116,9 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
     """
     from matplotlib.collections import LineCollection
 
-    x, y = cells.edges_of(data["outcome"])
-    state = cells.stability_of(data)
-    state[cells.unresolved(state)] = "unresolved"
+    x, y = maps.edges_of(data["outcome"])
+    state = maps.stability_of(data)
+    state[maps.unresolved(state)] = "unresolved"
     stable, unstable = state == "stable", state == "unstable"
     gone = (flag_names(data["cycle"]) == "no_cycle") & (flag_names(data["outcome"]) != "quiet")
     names = ("branch_continues_first", "branch_continues_second")
@@ -202,7 +201,7 @@ def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> None
         label, factor = drawing.axis_of(name)
         values = study[name].values * factor
         axis = getattr(axes[0], f"{which}axis")
-        if (scale := scale_of(name, values)) != "linear":
+        if (scale := maps.scale_of(name, values)) != "linear":
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
             ticks = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()

@@ -7,11 +7,11 @@ from typing import Any
 import pandas as pd
 
 from disc_model.data.texts import fill
-from disc_model.paper import conclusions, section2, section41, section42, section43, section44
+from disc_model.paper import section2, section41, section43, section44
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read_texts, rows_of
 
-MODULES = (section2, section41, section42, section43, section44, conclusions)
+MODULES = (section2, section41, section43, section44)
 ROWS = tuple(row for module in MODULES for row in rows_of(module))
 """All rows, in the order of the paper."""
 COLUMNS = [

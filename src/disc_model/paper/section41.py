@@ -1,16 +1,23 @@
-"""Rows on Section 4.1: separation occurs, and ignoring it changes the motion."""
+"""Rows on Sections 4.1 and 4.2: separation occurs, ignoring it changes the motion, and the critical speed."""
 
-from typing import Any
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
-from disc_model.paper import energy, measures
-from disc_model.paper.measures import Absent, CaseView, listed, mm, pairs
+from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.paper import measures
+from disc_model.paper.measures import Absent, Array, CaseView, listed, mm, pairs, published
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper.section2 import moving_load_speed
+from disc_model.parameters import Parameters
 
 
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
@@ -170,21 +177,235 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     """Whether separation withholds energy that maintained contact supplies, at the amplitude that separation allows."""
     rows, withheld = [], []
     for free, bonded in pairs(cases):
-        held = energy.in_the_end(energy.course(free.parameters, free["time_reached"]))
-        course = energy.course(bonded.parameters, bonded["time_reached"])
-        powers, cycle = energy.at_width(course, held.width), float(free.intervals("separation").mean())
-        withheld.append(measures.ratio(powers.supplied - held.supplied, powers.gained, f"the surplus of {bonded.name}"))
+        held = in_the_end(course(free.parameters, free["time_reached"]))
+        kept = at_width(course(bonded.parameters, bonded["time_reached"]), held.width)
+        cycle = float(free.intervals("separation").mean())
+        withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
         with_, without, damped, impacts = (
-            1e3 * cycle * power for power in (held.supplied, powers.supplied, held.damped, held.impacts)
+            1e3 * cycle * power for power in (held.supplied, kept.supplied, held.damped, held.impacts)
         )
         rows.append(
             f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "
             f"mJ, impacts take {impacts:.2f} mJ"
         )
-    steady = energy.of_windows(pairs(cases)[0][1], "field")
+    steady = of_windows(pairs(cases)[0][1], "field")
     return Answer(
         min(withheld) >= share,
         f"The contact force supplies as much at equal amplitude, and impacts take the surplus. {'; '.join(rows)}. "
         f"Without separation, at {cases[0].place}, the force supplies {steady.pushes:.2f} W while positive and takes "
         f"{-steady.pulls:.2f} W while negative.",
     )
+
+
+# ----------------------------------------------------------------------------------------------------
+# Section 4.2: 385 N around the critical speed, and the critical speed in general
+
+PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N")
+"""Parameters that are changed by 0.1 %, one at a time."""
+
+
+def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
+    early, late = case.early, case.late
+    return Answer(
+        not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
+        f"{case.first_separation().capitalize()}. The contact force stays within {early:.2f} N at first and "
+        f"{late:.2f} N in the end, the disc within {mm(case.disc.width)}. {case.growth.capitalize()}.",
+    )
+
+
+def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
+    """Whether only the second case separates; which parameters, 0.1 % larger, make it otherwise is told."""
+    lost = [
+        [
+            name
+            for name in PHYSICAL
+            if measures.separates_within(
+                case.parameters.replace(**{name: 1.001 * getattr(case.parameters, name)}), until
+            )
+            != case.separates
+        ]
+        for case in (below, above)
+    ]
+    early, none = (", ".join(names) or "none" for names in lost)
+    return Answer(
+        not below.separates and above.separates,
+        "; ".join(f"{case.place}: {case.first_separation()}, {case.growth}" for case in (below, above)) + ".",
+        "This holds for the paper's very values. With one parameter 0.1 % larger, contact is lost at "
+        f"{below['Omega']:g} rad/s ({early}), or is not lost within {until:g} s at {above['Omega']:g} rad/s ({none}).",
+    )
+
+
+def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
+    """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
+    study = _scanned(study)
+    lowest = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
+    falls, last = all(each.falls for each in lowest), lowest[-1]
+    again = f"Up to {last.top:g} N it does. At larger preloads it falls again, to {', '.join(last.again)}."
+    return Answer(
+        PART if falls and last.again else falls,
+        f"Lowest speed with separation within {float(study['horizon'][-1]):g} s, where it turns: "
+        f"{'; '.join(last.speeds)} rad/s.",
+        again if last.again else "",
+    )
+
+
+def maintained_below(
+    study: xr.Dataset, sweeps: xr.Dataset | None, basins: xr.Dataset | None, *, within: float
+) -> Answer:
+    """Whether contact is kept below the critical speed of the static start by other starts as well."""
+    critical = _scanned(study)["critical_speed"].isel(horizon=-1)
+    if not np.isfinite(critical).any():
+        return Answer(FALSE, "No separation at any preload and speed.")
+    begins = measures.extent(critical.values[np.isfinite(critical)])
+    below: list[str] = []
+    if sweeps is not None:
+        starts, ends = xr.align(critical, published(sweeps)["offset_speed"], join="inner")
+        rows = zip(starts["N"].values, starts.values, ends.values, strict=True)
+        below = [f"{N:g} N: to {end:g} instead of {begin:.1f} rad/s" for N, begin, end in rows if begin - end > within]
+    kicked = ""
+    if basins is not None:
+        total = basins.sizes["energy"] * basins.sizes["start"]
+        if apart := round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0))):
+            kicked = f"At 385 N, 15 rad/s, {apart} of {total} random perturbations lead to repeated separation."
+    refuted = bool(below or kicked)
+    return Answer(
+        PART if refuted else TRUE,
+        f"From rest it is so by definition: separation begins at {begins:.1f} rad/s, depending on the preload. "
+        + (f"When the speed is lowered, separation lasts longer. {'; '.join(below)}." if below else ""),
+        kicked,
+    )
+
+
+def far_below(*cases: CaseView, share: float) -> Answer:
+    critical = moving_load_speed(cases[0].parameters)
+    lower = [case for case in cases if case["Omega"] < share * critical and case.separates]
+    speeds = [case["Omega"] for case in lower]
+    shares = [100 * speed / critical for speed in speeds]
+    text = (
+        f"Contact is lost at {listed(speeds, 'g')} rad/s. These are {listed(shares, '.1f')} % of {critical:.2f} rad/s."
+    )
+    return Answer(bool(lower), text if lower else "No separation.")
+
+
+def unstable_means_separation(study: xr.Dataset, scan: xr.Dataset) -> Answer:
+    """Whether all points of the map with a growing cycle separate within its horizon."""
+    study = published(study)
+    unstable, apart = study["growth_rate"].values > 0, flag_names(study["outcome"]) == "separation"
+    stays, stable = int((unstable & ~apart).sum()), int((apart & (study["growth_rate"].values < 0)).sum())
+    kinds = _scanned(scan).isel(horizon=-1)["crossing_kind"]
+    again = int((flag_names(kinds) == "ends").any(axis=kinds.get_axis_num("crossing_number")).sum())
+    return Answer(
+        PART if stays and stays < unstable.sum() else not stays,
+        f"Of {unstable.sum()} combinations of speed and preload with a growing cycle, {stays} do not separate within "
+        f"{measures.facts(study)['horizon']:g} s; {stable} separate with a stable one.",
+        f"At {again} of {kinds.sizes['N']} preloads, contact is kept again above the critical speed." if again else "",
+    )
+
+
+def _scanned(study: xr.Dataset) -> xr.Dataset:
+    """The scan with the published modes; raises `Missing` if a point failed."""
+    study = published(study)
+    if np.any(flag_names(study["status"]) != "ok"):
+        raise Missing("study critical_speed has points that failed")
+    return study
+
+
+# ----------------------------------------------------------------------------------------------------
+# The transverse energy of a motion: what the slope supplies, and what damping and impacts take
+
+STAGES, LENGTH, RATE = 60, 5.0, 400.0
+"""Stages of a run; greatest time in s at the end of each over which powers are averaged, and samples per s there."""
+
+
+class Powers(NamedTuple):
+    """Mean powers, W, over a time in which the range of the slider's height is ``width``, m.
+
+    pushes, pulls : supplied by the contact force on the slope, P f B, while it is positive and negative
+    damped : taken by the damping of the disc and of the slider
+    gained : rise of the energy of the disc and of the slider's vertical motion
+    """
+
+    width: float
+    pushes: float
+    pulls: float
+    damped: float
+    gained: float
+
+    @property
+    def supplied(self) -> float:
+        return self.pushes + self.pulls
+
+    @property
+    def impacts(self) -> float:
+        """Taken by impacts: the rest of the balance."""
+        return self.supplied - self.damped - self.gained
+
+
+def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[Any, Any]]) -> Powers:
+    """Mean powers from samples of the disc at as many angles as it has modes, which give its whole motion.
+
+    f B is the velocity of the contact point less that of the disc's material under it.
+    """
+    order = np.argsort(mode_arrays(p).diameters)
+    omega, psi, damping = (
+        np.concatenate([each[order], each[order][1:]])[:, None]
+        for each in (mode_arrays(p).omega, mode_arrays(p).psi, modal_damping(p))
+    )
+    time, force, drive, u, velocity = (np.asarray(samples[0][name]) for name in ("time", "P", "psi", "u", "u_velocity"))
+    shapes = _waves(theta, p.n_diameters).T
+    angle, speed = (
+        np.linalg.solve(shapes, np.stack([np.asarray(each[name]) for each in samples]))
+        for name in ("w_point", "w_point_velocity")
+    )
+    power = force * (velocity - np.sum(speed * _waves(p.Omega * time - drive, p.n_diameters), axis=0))
+    energy = np.sum((speed / psi) ** 2 + (omega * angle / psi) ** 2, axis=0)
+    energy += p.m * velocity**2 + p.k * (u - u_0) ** 2 + 2 * p.N * (u - u_0)
+    damped = np.sum(damping * (speed / psi) ** 2, axis=0) + p.c * velocity**2
+    pushes, pulls, taken = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
+    gained = float(energy[-1] - energy[0]) / 2 / float(time[-1] - time[0])
+    return Powers(float(np.ptp(u)), pushes, pulls, taken, gained)
+
+
+def of_windows(case: CaseView, prefix: str) -> Powers:
+    """Powers in the windows of a case that are named by a prefix and a number, one for each angle."""
+    windows = [case.samples(f"{prefix}{i}") for i in range(2 * case.parameters.n_diameters + 1)]
+    theta = np.array([window.attrs["theta"] for window in windows])
+    return powers(case.parameters, case["u_0"], theta, windows)
+
+
+def _waves(angle: Array, most: int) -> Array:
+    """1, then cosines and sines of multiples of an angle: (2 most + 1, number of angles)."""
+    orders = np.arange(1, most + 1)[:, None] * angle
+    return np.concatenate([np.ones((1, angle.size)), np.cos(orders), np.sin(orders)])
+
+
+@lru_cache(maxsize=16)
+def course(p: Parameters, until: float) -> tuple[Powers, ...]:
+    """Powers at `STAGES` times of the motion from the static start, up to a time in s."""
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.case import Window
+
+    theta = 2 * np.pi * np.arange(2 * p.n_diameters + 1) / (2 * p.n_diameters + 1)
+    state, courses = None, []
+    for begin, end in pairwise(np.linspace(0.0, until, STAGES + 1).tolist()):
+        start = max(begin, end - LENGTH)
+        windows = {f"at {angle:g}": Window(start=start, stop=end, rate=RATE, theta=angle) for angle in theta.tolist()}
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
+        state = run.final_state
+        courses.append(powers(p, run.u_0, theta, [*run.samples.values()]))
+    return tuple(courses)
+
+
+def in_the_end(courses: Sequence[Powers]) -> Powers:
+    """Means over the last quarter of the stages, for the steady state."""
+    return Powers(*np.mean(courses[-len(courses) // 4 :], axis=0).tolist())
+
+
+def at_width(courses: Sequence[Powers], width: float) -> Powers:
+    """Powers of a growing motion where it first has a width, which they follow as its square; raises `Absent`."""
+    beyond = next((i for i, each in enumerate(courses) if i and each.width > width), 0)
+    if not beyond:
+        raise Absent(f"maintained contact comes to {1e3 * courses[-1].width:.3g} mm only")
+    low, high = courses[beyond - 1 : beyond + 1]
+    share = (width**2 - low.width**2) / (high.width**2 - low.width**2)
+    return Powers(*((1 - share) * a + share * b for a, b in zip(low, high, strict=True)))

@@ -12,17 +12,7 @@ from disc_model.analysis.classify import distinct_points, irregularity, separati
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import measures
-from disc_model.paper.measures import (
-    STRETCH,
-    CaseView,
-    extent,
-    facts,
-    growth_or_nan,
-    listed,
-    mm,
-    published,
-    rate_text,
-)
+from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, listed, mm, published, rate_text
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import moving_load
 from disc_model.paper.section41 import upward
@@ -266,7 +256,7 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
     w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION
     if not apart.any():
         raise Missing(f"case {case.name} has no point of the section in separation")
-    lost, every = extent(1e3 * w[apart]), extent(1e3 * w)
+    lost, every = measures.extent(1e3 * w[apart]), measures.extent(1e3 * w)
     return Answer(
         lost.width > share * every.width,
         f"In the section of Fig. 5, the points in separation lie at {lost:.2f} mm only, of {every:.2f} mm.",
@@ -300,8 +290,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     return Answer(
         bool(newly.size) and not (never > newly[-1]).any(),
         f"At {facts(study)['Omega']:g} rad/s, within {facts(study)['horizon']:g} s, c_p = {c_p:g} N s/m brings "
-        f"separation at {listed(newly, '.0f', 'none')} N, of {extent(loads):g} N. No damper of up to {damping[-1]:g} "
-        f"N s/m does at {listed(never[never > 300], '.0f')} N above 300 N.",
+        f"separation at {listed(newly, '.0f', 'none')} N, of {measures.extent(loads):g} N. No damper of up to "
+        f"{damping[-1]:g} N s/m does at {listed(never[never > 300], '.0f')} N above 300 N.",
     )
 
 

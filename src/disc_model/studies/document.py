@@ -9,20 +9,8 @@ import re
 from collections.abc import Collection, Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    BeforeValidator,
-    Discriminator,
-    Field,
-    PlainValidator,
-    StringConstraints,
-    Tag,
-    ValidationInfo,
-    WithJsonSchema,
-    WrapValidator,
-    create_model,
-)
+import pydantic
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Tag, WithJsonSchema, create_model
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError
@@ -30,8 +18,7 @@ from disc_model.figures.kind import Kind, kind_of, library_kinds
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
-from disc_model.studies.quantity import quantity_names, quantity_of
-from disc_model.studies.ranges import Blocks, Range, checked_rule
+from disc_model.studies.quantity import Blocks, Range, checked_rule, quantity_names, quantity_of
 from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
 
 # ----------------------------------------------------------------------------------------------------
@@ -50,9 +37,7 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
 
 _REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
 Name = Annotated[
-    str,
-    StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100),
-    AfterValidator(_REPETITION),
+    str, pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100), AfterValidator(_REPETITION)
 ]
 """A name that files are called by; Snakemake takes a name that repeats itself for an endless recursion."""
 CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
@@ -88,7 +73,7 @@ _NO_AXIS = {
     "custom_error_message": "must be a list of values, or a range {start, stop, count or step}",
 }
 Listed = Annotated[list[NumberOrUnit], Field(min_length=1), Tag("a list")]
-Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], Discriminator(_axis_kind, **_NO_AXIS)]
+Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], pydantic.Discriminator(_axis_kind, **_NO_AXIS)]
 
 
 class BlocksOf(Strict):
@@ -99,7 +84,7 @@ class BlocksOf(Strict):
 
 Axis = Annotated[
     Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")],
-    Discriminator(_axis_kind, **_NO_AXIS),
+    pydantic.Discriminator(_axis_kind, **_NO_AXIS),
 ]
 
 
@@ -157,7 +142,7 @@ class BatchSpec(Strict):
 # Named cases
 
 
-def _in_part(model: type[BaseModel], **others: Any) -> type[Strict]:
+def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
     """What may be said of a model in part, since the rest is inherited; as null, to drop what is inherited.
 
     others : types of fields that are models themselves
@@ -194,7 +179,7 @@ class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
     n_diameters: Annotated[
         int,
         *_diameters.metadata,
-        WrapValidator(lambda value, check: value if value == AUTO else check(value)),
+        pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
         WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
     ] = Field(  # type: ignore[assignment]
         None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra
@@ -335,7 +320,7 @@ def _known(name: str | None) -> str | None:
     return name
 
 
-def _options(raw: Any, info: ValidationInfo) -> Any:
+def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The quantity with its options; what is given for an unknown one is checked once it is known."""
     if (quantity := info.data.get("quantity")) is None:
         return raw

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 
 from pydantic import create_model
 
+from disc_model import parameters
 from disc_model.data.variables import PERTURBATIONS, START
 from disc_model.disc.plausibility import RULES
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
@@ -26,22 +27,10 @@ from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.region_map import RegionMap
 from disc_model.mode_choice import ModeRequest, asked_modes
-from disc_model.parameters import (
-    AUTO,
-    CHOOSING,
-    PLATE,
-    RATIOS,
-    RELATED,
-    RESIDUAL,
-    SURFACE,
-    Parameters,
-    case_of,
-    in_identities,
-)
+from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
-from disc_model.studies.quantity import Quantity
-from disc_model.studies.ranges import Blocks, Value, holds, names_in
+from disc_model.studies.quantity import Blocks, Quantity, Value, holds, names_in
 from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
@@ -163,7 +152,7 @@ class GridStudy:
                     used = {str(point[name]) for point in points}
                     texts_of_names[kind] = {word: known[word].model_dump() for word in used}
             if points:
-                content = part | {"points": [[*in_identities(point).values()] for point in points]}
+                content = part | {"points": [[*parameters.in_identities(point).values()] for point in points]}
                 texts.append(canonical_json(shared | texts_of_names | content))
         return {content_key(text): text for text in texts}
 
@@ -218,7 +207,7 @@ class GridStudy:
     @property
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible points, each with their number."""
-        base = {name: value for name, value in self.base.items() if name not in CHOOSING and value != AUTO}
+        base = {name: value for name, value in self.base.items() if name not in parameters.CHOOSING and value != AUTO}
         base |= next(self.points_along(self.dims))
         for rule in RULES.values():
             dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]

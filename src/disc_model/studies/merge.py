@@ -20,8 +20,7 @@ import xarray as xr
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
-from disc_model.studies.quantity import STATUSES, Quantity, quantity_of
-from disc_model.studies.ranges import holds
+from disc_model.studies.quantity import STATUSES, Quantity, holds, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
 
@@ -159,8 +158,4 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
     return tree
 
 
-_TEXTS = {
-    "message": "what ended the simulation early",
-    "reference": "place in the paper",
-    "title": "what the case is",
-}
+_TEXTS = {"message": "what ended the simulation early", "reference": "place in the paper", "title": "what the case is"}

@@ -114,10 +114,7 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 # Studies
 
 
-MODES = {
-    "as_published": "modes scaled as in the published results",
-    "orthonormal": "modes normalised as Eq. (17) says",
-}
+MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 """Normalizations in captions."""
 
 

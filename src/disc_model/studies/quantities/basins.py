@@ -17,8 +17,7 @@ from pydantic import Field
 
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed, with_ends
-from disc_model.studies.ranges import MOST
+from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity, listed, with_ends
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:

@@ -11,19 +11,18 @@ from pydantic import Field
 from disc_model.analysis.settling import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import raise_faults, violations
-from disc_model.simulation.case import Poincare
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point
-from disc_model.studies.ranges import MOST
-from disc_model.studies.transient import AfterTransient
-from disc_model.units import Count, Finite, Seconds, Unit
+from disc_model.simulation.case import Poincare, Start
+from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity
+from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
+    from disc_model.simulation.states import State
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 
 
-class Bifurcation(AfterTransient):
+class Bifurcation(Start, Quantity):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
     section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
@@ -35,10 +34,14 @@ class Bifurcation(AfterTransient):
     """
 
     section: Literal["stroboscopic", "event"] = "stroboscopic"
+    tol: Tolerance = 1e-10
+    transient: Seconds
     max_transient: Seconds = 480.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Annotated[Finite, Unit("rad")] = 1.0
 
+    motions: ClassVar = 8
+    motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
@@ -71,6 +74,12 @@ class Bifurcation(AfterTransient):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Sample the motion from the static start or from the point's own start."""
         return _once_a_turn(point, self) if self.section == "stroboscopic" else _at_switches(point, self)
+
+    def state_at(self, point: Point) -> State:
+        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
+        from disc_model.simulation.api import state_after
+
+        return state_after(point.parameters, point.start, self.transient, self.tol)
 
 
 def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:

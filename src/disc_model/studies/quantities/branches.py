@@ -15,8 +15,8 @@ from pydantic import Field
 from disc_model.analysis.settling import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import DIRECTION, NUMERICAL, STATUS, WORK, Coordinate, Free, Point, Quantity, listed
-from disc_model.studies.ranges import Range
+from disc_model.studies import quantity
+from disc_model.studies.quantity import DIRECTION, STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ class Branches(Quantity):
 
     @property
     def seconds(self) -> float:
-        return WORK
+        return quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the sweep and the branches; the point's own value of the parameter is not used."""
@@ -105,7 +105,7 @@ class Branches(Quantity):
             if len(rows) < self.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
                 try:
                     rows.append(_branch(cycle, reached, self))
-                except NUMERICAL as error:
+                except quantity.NUMERICAL as error:
                     unfollowed.append(str(error))
 
         lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))

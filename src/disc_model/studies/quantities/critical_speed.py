@@ -16,8 +16,7 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, Point, listed
-from disc_model.studies.ranges import Range
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, Point, Range, listed
 from disc_model.units import Count, Seconds, Speed, Unit
 
 if TYPE_CHECKING:

@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
 from disc_model.analysis.settling import ANSWER
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import DIRECTION, SIMULATED, STATUS, STATUSES, Coordinate, Point, Quantity
-from disc_model.studies.ranges import Range
+from disc_model.studies.quantity import DIRECTION, SIMULATED, STATUS, STATUSES, Coordinate, Point, Quantity, Range
 from disc_model.units import Seconds, Tolerance, Unit
-
-if TYPE_CHECKING:
-    pass
 
 _DIMS = ("direction", "sweep_Omega")
 

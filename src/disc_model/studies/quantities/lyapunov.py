@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
 
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point
-from disc_model.studies.transient import AfterTransient
-from disc_model.units import Count, Seconds
+from disc_model.simulation.case import Start
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity
+from disc_model.units import Count, Seconds, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
 
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)
 
 
-class Lyapunov(AfterTransient):
+class Lyapunov(Start, Quantity):
     """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
 
     transient : s, left out
@@ -26,10 +29,14 @@ class Lyapunov(AfterTransient):
     interval : s, between orthonormalisations; exponents below -400/s need a shorter one
     """
 
+    tol: Tolerance = 1e-10
+    transient: Seconds
     duration: Seconds
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
     interval: Seconds = 0.05
 
+    motions: ClassVar = 8
+    motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
         "exponent": Variable(
@@ -80,3 +87,9 @@ class Lyapunov(AfterTransient):
             "separations": result.separations,
         }
         return values, "" if result.status.complete else result.status.advice
+
+    def state_at(self, point: Point) -> State:
+        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
+        from disc_model.simulation.api import state_after
+
+        return state_after(point.parameters, point.start, self.transient, self.tol)

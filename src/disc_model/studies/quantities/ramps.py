@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, listed
-from disc_model.studies.ranges import Range
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, listed
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -33,10 +32,7 @@ class Ramps(Quantity):
     rates: Annotated[Range, Unit("rad/s^2")]
     dwell: Seconds = 60.0
 
-    _rules = (
-        (lambda o: o.low < o.high, "low must be < high"),
-        (lambda o: o.rates.start > 0, "rates must be > 0"),
-    )
+    _rules = ((lambda o: o.low < o.high, "low must be < high"), (lambda o: o.rates.start > 0, "rates must be > 0"))
 
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {

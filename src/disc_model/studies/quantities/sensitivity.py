@@ -18,31 +18,13 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.analysis.classify import share
-from disc_model.data.variables import (
-    EXCLUDED,
-    OUTCOMES_TO_HORIZON,
-    SAMPLE,
-    SCALARS,
-    STABLE_CYCLES,
-    CycleStatus,
-    Variable,
-    flag_names,
-)
+from disc_model.data import variables
+from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, CycleStatus, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
 from disc_model.simulation.case import SomeParameters
-from disc_model.studies.quantity import (
-    CYCLE,
-    SIMULATED,
-    STATUS,
-    Coordinate,
-    Point,
-    Quantity,
-    Row,
-    tried,
-    with_ends,
-)
-from disc_model.studies.ranges import Blocks, Ruled, Rules
+from disc_model.studies import quantity
+from disc_model.studies.quantity import STATUS, Blocks, Coordinate, Point, Quantity, Row, Ruled, Rules, tried, with_ends
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
 
 if TYPE_CHECKING:
@@ -54,7 +36,7 @@ UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
 sticks and slips, immediate separation, or unstable sliding."""
-SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
+SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
 # ----------------------------------------------------------------------------------------------------
 # Distributions of uncertain parameters
 
@@ -168,9 +150,7 @@ class Sensitivity(Quantity):
         "outcome": Variable("1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES),
         "first_separation": SCALARS["first_separation"],
     }
-    COORDINATES: ClassVar = {
-        "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions)),
-    }
+    COORDINATES: ClassVar = {"parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions))}
     SUMMARY_COLUMNS: ClassVar = {
         "n_known_cycles": Variable("1", "number of samples whose cycle is known", whole=True),
         "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
@@ -180,7 +160,7 @@ class Sensitivity(Quantity):
 
     @property
     def seconds(self) -> float:
-        return CYCLE + SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
+        return quantity.CYCLE + quantity.SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:

@@ -8,8 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity
-from disc_model.studies.ranges import Range
+from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range
 from disc_model.units import Count, Unit
 
 _ONE, _EACH = ("value",), ("value", "mode")

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, listed
-from disc_model.studies.ranges import Range
+from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
-
-if TYPE_CHECKING:
-    pass
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")

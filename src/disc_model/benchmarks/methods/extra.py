@@ -1,0 +1,298 @@
+"""Integrators of the extra `bench`: heyoka's compiled Taylor series, and SUNDIALS CVODE with scikit-sundae.
+
+heyoka has native terminal events, in double precision. The equations are arranged for the least work in it. Constants
+are merged into one coefficient per state. The products of f with the modal states are shared by equations and contact
+force. The force has one division, and the direction of slip is a parameter. Loss of contact in stick needs no event:
+stick ends before. Compact mode takes twice as long, ``slp_vectorize`` a tenth more; ``force_avx512`` changes nothing.
+
+CVODE has its own root finding and is restarted at every event. The library is called directly: scikit-sundae calls
+Python for every right-hand side, which takes three times as long. Right-hand side, event functions and Jacobian are
+compiled; they read and write CVODE's own memory.
+"""
+
+# mypy: disable-error-code="no-untyped-def"
+
+from __future__ import annotations
+
+import ctypes
+import time as clock
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import cache, lru_cache
+from typing import Any
+
+import numba
+import numpy as np
+from numba import carray, types
+
+from disc_model.benchmarks.methods import kernels
+from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, run_phases
+from disc_model.benchmarks.methods.installed import absolute_scale
+from disc_model.benchmarks.methods.kernels import SHIFT, Array, Physics
+from disc_model.data.variables import PHASES
+from disc_model.parameters import Parameters
+
+HEYOKA_STEPS = 100_000
+"""Number of steps between two checks of the clock."""
+
+
+def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "") -> MethodResult:
+    """heyoka's adaptive Taylor integrator; ``mode`` "compact": it compiles sooner and takes longer."""
+    import heyoka as hy
+
+    meter, p = Meter(problem, budget), problem.parameters
+    drive = (p.N - p.k * meter.physics.u_0, p.Omega)  # in the order of `system`
+    at_end, no_more = int(hy.taylor_outcome.time_limit), int(hy.taylor_outcome.step_limit)
+    path: list[tuple[float, Array]] = []
+    inside = 0.0
+
+    def note(integrator: Any) -> bool:
+        path.append((float(integrator.time), integrator.state.copy()))
+        return True
+
+    # called at every step, which takes longer than some steps
+    seen = {"callback": note} if problem.watched else {}
+    prepared = []
+    for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True):
+        integrator.pars[:2] = drive
+        # with fewer events, the last ones of ENDS
+        state = integrator.state
+        skipped = ends - len(integrator.t_events)
+        prepared.append((integrator, integrator.propagate_until, state, len(state), skipped))
+
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        nonlocal inside
+        integrator, propagate, state, size, skipped = prepared[phase]
+        integrator.time, state[:] = t, y[:size]
+        if direction:
+            integrator.pars[2] = direction
+        path.clear()
+        began = clock.perf_counter()
+        outcome, _, _, steps, _, _ = propagate(t_end, max_steps=HEYOKA_STEPS, **seen)
+        while (stop := int(outcome)) == no_more:
+            meter.work += steps
+            meter.check()
+            outcome, _, _, steps, _, _ = propagate(t_end, max_steps=HEYOKA_STEPS, **seen)
+        inside += clock.perf_counter() - began
+        meter.work += steps
+        cause = None if stop == at_end else skipped - stop - 1
+        if cause is not None and not skipped <= cause < ENDS[phase]:
+            raise GaveUp(str(outcome))
+        if problem.watched:
+            note(integrator)
+            states = np.tile(y, (len(path) + 1, 1))
+            states[1:, : len(state)] = [state for _, state in path]
+            meter.steps(np.array([t, *(time for time, _ in path)]), states)
+        y[:size] = state
+        return cause, integrator.time, y
+
+    result = run_phases(advance, meter)
+    return replace(result, glue=result.seconds * (1.0 - inside / meter.wall))
+
+
+@lru_cache(maxsize=32)
+def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
+    """Compiled integrators by phase; cases that differ in load and speed of the drive share them, see `system`."""
+    import heyoka as hy
+
+    made = []
+    for phase in PHASES:
+        rows, functions = system(Physics(p), phase)
+        falling = [hy.t_event(g, direction=hy.event_direction.negative, cooldown=0.0) for g in functions]
+        options = {"tol": tol, "compact_mode": compact, "fast_math": True}
+        made.append(hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options))
+    return made
+
+
+def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
+    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `base.ENDS`.
+
+    Parameters at run time: N - k u_0, Omega and, in slip, its direction.
+    """
+    import heyoka as hy
+
+    p, n, l, s = physics.p, physics.n, physics.l, physics.shape
+    load, drive, sign = (hy.par[i] for i in range(3))
+    a, b, alpha, beta = ([hy.make_vars(f"{letter}{i}") for i in range(n)] for letter in "abpq")
+    psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
+    nothing = hy.expression(0.0)
+    sticks, touches = phase == "stick", phase != "separation"
+    turning = [] if sticks else [i for i in range(n) if l[i] > 0]
+    fa, fb, falpha, fbeta = ({i: f * x[i] for i in turning} for x in (a, b, alpha, beta))
+
+    def combined(*terms: tuple[Any, Any]) -> Any:
+        used = [factor * x for factor, x in terms if not isinstance(factor, float) or factor]
+        return hy.sum(used) if used else nothing
+
+    def each(factors: Any, x: Any, modes: Iterable[int] = range(n)) -> list[tuple[float, Any]]:
+        return [(float(factors[i]), x[i]) for i in modes]
+
+    F = combined((p.k_p, psi), (p.c_p, drive), (0.0 if sticks else -p.c_p, f))
+    P = nothing
+    if touches:
+        below = 1.0 + p.m * physics.compliance
+        by = s / below
+        held = each((p.k - p.m * physics.stiffness) * by, a) + each((p.c - p.m * physics.damping) * by, alpha)
+        P = combined(
+            (1.0 / below, load), *held, *each(2.0 * p.m * l * by, fbeta, turning), *each(p.c * l * by, fb, turning)
+        )
+    if turning and touches:
+        tilt = combined(*each(l * by, b, turning))
+        P = P - f * combined(*each(p.m * l**2 * by, fa, turning)) + tilt * F
+        P = P / (1.0 + sign * (p.mu_k / p.r_0 * tilt))
+    f_rate = nothing if sticks else F / p.m
+    if phase == "slip":
+        f_rate = f_rate - sign * (p.mu_k / (p.m * p.r_0)) * P
+
+    def row(i: int, *own: tuple[float, Any], turned: tuple[float, Any]) -> Any:
+        factor, product = turned
+        return combined(*own, *([(factor, product[i])] if i in product else []))
+
+    d, w2 = -physics.damping, -physics.stiffness
+    rows = [(a[i], row(i, (1.0, alpha[i]), turned=(l[i], fb))) for i in range(n)]
+    rows += [(b[i], row(i, (1.0, beta[i]), turned=(-l[i], fa)) if l[i] else nothing) for i in range(n)]
+    push = [(-float(s[i]), P) if touches else (0.0, P) for i in range(n)]
+    rows += [(alpha[i], row(i, (d[i], alpha[i]), (w2[i], a[i]), push[i], turned=(l[i], fbeta))) for i in range(n)]
+    rows += [
+        (beta[i], row(i, (d[i], beta[i]), (w2[i], b[i]), turned=(-l[i], falpha)) if l[i] else nothing) for i in range(n)
+    ]
+    rows += [(psi, drive if sticks else drive - f), (f, f_rate)]
+    if not touches:
+        rows += [(u, v), (v, combined((-1.0 / p.m, load), (-p.k / p.m, u), (-p.c / p.m, v)))]
+        return rows, [SHIFT + u - combined(*each(s, a))]
+    if sticks:
+        return rows, [p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
+    return rows, [sign * f] if p.contact == "bilateral" else [P, sign * f]
+
+
+# ----------------------------------------------------------------------------------------------------
+# SUNDIALS CVODE, with scikit-sundae
+
+CVODE_STEPS = 5_000
+"""Number of steps between two checks of the clock."""
+FAMILIES = {"Adams": 1, "BDF": 2}
+NORMAL, ONE_STEP = 1, 2
+REACHED, ROOT_FOUND, TOO_MUCH_WORK = 1, 2, -1
+HEAD = 3
+"""Number of entries before the scalars in the callbacks' data: phase, direction, modes."""
+
+
+def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
+    """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
+    meter = Meter(problem, budget)
+    n, scale = meter.physics.n, value * absolute_scale(meter.physics)
+    state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
+    time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
+    falling = (ctypes.c_int * 3)(-1, -1, -1)
+    call, switches = _library(), _callbacks()[1]
+
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        state[:], constants[:2], time.value = y, (phase, direction), t
+        call.CVodeReInit(memory, ctypes.c_double(t), vector)
+        call.CVodeRootInit(memory, ENDS[phase], switches)
+        call.CVodeSetRootDirection(memory, falling)
+        call.CVodeSetStopTime(memory, ctypes.c_double(t_end))
+        flag, how, path = 0, ONE_STEP if problem.watched else NORMAL, [(t, y.copy())]
+        while flag in (0, TOO_MUCH_WORK):
+            meter.check()
+            flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
+            path.append((time.value, state.copy()))
+        if problem.watched:
+            meter.steps(np.array([time for time, _ in path]), np.array([state for _, state in path]))
+        call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
+        meter.work += evaluations.value
+        if flag < 0:
+            raise GaveUp(f"CVODE returned {flag}")
+        if flag == REACHED:
+            return None, time.value, state
+        call.CVodeGetRootInfo(memory, roots)
+        return next(i for i, is_root in enumerate(roots) if is_root), time.value, state
+
+    with _solver(family, state, value, scale, constants) as (memory, vector):
+        return run_phases(advance, meter)
+
+
+@cache
+def _library() -> Any:
+    """The SUNDIALS functions in the library that comes with scikit-sundae."""
+    import sksundae._cy_cvode as extension
+
+    library = ctypes.CDLL(extension.__file__)
+    for name in ("CVodeCreate", "N_VMake_Serial", "SUNNonlinSol_FixedPoint", "SUNDenseMatrix", "SUNLinSol_Dense"):
+        getattr(library, name).restype = ctypes.c_void_p
+    return library
+
+
+@cache
+def _callbacks() -> tuple[ctypes.c_void_p, ...]:
+    """Addresses of right-hand side, event functions and Jacobian."""
+    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word is the data pointer
+    owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
+    data, scalars, rows = types.CPointer(types.float64), len(kernels.CONSTANTS), len(kernels.ROWS)
+
+    @numba.njit(forceinline=True)
+    def case(data):
+        n = int(data[2])
+        constants = carray(data, HEAD + scalars + rows * n)
+        modes = constants[HEAD + scalars :].reshape((rows, n))
+        return modes, constants[HEAD : HEAD + scalars], int(data[0]), int(data[1]), 4 * n + 4
+
+    @numba.cfunc(types.int32(types.float64, owner, owner, data), error_model="numpy")
+    def rate(_t, y, dy, data):
+        modes, c, phase, direction, size = case(data)
+        kernels.rate(modes, c, phase, direction, carray(y[0][1], size), carray(dy[0][1], size))
+        return 0
+
+    @numba.cfunc(types.int32(types.float64, owner, data, data), error_model="numpy")
+    def switches(_t, y, out, data):
+        modes, c, phase, direction, size = case(data)
+        kernels.switch_values(modes, c, phase, direction, carray(y[0][1], size), carray(out, 3))
+        return 0
+
+    @numba.cfunc(types.int32(types.float64, owner, owner, owner, data, owner, owner, owner), error_model="numpy")
+    def jacobian(_t, y, _dy, J, data, _1, _2, _3):
+        modes, c, phase, direction, size = case(data)
+        by_columns = carray(J[0][1], (size, size))
+        kernels.jacobian(modes, c, phase, direction, carray(y[0][1], size), by_columns.T)
+        return 0
+
+    _callbacks.kept = rate, switches, jacobian  # type: ignore[attr-defined]
+    return tuple(ctypes.c_void_p(callback.address) for callback in _callbacks.kept)  # type: ignore[attr-defined]
+
+
+@contextmanager
+def _solver(
+    family: str, y: Array, tol: float, atol: Array, constants: Array
+) -> Iterator[tuple[ctypes.c_void_p, ctypes.c_void_p]]:
+    """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
+    call = _library()
+    rate, _, jacobian = _callbacks()
+    context, size = ctypes.c_void_p(), len(y)
+    call.SUNContext_Create(0, ctypes.byref(context))
+    call.SUNContext_ClearErrHandlers(context)
+    vector, least = (
+        ctypes.c_void_p(call.N_VMake_Serial(size, x.ctypes.data_as(ctypes.c_void_p), context)) for x in (y, atol)
+    )
+    memory = ctypes.c_void_p(call.CVodeCreate(FAMILIES[family], context))
+    call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
+    call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
+    call.CVodeSetUserData(memory, constants.ctypes.data_as(ctypes.c_void_p))
+    call.CVodeSetMaxNumSteps(memory, ctypes.c_long(CVODE_STEPS))
+    if family == "Adams":
+        iteration = ctypes.c_void_p(call.SUNNonlinSol_FixedPoint(vector, 0, context))
+        call.CVodeSetNonlinearSolver(memory, iteration)
+        made = [("SUNNonlinSolFree", iteration)]
+    else:
+        matrix = ctypes.c_void_p(call.SUNDenseMatrix(size, size, context))
+        linear = ctypes.c_void_p(call.SUNLinSol_Dense(vector, matrix, context))
+        call.CVodeSetLinearSolver(memory, linear, matrix)
+        call.CVodeSetJacFn(memory, jacobian)
+        made = [("SUNLinSolFree", linear), ("SUNMatDestroy", matrix)]
+    try:
+        yield memory, vector
+    finally:
+        call.CVodeFree(ctypes.byref(memory))
+        for free, handle in (*made, ("N_VDestroy", vector), ("N_VDestroy", least)):
+            getattr(call, free)(handle)
+        call.SUNContext_Free(ctypes.byref(context))
