@@ -2,8 +2,10 @@
 
 import functools
 import io
+import logging
 import sys
 import threading
+from pathlib import Path
 
 import numba
 import pytest
@@ -72,3 +74,41 @@ def test_a_wait_for_another_process_is_said_and_its_helpers_are_read(monkeypatch
             pass
     assert stderr.getvalue() == f"{cache.WAITING}\n"
     assert cache.stored_helpers(None) is not before
+
+
+@EVERYWHERE
+def test_a_study_shows_its_progress_and_its_failures_by_reason(
+    kind: type[io.StringIO], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    stream, now = kind(), 0.0
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(display.time, "monotonic", lambda: now)
+    logger = logging.Logger("of Snakemake")  # with records as those of Snakemake's own
+    durations = {**dict.fromkeys(range(10), 60.0), 10: 600.0}
+    progress = display.StudyProgress(logging.StreamHandler(stream), lambda: (durations, 2))
+    logger.addHandler(progress)
+    logger.info("Job stats: many lines", extra={"event": "run_info"})
+    assert stream.getvalue() == "11 jobs, about 10 min left\n"
+    for job, reason in ((7, "N = 3.2e5: too hard"), (8, "another"), (9, "N = 400: too hard")):
+        log = tmp_path / f"{job}.log"
+        log.write_text(f"Traceback\n{reason}\n")
+        extra = {"event": "job_error", "rule_name": "simulate", "jobid": job, "log": [str(log)], "rule_msg": None}
+        logger.error("Error in rule", extra=extra)
+    for job in range(7):
+        now += 60.0  # twice as long as two jobs at once were expected to take
+        logger.info("Select jobs to execute...")
+        logger.info("Finished job", extra={"event": "job_finished", "job_id": job})
+        logger.info(None, extra={"event": "progress", "done": job + 1, "total": 11})
+        if job == 5:  # the last that makes a tenth more, and a line where there is no terminal
+            told = progress.bar.tasks[0].description if progress.bar else stream.getvalue()
+            assert "6 of 11 jobs done, 3 failed, about 13 min left" in told
+    assert bool(progress.bar) == (kind is Terminal)
+    logger.warning("the disk is full")
+    logger.error("Exiting because a job execution failed. Look above for error messages")
+    shown = stream.getvalue()
+    assert "the disk is full\n" in shown
+    assert not any(text in shown for text in ("Job stats", "Error in rule", "Select jobs", "Finished", "Look above"))
+    first, second, third = (f"simulate: {tmp_path / f'{job}.log'}" for job in (7, 9, 8))
+    ends = ["    Traceback", "    N = 3.2e5: too hard", "    N = 400: too hard"]
+    lines = ["failed jobs: 3", first, second, *ends, third, "    Traceback", "    another"]
+    assert shown.endswith("\n".join(lines) + "\n")

@@ -1,14 +1,17 @@
-"""What a session shows: tables of objects in notebooks, their pictures, and the progress of long simulations."""
+"""What a session shows: tables of objects in notebooks, their pictures, and the progress of simulations and studies."""
 
 from __future__ import annotations
 
+import logging
 import math
+import re
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from html import escape
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 
@@ -105,16 +108,118 @@ def counting(total: int) -> Iterator[Callable[[Any], Any]]:
         yield counted
 
 
-def _open_bar(text: str, total: float) -> Any:
+def _open_bar(text: str, total: float, estimate: bool = True) -> Any:
+    """A bar with the time that has passed and, by rich's estimate, what is left."""
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     terminal = sys.stderr.isatty()
     if not terminal:  # a notebook, where rich's bars need further packages, or a file
         print(text, file=sys.stderr, flush=True)
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn(), TextColumn("left:"))
-    console = Console(stderr=True)
-    bar = Progress(*columns, TimeRemainingColumn(), console=console, transient=True, disable=not terminal)
+    columns: list[ProgressColumn] = [TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()]
+    columns += [TextColumn("left:"), TimeRemainingColumn()] if estimate else []
+    bar = Progress(*columns, console=Console(stderr=True), transient=True, disable=not terminal)
     bar.add_task(text, total=total)
     bar.start()
     return bar
+
+
+# ----------------------------------------------------------------------------------------------------
+# What Snakemake shows of a study
+
+_OF_JOBS = re.compile("job_.*|group_info|progress|run_info|resources_info|shellcmd|workflow_started")
+"""Snakemake's events that concern single jobs, or what it is about to do."""
+_CHATTER = re.compile(
+    "Assuming unrestricted|Building DAG|Using shell|Conda environments:|Select jobs|Execute [0-9]+ job"
+    "|Exiting because a job|RuleException:\nCalledProcessError|Job [0-9]+ has been submitted"
+)
+_TRUST = 60.0
+"""s of work: expected durations count as much as the pace at which so much was done."""
+_LAST = 10
+"""Lines at the end of a log that are shown."""
+
+
+class StudyProgress(logging.Handler):
+    """Shows how much of a study is done and how long the rest takes, and at the end which jobs failed, by reason.
+
+    It stands in for the handler by which Snakemake writes to the terminal, and passes on what concerns no job.
+
+    own : Snakemake's handler
+    durations : function that returns the expected durations (s) of the jobs that are to run, by the job's number, and
+        how many run at the same time
+    """
+
+    def __init__(self, own: Any, durations: Callable[[], tuple[Mapping[int, float], int]]) -> None:
+        super().__init__()
+        self.own, self.stream, self.durations, self.cores = own, own.stream, durations, 1
+        self.expected: Mapping[int, float] = {}
+        self.failed: dict[int, Any] = {}
+        self.done = self.told_done = 0.0  # s of expected work
+        self.began = self.told = time.monotonic()
+        self.bar: Any = None
+
+    def emit(self, record: Any) -> None:
+        """Take in a message of Snakemake."""
+        event, text = str(getattr(record, "event", "")), str(record.msg)
+        if event == "run_info":
+            (self.expected, self.cores), self.began = self.durations(), time.monotonic()
+            self._write(f"{len(self.expected)} jobs, {self.left}")
+        elif event == "job_finished":
+            self.done += self.expected.get(record.job_id, 0.0)
+            self.failed.pop(record.job_id, None)  # it was tried once more
+        elif event == "job_error":
+            self.failed[record.jobid] = record
+        elif event == "progress":
+            self._show(record.done, record.total)
+        elif text.startswith("Exiting because a job"):
+            self._write(self.failures)
+        if not (_OF_JOBS.fullmatch(event) or _CHATTER.match(text)):
+            self.own.handle(record)
+
+    @property
+    def left(self) -> str:
+        """Time that the rest takes, by the expected durations and the pace of what is done."""
+        pace = (time.monotonic() - self.began + _TRUST / self.cores) / (self.done + _TRUST)
+        seconds = (sum(self.expected.values()) - self.done) * pace
+        return f"about {seconds / 60:.0f} min left" if seconds > 90 else f"about {math.ceil(seconds / 5) * 5} s left"
+
+    @property
+    def failures(self) -> str:
+        """The failed jobs by reason, the last line of a log but for its numbers, with what their logs end with."""
+        reasons: dict[str, list[tuple[str, list[str]]]] = {}
+        for record in self.failed.values():
+            logs = [Path(log) for log in record.log if Path(log).is_file()]
+            lines = [line for log in logs for line in log.read_text(errors="replace").rstrip().split("\n")[-_LAST:]]
+            ends = [*lines, *[record.rule_msg] * bool(record.rule_msg)]
+            job = f"{record.rule_name}: {', '.join(map(str, logs or record.output))}"
+            reasons.setdefault(re.sub(r"\d[\d.e+-]*", "", "".join(ends[-1:])), []).append((job, ends))
+        parts = [f"failed jobs: {len(self.failed)}"]
+        for jobs in reasons.values():
+            ends = [*dict.fromkeys(f"    {line}" for _, lines in jobs for line in lines)]
+            parts += [*(job for job, _ in jobs), *ends[-3 * _LAST :]]
+        return "\n".join(parts)
+
+    def _show(self, done: int, total: int) -> None:
+        """Move the bar; where there is no terminal, write a line after each tenth of the work or each minute."""
+        failed = f", {len(self.failed)} failed" if self.failed else ""
+        text, whole = f"{done} of {total} jobs done{failed}", sum(self.expected.values())
+        if done == total:
+            self._write(text)
+        elif self.stream.isatty():
+            if self.bar is None:
+                self.bar = _open_bar("", whole, estimate=False)
+                self.own.stream = sys.stderr  # rich's, which writes above the bar
+            self.bar.update(self.bar.task_ids[0], completed=self.done, description=f"{text}, {self.left}")
+        elif self.done - self.told_done > whole / 10 or time.monotonic() - self.told > 60.0:
+            self._write(f"{text}, {self.left}")
+            self.told_done, self.told = self.done, time.monotonic()
+
+    def _write(self, text: str) -> None:
+        self.close()
+        print(text, file=self.stream, flush=True)
+
+    def close(self) -> None:
+        """Remove the bar, however the run ended."""
+        if self.bar is not None:
+            self.bar.stop()
+            self.bar, self.own.stream = None, self.stream

@@ -33,7 +33,7 @@ def test_a_study_is_computed_by_the_cluster(project: Project, finished: Project)
     project.forget()
     (project.folder / "src" / "sitecustomize.py").write_text(HANG)
     project.edit(f"{PROFILE}/config.yaml", "runtime: 30 * attempt", "runtime: 1 * attempt")
-    text = project.complete("--workflow-profile", PROFILE)
+    text = project.complete("--workflow-profile", PROFILE, "--quiet", "host")  # which shows every job
     submitted = re.findall(r"SLURM jobid \d+ \(log: \S*/rule_(\w+)/", text)
     batches = len(list(project.folder.glob("results/*/batches/*.nc")))
     assert submitted.count("compute_batch") == batches + 1

@@ -22,6 +22,7 @@ SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 try:
+    from disc_model.display import StudyProgress
     from disc_model.figures.kind import Plot
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
@@ -69,7 +70,8 @@ try:
 except DiscModelError as error:
     raise WorkflowError(str(error)) from None
 
-if getattr(workflow, "is_main_process", True):
+MAIN = getattr(workflow, "is_main_process", True)
+if MAIN:
     for checked in [STUDY, *(GRIDS[name] for name in ASKED)]:
         for doubt in checked.doubts:
             logger.warning(f"{checked.name}: warning: {doubt}")

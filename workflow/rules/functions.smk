@@ -109,6 +109,27 @@ def measured_of(part):
     return made_of("measure", "benchmarks.methods", f"benchmarks.{name}")
 
 
+def duration(job):
+    """Expected duration of a job (s): that of last time, or else by what a study knows of its cost."""
+    record = job.output and workflow.persistence.metadata(job.output[0])
+    if record and record.endtime:
+        return record.endtime - (record.starttime or record.endtime)
+    if job.rule.name != "compute_batch":
+        return 3.0  # most of it the start of Python
+    study = GRIDS[job.wildcards.study]
+    batch = json.loads(study.batches[job.wildcards.batch])
+    points = 1 if study.options.tiled else len(batch["points"])
+    return 1.0 + study.options.seconds * points
+
+
+def durations():
+    """Expected durations of all jobs to run, by number, and how many run at the same time."""
+    jobs = {
+        workflow.dag.jobid(job): duration(job) for job in workflow.dag.needrun_jobs()
+    }
+    return jobs, workflow.cores or workflow.nodes
+
+
 @cache
 def unrecorded():
     """Results without a record of Snakemake, which would take them for up to date."""
@@ -121,8 +142,7 @@ def unrecorded():
 
 def refuse_unrecorded(wildcards):
     """Stop if there are `unrecorded` results; an input function, since Snakemake has read its records by then."""
-    main = getattr(workflow, "is_main_process", True) and "--touch" not in sys.argv
-    if main and (unknown := unrecorded()):
+    if MAIN and "--touch" not in sys.argv and (unknown := unrecorded()):
         raise WorkflowError(
             f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"
             " (was .snakemake removed?), so nothing tells whether they are up to date."
