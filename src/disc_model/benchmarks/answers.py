@@ -54,8 +54,7 @@ SEPARATING = Parameters(N=385.0, Omega=15.1)
 SETTLED = Parameters(N=300.0, Omega=20.0)
 GROWING = Parameters(N=200.0, Omega=20.0)
 
-SEPARATION_HORIZON = 55.0
-"""Simulated time for the first separation, s."""
+SEPARATION_HORIZON = 55.0  # simulated time for the first separation, s
 SETTLED_AT, SETTLED_SPAN = 250.0, 5.0
 """Begin and length of the examined motion after separation, s: slightly more than two periods."""
 ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02
@@ -120,8 +119,7 @@ def verdict(question: str, reply: Reply, right: float) -> AnswerVerdict:
     return AnswerVerdict.RIGHT if abs(reply.value - right) <= QUESTIONS[question].enough else AnswerVerdict.WRONG
 
 
-# ----------------------------------------------------------------------------------------------------
-# Stored references
+# ---- Stored references
 
 
 class Reference(NamedTuple):
@@ -148,22 +146,18 @@ def cell_parameters(index: int) -> Parameters:
     return Parameters(N=float(load[index // SIDE]), Omega=float(speed[index % SIDE]))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Replies of a method that integrates, from the events that it finds. Each function receives a method at one setting,
-# ``solve(problem, budget)``, and a budget in seconds for everything; it returns the replies by the name of the answer.
+# ---- Replies of a method that integrates, from the events that it finds
+# Each function receives a method at one setting, ``solve(problem, budget)``, and a budget in seconds for everything; it
+# returns the replies by the name of the answer.
 
 Array = NDArray[np.float64]
 Solve = Callable[[Problem, float], MethodResult]
 Replies = dict[str, Reply]
 
-AFTER_SEPARATION = ("separation_rate", "disc_range", "period")
-"""Names of the answers of `after_separation`."""
-REPEATS = 3
-"""Number of repeated quick runs; the fastest counts, since disturbances only add time."""
-QUICK = 0.3
-"""Longest time of a run that is repeated, s."""
-TRIED = 4
-"""Number of cells from which the affordable number is estimated."""
+AFTER_SEPARATION = ("separation_rate", "disc_range", "period")  # names of the answers of `after_separation`
+REPEATS = 3  # number of repeated quick runs; the fastest counts, since disturbances only add time
+QUICK = 0.3  # longest time of a run that is repeated, s
+TRIED = 4  # number of cells from which the affordable number is estimated
 
 
 def setting_of(method: Method, value: float) -> Solve:
@@ -366,11 +360,8 @@ def _separation(result: MethodResult) -> float:
     return math.nan
 
 
-# ----------------------------------------------------------------------------------------------------
-# Costs
-
-CYCLE_SETTINGS = (1e-6, 1e-8, 1e-10, 1e-12)
-"""Tolerances of the search for a cycle."""
+# ---- Costs
+CYCLE_SETTINGS = (1e-6, 1e-8, 1e-10, 1e-12)  # tolerances of the search for a cycle
 LINES: Mapping[str, tuple[str, str]] = {
     "cycle": ("series, from the cycle itself", "tol"),
     "rigid": ("series, modes, rigid contact", "diameters"),
@@ -378,12 +369,10 @@ LINES: Mapping[str, tuple[str, str]] = {
 }
 """Lines that belong to no method: name in words, and meaning of the setting."""
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
-CELLS = 64
-"""Number of cells of the region on which models are compared."""
+CELLS = 64  # number of cells of the region on which models are compared
 SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0
 """Time within which contact is lost, and time from then until the motion is examined, s."""
-NEVER = 1e6
-"""A budget in s that is never used up: models take their time."""
+NEVER = 1e6  # a budget in s that is never used up: models take their time
 Model = Mapping[str, Any]
 SERIES = setting_of(METHODS["series"], DEFAULT)
 
@@ -460,8 +449,7 @@ def _row(answer: str, line: str, right: float, reply: Reply) -> Row:
     return row | {"error": error, "verdict": verdict(answer, reply, right)} | reply._asdict()
 
 
-# ----------------------------------------------------------------------------------------------------
-# Answers of this package with other modes at its default tolerance, and from the cycle itself
+# ---- Answers of this package with other modes at its default tolerance, and from the cycle itself
 
 
 def ask_model(model: Model) -> Iterator[tuple[str, Reply]]:

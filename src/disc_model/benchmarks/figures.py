@@ -26,8 +26,7 @@ from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, P
 
 _TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TITLES: dict[str, str] = _TEXTS["titles"]
-WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]
-"""Names of the verdicts, by number, and their shades."""
+WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]  # names of the verdicts, by number, and their shades
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look in _TEXTS["lines"].items()}
@@ -35,8 +34,7 @@ LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look 
 _HALO = halo()
 
 
-# ----------------------------------------------------------------------------------------------------
-# Speed against accuracy
+# ---- Speed against accuracy
 
 
 def overview(dataset: xr.Dataset) -> Figure:
@@ -97,9 +95,7 @@ def _cost_panel(ax: Axes, scene: xr.Dataset) -> dict[str, list[Line2D]]:
     return handles
 
 
-# ----------------------------------------------------------------------------------------------------
-# Cost of each answer
-
+# ---- Cost of each answer
 ANSWERS: dict[str, str] = _TEXTS["answers"]
 HEADS: dict[str, str] = _TEXTS["heads"]
 RIGHT, WRONG, NO_ANSWER = range(3)
@@ -205,8 +201,7 @@ def _seconds(value: float) -> str:
     return f"{value:.2g} s" if value < 100.0 else f"{value:.0f} s"
 
 
-# ----------------------------------------------------------------------------------------------------
-# Where methods fail
+# ---- Where methods fail
 
 
 def failure_maps(*maps: xr.Dataset) -> Figure:
@@ -280,14 +275,11 @@ def _log_edges(values: np.ndarray) -> np.ndarray:
     return np.asarray(np.exp(0.5 * (whole[1:] + whole[:-1])))
 
 
-# ----------------------------------------------------------------------------------------------------
-# How many modes
-
+# ---- How many modes
 _LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
 _MARKS: tuple[dict[str, Any], ...] = ({"linestyle": "-"}, {"linestyle": "--", "markerfacecolor": "white"})
 """Colour and marker of each line, filled or hollow."""
-FAR = 25.0
-"""Greatest difference of first separations that is shown to scale, per cent."""
+FAR = 25.0  # greatest difference of first separations that is shown to scale, per cent
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:
@@ -360,9 +352,7 @@ def _against_modes(lines: Sequence[Line], labels: Sequence[str], further: Line2D
     return figure, axes
 
 
-# ----------------------------------------------------------------------------------------------------
-# All of them
-
+# ---- All of them
 DRAWN: dict[str, Callable[..., Figure]] = {
     function.__name__: function
     for function in (overview, answers, prices, contact_truncation, failure_maps, answer_maps)

@@ -24,17 +24,12 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
 
-SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
-"""s"""
-STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())
-"""Fixed steps of a map, s."""
+SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}  # s
+STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a map, s
 REFERENCE_TOL = 1e-14
-CASE = Parameters(N=600.0, Omega=27.0)
-"""Case of the answer maps, which loses contact within `HORIZON`."""
-HORIZON = 25.0
-"""s"""
-BUDGET = 3.0
-"""Budget for a point of an answer map, s; beyond it, finer settings with the same modes are skipped."""
+CASE = Parameters(N=600.0, Omega=27.0)  # case of the answer maps, which loses contact within `HORIZON`
+HORIZON = 25.0  # s
+BUDGET = 3.0  # budget for a point of an answer map, s; beyond it, finer settings with the same modes are skipped
 
 
 def failure_map(

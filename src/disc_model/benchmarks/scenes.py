@@ -32,10 +32,8 @@ from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 
-JUDGED = ("stick_slip", "separating")
-"""Scenes for short comparisons of methods: a second each."""
-CONVERGED = 1e-6
-"""Greatest event-time error of a converged answer with all events, s."""
+JUDGED = ("stick_slip", "separating")  # scenes for short comparisons of methods: a second each
+CONVERGED = 1e-6  # greatest event-time error of a converged answer with all events, s
 LOST = 2.0
 """Relative energy norm of the error from which an answer is unstable; of unrelated motions of equal energy: sqrt(2)."""
 

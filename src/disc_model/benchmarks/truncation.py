@@ -23,8 +23,7 @@ MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2)
 """Diameters and circles: 1 to 75 modes; (16, 4), with 165 modes, costs five times as much as 75."""
 SEPARATING: dict[str, dict[str, Any]] = TABLES["contact_truncation_cases"]
 CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
-LATE = (20.0, 10.0)
-"""Time from the first separation to the late stretch, and its length, s."""
+LATE = (20.0, 10.0)  # time from the first separation to the late stretch, and its length, s
 TOLERANCES = (1e-10, 1e-12, 1e-13)
 """Tolerances of the motion after the first separation; the next one is used if the last fails to reach the end."""
 MOST_GROWTH = 80

@@ -23,22 +23,15 @@ from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
-DEFAULT = 1e-10
-"""The series engine's default tolerance, and the event-time error (s) required of the other methods."""
+DEFAULT = 1e-10  # the series engine's default tolerance, and the event-time error (s) required of the other methods
 BUDGET, RIGID_BUDGET = 12.0, 4.0
 """Budget of a method for a point, s, and on the rigid disc, which methods in Python cannot finish."""
-LONG = 0.5
-"""Longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds."""
-FURTHER = 4.0
-"""Extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second."""
-ROUNDING = 1e-13
-"""Errors below this (s, or relative) are rounding and are left out of the fit of the order."""
-FLOOR = 1e-15
-"""Errors below this count as equal in costs, zero among them, s."""
-COLUMNS = TABLES["work_precision_table"]
-"""Variables by the column of the table that shows them."""
-Settings = Mapping[str, Mapping[str, Sequence[float]]]
-"""Settings from coarse to fine, by scene and method."""
+LONG = 0.5  # longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds
+FURTHER = 4.0  # extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second
+ROUNDING = 1e-13  # errors below this (s, or relative) are rounding and are left out of the fit of the order
+FLOOR = 1e-15  # errors below this count as equal in costs, zero among them, s
+COLUMNS = TABLES["work_precision_table"]  # variables by the column of the table that shows them
+Settings = Mapping[str, Mapping[str, Sequence[float]]]  # settings from coarse to fine, by scene and method
 
 
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
@@ -164,8 +157,7 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
     return float(-np.polyfit(x, y, 1)[0])
 
 
-# ----------------------------------------------------------------------------------------------------
-# The measured points as a table, and costs at equal error
+# ---- The measured points as a table, and costs at equal error
 
 
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:

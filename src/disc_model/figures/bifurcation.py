@@ -18,8 +18,7 @@ MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, 
 """Looks of samples, and those other than dots by phase: in grey print, green and vermilion are alike."""
 EXPONENTS = (BLACK, drawing.BLUE, drawing.BROWN, GREY)
 """Colours of the exponents, the largest first; none is that of a phase."""
-ERRORS = 4
-"""Half-width of the band about an exponent, in standard errors."""
+ERRORS = 4  # half-width of the band about an exponent, in standard errors
 
 
 class Bifurcation(Plot):
@@ -123,15 +122,10 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     drawing.legend_above(ax)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Branches of cycles
-
-LOWEST = 1e-3
-"""Least range that is distinguished from rest, mm."""
-THIN = 0.7
-"""Width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line."""
-BENDS = 2.5
-"""Factor between the heights of neighbouring points beyond which a branch may bend between them."""
+# ---- Branches of cycles
+LOWEST = 1e-3  # least range that is distinguished from rest, mm
+THIN = 0.7  # width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line
+BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend between them
 SWEEP_MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
 """Look of the marks of a sweep."""
 UNSETTLED = "#aaaaaa"
@@ -224,9 +218,7 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settle
         ax.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops={"arrowstyle": "->", "color": GREY, "lw": 1.0})
 
 
-# ----------------------------------------------------------------------------------------------------
-# Late in the motion
-
+# ---- Late in the motion
 LOAD_COLOURS = (BLACK, drawing.VERMILION, drawing.BLUE, drawing.PURPLE)
 SMALLEST = 1e-5
 """Smallest range drawn, in thicknesses: a quiet cycle moves the slider by less than a millionth of a metre."""

@@ -83,8 +83,7 @@ class CriticalSpeed(Plot):
         return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Crossings of a scan
+# ---- Crossings of a scan
 
 
 def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
@@ -152,8 +151,7 @@ def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
         ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=3, label="end of separation")
 
 
-# ----------------------------------------------------------------------------------------------------
-# The map behind, and the panel beside
+# ---- The map behind, and the panel beside
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
@@ -222,8 +220,7 @@ def _measured(ax: Axes, basins: xr.Dataset) -> None:
         ax.barh(load, speeds[after - 1] - speeds[first], left=speeds[first], label=label, **look)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Ramps
+# ---- Ramps
 
 
 class RampedSpeeds(Plot):

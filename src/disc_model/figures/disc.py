@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
-RADII, ANGLES = 25, 181
-"""Points across and around the disc at which it is drawn."""
+RADII, ANGLES = 25, 181  # points across and around the disc at which it is drawn
 
 
 class Motion(NamedTuple):

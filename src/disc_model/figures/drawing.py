@@ -42,10 +42,8 @@ else:  # names for annotations, without matplotlib
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
-COLUMN = 84 / 25.4
-"""Width of one column, inch."""
-PAGE = 174 / 25.4
-"""Width of both columns, inch."""
+COLUMN = 84 / 25.4  # width of one column, inch
+PAGE = 174 / 25.4  # width of both columns, inch
 
 BLUE, SKY = "#0072B2", "#56B4E9"
 VERMILION, ORANGE, BROWN = "#D55E00", "#E69F00", "#7A4B12"
@@ -57,10 +55,8 @@ DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
 """Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
 STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
 PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
-BEFORE, AFTER = SKY, BLACK
-"""Stages of a run: in contact before and after the first separation."""
-ONSET, END = SEPARATED, BLUE
-"""Speeds at which separation begins, and at which it ends."""
+BEFORE, AFTER = SKY, BLACK  # stages of a run: in contact before and after the first separation
+ONSET, END = SEPARATED, BLUE  # speeds at which separation begins, and at which it ends
 PAPER = "#F0E442"
 """Colour of the paper's results, always with a black edge: no other mark and no map has it."""
 
@@ -441,8 +437,7 @@ def mark_failed(
     ax.plot(*anchor, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Pictures that a reader asks for, beside those of a study
+# ---- Pictures that a reader asks for, beside those of a study
 
 
 def by_itself(draw: Callable[..., Axes | np.ndarray]) -> Callable[..., Any]:

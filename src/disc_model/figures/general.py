@@ -21,14 +21,11 @@ from disc_model.units import Finite, Unit
 
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
 """Colours of the values of a flag."""
-HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}
-"""Look of missing values."""
+HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}  # look of missing values
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
-FEW = 12
-"""Counts below which each has a colour of its own."""
-MARKS = "os^Dv<>"
-"""Marks of the lines; they are open, so that lines on top of each other show."""
+FEW = 12  # counts below which each has a colour of its own
+MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
 
 
 class General(Plot):
@@ -40,8 +37,7 @@ class General(Plot):
     """
 
     several = True
-    room: ClassVar[int] = 6
-    """Greatest number of values of `by`."""
+    room: ClassVar[int] = 6  # greatest number of values of `by`
 
     variable: str
     x: str

@@ -28,12 +28,9 @@ from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
 
-Values = Mapping[str, Sequence[tuple[Any, ...]]]
-"""Values of the parameters along each dimension of a grid."""
-NORM = "normalization"
-"""The dimension that a study may have beside those that a figure requires."""
-KINDS: dict[str, type[Kind]] = {}
-"""Kinds by their names, as far as their modules are imported."""
+Values = Mapping[str, Sequence[tuple[Any, ...]]]  # values of the parameters along each dimension of a grid
+NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
+KINDS: dict[str, type[Kind]] = {}  # kinds by their names, as far as their modules are imported
 
 
 def kind_of(name: Any) -> type[Kind]:
@@ -145,8 +142,7 @@ class Kind(Strict):
         figure.suptitle(text, fontsize=8)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Of grid studies
+# ---- Of grid studies
 
 
 class Role(NamedTuple):
@@ -161,8 +157,7 @@ class Role(NamedTuple):
     instead: str = ""
 
 
-Roles = Mapping[str, Role]
-"""Further studies that a figure can show, by their role."""
+Roles = Mapping[str, Role]  # further studies that a figure can show, by their role
 CYCLE = Role("floquet", ("N", "Omega"), instead="regions")
 CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 
@@ -265,19 +260,14 @@ class Plot(Kind):
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
 
 
-# ----------------------------------------------------------------------------------------------------
-# Of named cases
-
+# ---- Of named cases
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
 """Variables of samples beside times and phases."""
 Recorded = Mapping[str, Window | Poincare | None]
 """Records of a case: windows by name, and the Poincaré section as ``poincare``."""
-Rule = Callable[[Window], Iterator[str]]
-"""Rules that a window breaks, as ends of sentences."""
-SHORTEST_SPECTRUM = 1.1
-"""Least length of a window for a spectrum in time, s: one window of the transform and two steps."""
-HIGHEST = 1000.0
-"""Highest frequency of a spectrum in time, Hz."""
+Rule = Callable[[Window], Iterator[str]]  # rules that a window breaks, as ends of sentences
+SHORTEST_SPECTRUM = 1.1  # least length of a window for a spectrum in time, s: one window of the transform and two steps
+HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz
 
 
 class Need(NamedTuple):

@@ -17,8 +17,7 @@ Array = NDArray[np.float64]
 Names = NDArray[np.str_]
 Edges = tuple[Array, Array]
 
-# ----------------------------------------------------------------------------------------------------
-# Cells in flat colours, and a hatch for single ones
+# ---- Cells in flat colours, and a hatch for single ones
 
 
 class Look(NamedTuple):
@@ -142,13 +141,9 @@ def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
     ]
 
 
-# ----------------------------------------------------------------------------------------------------
-# The one scale of colours for growth rates of the stick-slip cycle
-
-GREATEST = 0.3
-"""Growth rate at which the colours end, 1/s, unless most rates are larger."""
-LINEAR = 1 / 30
-"""Fraction of the scale's end up to which the colours are nearly linear."""
+# ---- The one scale of colours for growth rates of the stick-slip cycle
+GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
+LINEAR = 1 / 30  # fraction of the scale's end up to which the colours are nearly linear
 
 
 def growth_norm(rates: Array) -> AsinhNorm:
@@ -226,9 +221,7 @@ def alone(rate: Array) -> NDArray[np.bool_]:
     return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Neutral curves and folds of the cycle over speed and preload
-
+# ---- Neutral curves and folds of the cycle over speed and preload
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 

@@ -17,15 +17,11 @@ from disc_model.units import Positive, Unit
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
 """Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
-LEAST = 0.01
-"""Least growth rate of a numbered peak, 1/s."""
-HIGH = 0.5
-"""Growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s."""
+LEAST = 0.01  # least growth rate of a numbered peak, 1/s
+HIGH = 0.5  # growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s
 DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 3.5, "markeredgewidth": 0.5}
-RING = DOT | {"markersize": 2.2, "markerfacecolor": "white"}
-"""Looks of a numbered crossing, and of any."""
-LINEAR = 1.0
-"""Growth rate up to which the scale is linear, 1/s."""
+RING = DOT | {"markersize": 2.2, "markerfacecolor": "white"}  # looks of a numbered crossing, and of any
+LINEAR = 1.0  # growth rate up to which the scale is linear, 1/s
 
 
 class Campbell(Plot):
@@ -257,13 +253,9 @@ def mode_handles(diameters: Iterable[int]) -> list[Line2D]:
     return [drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown]
 
 
-# ----------------------------------------------------------------------------------------------------
-# Modes of steady sliding along a parameter, root loci, and what the motion really does
-
-THIN, THICK = 0.8, 2.4
-"""Widths of the lines of modes that decay and grow."""
-ROUNDING = 1e-9
-"""1/s, growth rates of undamped modes by rounding."""
+# ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
+THIN, THICK = 0.8, 2.4  # widths of the lines of modes that decay and grow
+ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 
 
 def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:

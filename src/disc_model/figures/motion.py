@@ -27,13 +27,9 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.units import Positive, Unit
 
-# ----------------------------------------------------------------------------------------------------
-# Histories
-
-RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")
-"""Variables that a window with an envelope stores."""
-MOST_SHADED = 60
-"""Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
+# ---- Histories
+RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")  # variables that a window with an envelope stores
+MOST_SHADED = 60  # largest number of stretches of one phase that are shaded; more would be as dense as a fill
 SHADES: dict[str, dict[str, Any]] = {
     "stick": {"color": drawing.PHASE_COLOURS["stick"], "alpha": 0.22},
     "separation": {"color": SEPARATED, "alpha": 0.5},
@@ -115,8 +111,7 @@ class History(CasePlot):
         return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Phase portraits
+# ---- Phase portraits
 
 
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
@@ -152,9 +147,7 @@ class Portrait(CasePlot):
         return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Poincaré sections
-
+# ---- Poincaré sections
 MARKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": drawing.BEFORE, "s": 9, "linewidths": 0.5},
     "later": {"marker": "o", "color": drawing.AFTER, "s": 3.5, "linewidths": 0},
@@ -253,11 +246,8 @@ class PoincareSections(CasePlot):
         return figure
 
 
-# ----------------------------------------------------------------------------------------------------
-# Spectra, and spectrograms
-
-FLOOR = -100.0
-"""Least power shown, dB below the reference."""
+# ---- Spectra, and spectrograms
+FLOOR = -100.0  # least power shown, dB below the reference
 
 
 def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) -> None:

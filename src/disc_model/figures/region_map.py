@@ -18,8 +18,7 @@ from disc_model.figures.maps import OUTCOME_LOOKS, curves_of, draw_curves, growt
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
 
-PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
-"""The marker of each outcome of the paper."""
+PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}  # the marker of each outcome of the paper
 
 
 class Mark(Strict):

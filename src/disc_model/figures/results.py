@@ -38,8 +38,7 @@ def _title(ax: Axes, p: Parameters, *varied: str, ours: bool = True) -> None:
         figure.suptitle(drawing.head_text(figure.get_figwidth(), "", text), fontsize=8)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Runs
+# ---- Runs
 
 
 def window_of(case: xr.DataTree, name: object, which: str = "window", **variables: object) -> xr.Dataset:
@@ -148,8 +147,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         return film
 
 
-# ----------------------------------------------------------------------------------------------------
-# Stability
+# ---- Stability
 
 
 @by_itself
@@ -297,9 +295,7 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
     return axes
 
 
-# ----------------------------------------------------------------------------------------------------
-# Grids and discs
-
+# ---- Grids and discs
 PREFERRED = ("growth_rate", "outcome", "separation_rate", "scan_first_separation", "kind")
 """Variables that a sweep shows first."""
 

@@ -25,8 +25,7 @@ LOOKS = {
     **{name: OUTCOME_LOOKS[name] for name in ("steady_sliding", "at_rest", "undecided", "failed")},
 }
 """Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
-LARGEST = 36.0
-"""Area of the mark of an attractor that all starts reach, square points."""
+LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 
 
 class BasinShares(Plot):
@@ -114,13 +113,9 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     drawing.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Probability of instability against each uncertain parameter
-
-MOST_PANELS = 4
-"""Greatest number of points that a figure shows."""
-BINS = 3
-"""Number of parts, with equal numbers of draws, of a parameter's distribution."""
+# ---- Probability of instability against each uncertain parameter
+MOST_PANELS = 4  # greatest number of points that a figure shows
+BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distribution
 
 
 class Sensitivity(Plot):

@@ -12,8 +12,7 @@ from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read_texts, rows_of
 
 MODULES = (section2, section41, section43, section44)
-ROWS = tuple(row for module in MODULES for row in rows_of(module))
-"""All rows, in the order of the paper."""
+ROWS = tuple(row for module in MODULES for row in rows_of(module))  # all rows, in the order of the paper
 COLUMNS = [
     "id",
     "section",

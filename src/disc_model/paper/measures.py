@@ -27,14 +27,11 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
-STRETCHES, STRETCH = 3, 20.0
-"""Number and length of the last stretches of a case, s."""
+STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a case, s
 STEADY = 3e-4
 """1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.settling`."""
-LOW, HIGH = 20.0, 700.0
-"""Hz: above the drive's line and its multiples; above the disc's highest natural frequency."""
-EARLY = (1.0, 1.0 + STRETCH)
-"""The first 20 s without the first second, s."""
+LOW, HIGH = 20.0, 700.0  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
+EARLY = (1.0, 1.0 + STRETCH)  # the first 20 s without the first second, s
 
 
 class Absent(Missing):

@@ -167,8 +167,7 @@ def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> 
     )
 
 
-# ----------------------------------------------------------------------------------------------------
-# Checks of the evidence
+# ---- Checks of the evidence
 
 
 def _named(cases: Mapping[str, CaseView], names: Names) -> Sequence[CaseView]:

@@ -18,8 +18,7 @@ from disc_model.parameters import Parameters
 
 TEXTS: dict[str, str] = read_texts("pages.yaml")["normalisation"]
 OLD, NEW = "As published", "With Eq. (17)"
-SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")
-"""Cases of the paper's figures with a separation."""
+SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the paper's figures with a separation
 
 
 def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:

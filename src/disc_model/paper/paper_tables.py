@@ -17,18 +17,15 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State
 
 TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
-TABLE_1: dict[str, float] = TEXTS["table_1"]
-"""Base values of the paper, SI units."""
+TABLE_1: dict[str, float] = TEXTS["table_1"]  # base values of the paper, SI units
 TABLE_2 = pd.DataFrame(
     [(symbol, value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()],
     columns=["symbol", "paper_Hz", "paper_says"],
 )
 COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
 LISTED = tuple(TABLE_2["paper_Hz"])
-SEARCHED = 2.0
-"""Search width about a frequency of Table 2, Hz; a quarter of it about the drive's."""
-COMBINED = 0.3
-"""Greatest distance of a line from n f_s + m f_Omega to count as one of these, Hz."""
+SEARCHED = 2.0  # search width about a frequency of Table 2, Hz; a quarter of it about the drive's
+COMBINED = 0.3  # greatest distance of a line from n f_s + m f_Omega to count as one of these, Hz
 UNNAMED = "no n f_s + m f_Ω"
 
 
@@ -72,9 +69,7 @@ def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0
     return line.frequency
 
 
-# ----------------------------------------------------------------------------------------------------
-# What results rest on
-
+# ---- What results rest on
 LONG = ("F02", "F07", "F22")
 """Cases that the paper calls quasi-periodic or unpredictable, and that repeat after many releases."""
 VARIED: dict[str, tuple[float, dict[str, int]]] = {

@@ -197,9 +197,7 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     )
 
 
-# ----------------------------------------------------------------------------------------------------
-# Section 4.2: 385 N around the critical speed, and the critical speed in general
-
+# ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
 PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N")
 """Parameters that are changed by 0.1 %, one at a time."""
 
@@ -310,9 +308,7 @@ def _scanned(study: xr.Dataset) -> xr.Dataset:
     return study
 
 
-# ----------------------------------------------------------------------------------------------------
-# The transverse energy of a motion: what the slope supplies, and what damping and impacts take
-
+# ---- The transverse energy of a motion: what the slope supplies, and what damping and impacts take
 STAGES, LENGTH, RATE = 60, 5.0, 400.0
 """Stages of a run; greatest time in s at the end of each over which powers are averaged, and samples per s there."""
 

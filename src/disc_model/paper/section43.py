@@ -24,8 +24,7 @@ STIFFENED = {
     "k_p": (1e3, "kN/m", (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)),
 }
 """Stiffnesses of the springs with units and values: those of the paper, and others between them."""
-GREW = 1.02
-"""Least factor by which a grown range is wider: sampling causes far less."""
+GREW = 1.02  # least factor by which a grown range is wider: sampling causes far less
 
 
 def stays_calm(case: CaseView) -> bool:

@@ -245,8 +245,7 @@ def _from_natural(case: CaseView, line: spectra.Line) -> float:
     return float(np.min(np.abs(natural_frequencies(case) - line.frequency)))
 
 
-# ----------------------------------------------------------------------------------------------------
-# The conclusions, as far as the rows on the sections do not judge them
+# ---- The conclusions, as far as the rows on the sections do not judge them
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:

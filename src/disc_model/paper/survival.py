@@ -53,8 +53,7 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
     return models
 
 
-SLOW = 1e-3
-"""Growth rate below which a cycle counts as neither stable nor unstable, 1/s."""
+SLOW = 1e-3  # growth rate below which a cycle counts as neither stable nor unstable, 1/s
 
 
 def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: float) -> Answer:

@@ -21,11 +21,8 @@ from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters,
 from disc_model.studies.quantity import Blocks, Range, checked_rule, quantity_names, quantity_of
 from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
 
-# ----------------------------------------------------------------------------------------------------
-# Names
-
-STATIC = "static"
-"""Name of the default start."""
+# ---- Names
+STATIC = "static"  # name of the default start
 TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
@@ -46,9 +43,7 @@ WindowName = Annotated[
 ]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
-# ----------------------------------------------------------------------------------------------------
-# Values along an axis: lists, linear and logarithmic ranges, and blocks of them
-
+# ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
 """A value as given in the file; its parameter determines its meaning."""
 
@@ -118,8 +113,7 @@ def _described(name: str) -> dict[str, Any]:
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **_described(name))) for name in VARIED}
-Columns = create_model("Columns", __base__=_Columns, **_columns)
-"""An axis for each of several names of `VARIED`."""
+Columns = create_model("Columns", __base__=_Columns, **_columns)  # an axis for each of several names of `VARIED`
 
 
 class BatchSpec(Strict):
@@ -138,8 +132,7 @@ class BatchSpec(Strict):
     tile: Annotated[Count, Field(ge=1)] = 32
 
 
-# ----------------------------------------------------------------------------------------------------
-# Named cases
+# ---- Named cases
 
 
 def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
@@ -266,8 +259,7 @@ class NamedCase(Strict):
         return span
 
 
-# ----------------------------------------------------------------------------------------------------
-# Figures
+# ---- Figures
 
 
 def _figure(raw: Any) -> Kind:
@@ -305,8 +297,7 @@ Figures = Annotated[
 ]
 """Figures by their names; null drops one that is inherited."""
 
-# ----------------------------------------------------------------------------------------------------
-# The whole document
+# ---- The whole document
 
 
 def _several(value: Any) -> Any:

@@ -35,15 +35,13 @@ from disc_model.units import Finite, Positive, canonical_json, content_key, give
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 """Keys of a study file that concern the grid alone."""
-REQUIRED = ("N", "Omega")
-"""Parameters without a base value."""
+REQUIRED = ("N", "Omega")  # parameters without a base value
 MOST_POINTS = 1_000_000
 """Greatest number of points of a grid: Snakemake takes hours over so many jobs; many more do not fit into memory."""
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
-# ----------------------------------------------------------------------------------------------------
-# Dimensions of a grid: axes, one parameter each, and zips, several parameters that vary together
+# ---- Dimensions of a grid: axes, one parameter each, and zips, several parameters that vary together
 
 
 @dataclass(frozen=True)
@@ -412,8 +410,7 @@ def _tupled(blocks: Blocks) -> tuple[tuple[tuple[Value], ...], ...]:
     return tuple(tuple((value,) for value in block) for block in blocks)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Batches
+# ---- Batches
 
 
 def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[tuple[Any, ...]]]:

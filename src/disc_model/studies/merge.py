@@ -117,8 +117,7 @@ def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
     return common | common_provenance(batches)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Summaries: they are made again at each merge, so that changing them recomputes no batch
+# ---- Summaries: they are made again at each merge, so that changing them recomputes no batch
 
 
 def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
@@ -133,8 +132,7 @@ def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
     return study.assign_coords(coords).assign(variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Named cases
+# ---- Named cases
 
 
 def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:

@@ -21,10 +21,8 @@ from disc_model.studies.run import run_batch
 
 SAMPLES = 256
 """Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
-CYCLES_SHOWN = 2
-"""Number of stick-slip cycles in a history."""
-LONGEST = 0.05
-"""Greatest length of a cycle, s, where stick is very long or nothing pulls the slider back."""
+CYCLES_SHOWN = 2  # number of stick-slip cycles in a history
+LONGEST = 0.05  # greatest length of a cycle, s, where stick is very long or nothing pulls the slider back
 SHOWN = ("P", "u", "psi")
 
 

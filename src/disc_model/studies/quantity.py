@@ -34,8 +34,7 @@ if TYPE_CHECKING:
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
-MOST = 100_000
-"""Greatest number of values along one axis; a slip of the pen can ask for more than fit into memory."""
+MOST = 100_000  # greatest number of values along one axis; a slip of the pen can ask for more than fit into memory
 Rules = tuple[tuple[Callable[[Any], bool], str], ...]
 
 
@@ -122,9 +121,7 @@ class Range(Ruled):
         return float(f"{self.start + share * (self.stop - self.start):.12g}")
 
 
-# ----------------------------------------------------------------------------------------------------
-# Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid
-
+# ---- Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid
 _MADE_OF = (
     *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),
     *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.And, ast.Or),
@@ -168,16 +165,13 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
         return False
 
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities
-
+# ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 """Status of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
-Made = Parameters | DiscModelError
-"""Parameters, or the error in their place."""
+Made = Parameters | DiscModelError  # parameters, or the error in their place
 
 
 class Point(NamedTuple):
@@ -196,8 +190,7 @@ class Coordinate(NamedTuple):
     values: Callable[[Any], Sequence[Any]]
 
 
-DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
-"""Coordinate of sweeps up and down."""
+DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))  # coordinate of sweeps up and down
 
 
 NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
@@ -228,16 +221,11 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities
-
-WORK = 20.0
-"""Processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm."""
+# ---- Quantities
+WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
 # Measured costs, s. A new value changes the batches of all studies of a quantity without `batch.size`.
-SIMULATED = 7e-4
-"""Cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation."""
-CYCLE = 2.5e-3
-"""Cost of finding a cycle and its multipliers, s."""
+SIMULATED = 7e-4  # cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation
+CYCLE = 2.5e-3  # cost of finding a cycle and its multipliers, s
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )

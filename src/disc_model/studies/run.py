@@ -20,9 +20,7 @@ from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
 
-# ----------------------------------------------------------------------------------------------------
-# Batches
-
+# ---- Batches
 log = logging.getLogger(__name__)
 POINT = "point"
 
@@ -123,8 +121,7 @@ def describe(name: str) -> dict[str, Any]:
     return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
 
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities: rows of results, one for each point, as arrays
+# ---- Quantities: rows of results, one for each point, as arrays
 
 
 def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:

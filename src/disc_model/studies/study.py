@@ -27,8 +27,7 @@ from disc_model.simulation.case import CaseSpec
 from disc_model.studies.document import Document
 from disc_model.studies.grid import GRID_KEYS, FigureEntry, GridStudy
 
-# ----------------------------------------------------------------------------------------------------
-# Reading
+# ---- Reading
 
 
 class StudyError(DiscModelError, ValueError):
@@ -110,9 +109,7 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-# ----------------------------------------------------------------------------------------------------
-# Studies
-
+# ---- Studies
 
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 """Normalizations in captions."""
@@ -372,8 +369,7 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
         yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
 
 
-# ----------------------------------------------------------------------------------------------------
-# Checks of what is requested of a workflow and of its folder, and what a finished run says
+# ---- Checks of what is requested of a workflow and of its folder, and what a finished run says
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:

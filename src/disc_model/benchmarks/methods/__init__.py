@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from disc_model.benchmarks.methods.base import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
-SCENES: tuple[str, ...] = get_args(Scene)
-"""Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
+SCENES: tuple[str, ...] = get_args(Scene)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
 
 
 class MethodUnavailable(DiscModelError, ImportError):
@@ -77,5 +76,4 @@ class Method(BaseModel):
 
 
 _DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
-METHODS = {name: Method(name=name, **fields) for name, fields in _DECLARED.items()}
-"""All of them by name."""
+METHODS = {name: Method(name=name, **fields) for name, fields in _DECLARED.items()}  # all of them by name

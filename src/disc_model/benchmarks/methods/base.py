@@ -168,11 +168,8 @@ class Meter:
         return wrapped
 
 
-# ----------------------------------------------------------------------------------------------------
-# Methods that integrate one phase at a time and stop at its end
-
-CROWD = 50
-"""Greatest number of events at one instant; with more the method is stuck."""
+# ---- Methods that integrate one phase at a time and stop at its end
+CROWD = 50  # greatest number of events at one instant; with more the method is stuck
 NOT_FINITE = "the state is no longer finite"
 ENDS = (3, 2, 1)
 """By the number of a phase in `kernels`: functions of the state that end it where they fall through zero. The first is

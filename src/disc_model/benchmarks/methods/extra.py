@@ -33,8 +33,7 @@ from disc_model.benchmarks.methods.kernels import SHIFT, Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 
-HEYOKA_STEPS = 100_000
-"""Number of steps between two checks of the clock."""
+HEYOKA_STEPS = 100_000  # number of steps between two checks of the clock
 
 
 def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "") -> MethodResult:
@@ -166,16 +165,12 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     return rows, [sign * f] if p.contact == "bilateral" else [P, sign * f]
 
 
-# ----------------------------------------------------------------------------------------------------
-# SUNDIALS CVODE, with scikit-sundae
-
-CVODE_STEPS = 5_000
-"""Number of steps between two checks of the clock."""
+# ---- SUNDIALS CVODE, with scikit-sundae
+CVODE_STEPS = 5_000  # number of steps between two checks of the clock
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL, ONE_STEP = 1, 2
 REACHED, ROOT_FOUND, TOO_MUCH_WORK = 1, 2, -1
-HEAD = 3
-"""Number of entries before the scalars in the callbacks' data: phase, direction, modes."""
+HEAD = 3  # number of entries before the scalars in the callbacks' data: phase, direction, modes
 
 
 def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:

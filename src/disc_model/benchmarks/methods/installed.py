@@ -102,13 +102,9 @@ def absolute_scale(physics: Physics) -> Array:
     return np.concatenate([deflection, deflection, velocity, velocity, tail])
 
 
-# ----------------------------------------------------------------------------------------------------
-# The regularised model
-
-PENALTY = 1e7
-"""N/m times rad/s: K eps."""
-CREEP = 3.0
-"""abs(f)/eps below which the slider counts as sticking."""
+# ---- The regularised model
+PENALTY = 1e7  # N/m times rad/s: K eps
+CREEP = 3.0  # abs(f)/eps below which the slider counts as sticking
 RTOL = 1e-8
 
 
@@ -217,15 +213,11 @@ def _without_reversals(events: list[tuple[float, str]]) -> list[tuple[float, str
     return merged
 
 
-# ----------------------------------------------------------------------------------------------------
-# Whole runs in one compiled call: the package's own engine, and the paper's fixed-step Runge-Kutta
-
-SERIES_STEPS_PER_SECOND = 300_000
-"""Steps per second of budget: the engine stops by steps, not by the clock."""
+# ---- Whole runs in one compiled call: the package's own engine, and the paper's fixed-step Runge-Kutta
+SERIES_STEPS_PER_SECOND = 300_000  # steps per second of budget: the engine stops by steps, not by the clock
 WATCH_RATE = 2e4
 """Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is accurate to 2e-4."""
-STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
-"""Largest omega h at which RK4 does not let an undamped oscillation grow."""
+STABILITY_LIMIT = 2.0 * math.sqrt(2.0)  # largest omega h at which RK4 does not let an undamped oscillation grow
 RK4_STEPS_PER_SECOND = 1_000_000
 MAX_EVENTS = 20_000
 

@@ -86,8 +86,7 @@ _L, _PSI, _W2, _D, _SLOPE, _BY_A, _BY_ALPHA, _BY_BETA, _BENT = range(len(ROWS))
 STICK, SLIP, SEPARATION = 0, 1, 2
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
 FINISHED, NON_FINITE, STALLED, STEP_LIMIT = range(4)
-HUGE = 10.0
-"""m sqrt(kg); a modal displacement beyond this, thousands of static deflections, is counted as overflow."""
+HUGE = 10.0  # m sqrt(kg); a modal displacement beyond this, thousands of static deflections, is counted as overflow
 SHIFT = 1e-16
 """Offset of the gap, m. A separation begins at a triple root of the gap, where general event detection reports a false
 return or none. The offset is below all gaps and above their rounding, and shifts a reattachment by less than 1e-12 s.
@@ -180,8 +179,7 @@ def jacobian(modes, c, phase, direction, y, J):
             J[i, j] = dz[i].imag * 1e30
 
 
-STRIBECK = 30.0
-"""f/eps at which static friction has fallen to kinetic."""
+STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 
 @_kernel

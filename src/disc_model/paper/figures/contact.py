@@ -228,8 +228,7 @@ class Histories(CasePlot):
             inset.tick_params(labelsize=6, labelbottom=False)
 
 
-# ----------------------------------------------------------------------------------------------------
-# The whole disc
+# ---- The whole disc
 
 
 class Instants(CasePlot):
@@ -303,9 +302,7 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Which of the separations survive the paper's own Eq. (17): the two scales of the modes side by side
-
+# ---- Which of the separations survive the paper's own Eq. (17): the two scales of the modes side by side
 SCALES = ("as_published", "orthonormal")
 LABELS = ("as published", "by Eq. (17)")
 CELLS = ("white", "#f2b69c", "#b9d3ea", "#c9c9c9")

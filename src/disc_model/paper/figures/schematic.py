@@ -22,10 +22,8 @@ from disc_model.units import Finite, Positive, Unit
 Point = tuple[float, float] | NDArray[np.float64]
 SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 """Lines that only guide the eye; the slider; the disc and its clamped middle."""
-SMALL = 8.0
-"""Size of the text that is no symbol, in points."""
-OUTER = 1.2
-"""Radius of the disc as drawn."""
+SMALL = 8.0  # size of the text that is no symbol, in points
+OUTER = 1.2  # radius of the disc as drawn
 STRETCH, PALE, DARK = 0.04, "0.72", "#8a5a00"
 """Of the composite: its stretch of contact force, s; colours of ignored separation, and of words on the slider."""
 PHASES: dict[str, dict[str, Any]] = {
@@ -299,8 +297,7 @@ def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -
 
 Strokes = Sequence[tuple[ArrayLike, ArrayLike]]
 """Lines between two points: fractions of the way, and offsets to its left in widths."""
-SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]
-"""A zigzag."""
+SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]  # a zigzag
 DAMPER: Strokes = [
     ([0, 0.35], [0, 0]),
     ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1]),

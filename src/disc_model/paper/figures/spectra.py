@@ -24,8 +24,7 @@ from disc_model.units import Finite, Positive, Unit
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
 
 
-CLOSE = 300.0
-"""Highest frequency of the closer view, Hz."""
+CLOSE = 300.0  # highest frequency of the closer view, Hz
 TABLE_2 = {
     r"$f_\Omega$": (2.4,),
     "$f_{h1}$, $f_{h2}$:\n$f_s ∓ f_\\Omega$": (65.5, 70.0),
@@ -125,8 +124,7 @@ def _name_lines(ax: Axes) -> None:
     right.spines["right"].set_visible(False)
 
 
-ZOOM = 0.2
-"""Length of a closer look, s."""
+ZOOM = 0.2  # length of a closer look, s
 
 
 class Response(CasePlot):

@@ -25,12 +25,9 @@ if TYPE_CHECKING:
     from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
-CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])
-"""Outcomes of a start."""
-SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")
-"""Statistics of a stretch on an attractor."""
-SMALLEST = 2.0**-40
-"""Fraction of the least separating energy of the sample, below which the bisection gives up."""
+CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
+SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")  # statistics of a stretch on an attractor
+SMALLEST = 2.0**-40  # fraction of the least separating energy of the sample, below which the bisection gives up
 _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
 
 

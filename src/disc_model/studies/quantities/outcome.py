@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 
-FEWEST = 4
-"""Least number of checks of a motion that give a rate."""
+FEWEST = 4  # least number of checks of a motion that give a rate
 
 
 class HorizonOutcome(Start, EarlyEnd):

@@ -37,9 +37,7 @@ SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
 sticks and slips, immediate separation, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
-# ----------------------------------------------------------------------------------------------------
-# Distributions of uncertain parameters
-
+# ---- Distributions of uncertain parameters
 NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
 """Parameters that can be distributed."""
 FARTHEST = 6.47
@@ -269,12 +267,9 @@ def _own(name: str, values: Mapping[str, Any]) -> Any:
     return values[name] if name in values else DEFAULTS.get(name)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Samples
-BLOCK = 64
-"""Number of samples that are drawn at once."""
-EDGE = 1e-10
-"""Fraction of a normal distribution that is cut off, in both tails together."""
+# ---- Samples
+BLOCK = 64  # number of samples that are drawn at once
+EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
 
 
 def unit_draw(seed: int, count: int, number: int) -> Array:
@@ -309,8 +304,7 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     return float(scale * min(max(value, low), high))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Results of one sample
+# ---- Results of one sample
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
