@@ -22,7 +22,6 @@ import yaml
 from docs.drawings.brake_energy import powers
 
 import disc_model as dm
-from disc_model.analysis.classify import share
 from disc_model.data.dataset import MissingFile, load
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays, mode_shapes
@@ -280,17 +279,6 @@ class Sources:
     def critical_energy(self, Omega: float) -> float:
         return float(self.grid("basins")["critical_energy"].sel(Omega=Omega))
 
-    def basin(self, Omega: float, *classes: str) -> str:
-        """Share of the 40 starts at 385 N that come to attractors of some classes, with its interval unless it is 0."""
-        fraction = self.grid("basins")["basin_fraction"].sel(Omega=Omega, attractor_class=[*classes]).sum()
-        value, low, high = share(round(40 * float(fraction)), 40)
-        return f"{value:.2f} ({low:.2f} to {high:.2f})" if value else "0"
-
-    def bound(self, Omega: float) -> str:
-        """Critical energy, J; a dash if nothing separates."""
-        energy = self.critical_energy(Omega)
-        return f"{energy:.2g}" if np.isfinite(energy) else "-"
-
     def attractor(self, Omega: float, name: str) -> float:
         """Value of the separating attractor of most starts at 385 N."""
         point = self.grid("basins").sel(Omega=Omega)
@@ -299,15 +287,6 @@ class Sources:
 
     def ramp(self, name: str, i: int) -> float:
         return float(self.grid("ramps")[name][i])
-
-    def onset(self, i: int) -> str:
-        speed = self.ramp("onset_speed", i)
-        return f"{speed:.2f}" if np.isfinite(speed) else "none to 23"
-
-    def delay(self, i: int) -> str:
-        """Time from the fold to the onset on a ramp, s."""
-        delay = (self.ramp("onset_speed", i) - self.quiet_cycle()[1]) / self.ramp("rate", i)
-        return f"{delay:.0f}" if np.isfinite(delay) else "-"
 
     def uncertain(self, study: str, N: float) -> xr.Dataset:
         """A point of a study of sensitivity."""

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
+import yaml
 from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 from PIL import Image
@@ -83,15 +84,12 @@ def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
 
 def page_of(shown: list[tuple[str, str]]) -> str:
     """The page: small pictures with their titles, each a link to the picture itself."""
-    lines = ["# Gallery", "", "Figures of `make reproduce`; a click shows one in full.", ""]
-    for i in range(0, len(shown), COLUMNS):
-        row = shown[i : i + COLUMNS] + [("", "")] * (i + COLUMNS - len(shown))
-        titles = " | ".join(title for _, title in row)
-        pictures = " | ".join(
-            f"[![{re.split('[:,] ', title)[0]}](gallery/{name})](gallery/{name})" if name else "" for name, title in row
-        )
-        lines += [f"| {pictures} |", "| " + " | ".join(["---"] * COLUMNS) + " |", f"| {titles} |", ""]
-    return "\n".join(lines)
+    lines = ["# Gallery", "", "These are figures of `make reproduce`; a click shows one in full.", ""]
+    cells = [
+        f"[![{re.split('[:,] ', title)[0]}](gallery/{name})](gallery/{name})<br>{title}" for name, title in shown
+    ] + [""] * (-len(shown) % COLUMNS)
+    rows = ["| " + " | ".join(cells[i : i + COLUMNS]) + " |" for i in range(0, len(cells), COLUMNS)]
+    return "\n".join([*lines, "| " * COLUMNS + "|", "| --- " * COLUMNS + "|", *rows, ""])
 
 
 @script
@@ -99,6 +97,9 @@ def main() -> None:
     results, docs = Path("results"), Path("docs")
     axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
     axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
+    first_study = re.search(r"```yaml\n(.*?)```", (docs / "studies.md").read_text(encoding="utf-8"), re.DOTALL)
+    axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study[1])))
+    axes.figure.savefig(docs / "gallery" / "my_growth.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
     shown: list[tuple[str, str]] = []  # picture and title

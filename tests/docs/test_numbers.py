@@ -65,8 +65,8 @@ def test_a_number_that_is_not_that_of_the_results_is_corrected() -> None:
         ("first_separation('S43c12')", "1793", 1770.0, True),
         ("first_separation('S43c12')", "1793", 1740.0, False),
         ("first_separation('F13')", "54.42", 54.43, False),  # before any irregular motion
-        ("basin(10, 'quiet')", "0.40 (0.26 to 0.55)", "0.42 (0.28 to 0.58)", True),
-        ("basin(10, 'quiet')", "0.40 (0.26 to 0.55)", "0.50 (0.35 to 0.65)", False),
+        ("chance('sensitivity', 200, 'separation')", "0.45 (0.34 to 0.57)", "0.47 (0.36 to 0.59)", True),
+        ("chance('sensitivity', 200, 'separation')", "0.45 (0.34 to 0.57)", "0.50 (0.38 to 0.62)", False),
         ("verdicts('holds')", "two", 4.0, False),
         ("most_changing('sensitivity', 200)", "h 0.64, E 0.50", "h 0.65, k 0.50", False),
     ],
