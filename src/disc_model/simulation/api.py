@@ -259,9 +259,7 @@ class _Run:
         if not piece.constant:
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        # the kind of the model determines the types of all arguments
-        flags = ("wide", "compliant", "normal", "coupled", "decaying", "ramped")
-        kind = tuple(getattr(self.model, name) for name in flags)
+        kind = tuple(flag for flag in self.model if type(flag) is tuple)  # they determine the types of all arguments
         if kind not in _ENGINES:
             with compiling(self.execution.progress is not False):
                 _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
@@ -321,7 +319,7 @@ class _Run:
         return result
 
 
-_ENGINES: dict[tuple[tuple[bool, ...], ...], Callable[..., int]] = {}
+_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 """Compiled engines by blocks of lanes, laws of contact and ramp."""
 
 

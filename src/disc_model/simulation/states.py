@@ -240,13 +240,12 @@ def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case, cached for equal parameters."""
     warn_of_doubts(p)
     modes = mode_arrays(p)
-    names = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0")
     model = layout.build_model(
         modes.diameters,
         modes.omega,
         modes.psi,
         modal_damping(p),
-        {name: getattr(p, name) for name in names},
+        {name: getattr(p, name) for name in layout.Model._fields if name in Parameters.model_fields},
         tangential=tangential_amplitudes(p),
         bonded=p.contact == "bilateral",
         compliance=contact_compliance(p),
