@@ -56,16 +56,13 @@ def draw(picture: str, *inputs: Any, **options: Any) -> Any:
         raise ModuleNotFoundError(text, name=error.name) from None
 
 
-# ----------------------------------------------------------------------------------------------------
-# Progress on stderr: a bar, or a line where there is no terminal
+# ---- Progress on stderr: a bar, or a line where there is no terminal
 
 Progress = Callable[[float], object] | bool | None
 """Argument `progress` of callers: a function that receives the time reached, or False for silence."""
-PATIENCE = 2.0
-"""s, after which the progress of a simulation is shown."""
+PATIENCE = 2.0  # s, after which the progress of a simulation is shown
 
-_shown = False
-"""Whether a bar is shown: what it stands for may simulate as well, also in other threads."""
+_shown = False  # whether a bar is shown: what it stands for may simulate as well, also in other threads
 
 
 @contextmanager
@@ -124,8 +121,7 @@ def _open_bar(text: str, total: float, estimate: bool = True) -> Any:
     return bar
 
 
-# ----------------------------------------------------------------------------------------------------
-# What Snakemake shows of a study
+# ---- What Snakemake shows of a study
 
 _OF_JOBS = re.compile("job_.*|group_info|progress|run_info|resources_info|shellcmd|workflow_started")
 """Snakemake's events that concern single jobs, or what it is about to do."""
@@ -133,10 +129,8 @@ _CHATTER = re.compile(
     "Assuming unrestricted|Building DAG|Using shell|Conda environments:|Select jobs|Execute [0-9]+ job"
     "|Exiting because a job|RuleException:\nCalledProcessError|Job [0-9]+ has been submitted"
 )
-_TRUST = 60.0
-"""s of work: expected durations count as much as the pace at which so much was done."""
-_LAST = 10
-"""Lines at the end of a log that are shown."""
+_TRUST = 60.0  # s of work: expected durations count as much as the pace at which so much was done
+_LAST = 10  # lines at the end of a log that are shown
 
 
 class StudyProgress(logging.Handler):

@@ -11,8 +11,7 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
 
-# ----------------------------------------------------------------------------------------------------
-# Exceptions
+# ---- Exceptions
 
 
 class DiscModelError(Exception):
@@ -126,8 +125,7 @@ class NonFinite(SimulationError):
     """The state overflowed or became nan."""
 
 
-# ----------------------------------------------------------------------------------------------------
-# Wording of faults, including those that pydantic reports
+# ---- Wording of faults, including those that pydantic reports
 
 
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
@@ -208,8 +206,7 @@ def _path(item: Any, raw: Any) -> tuple[str, ...]:
     return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Statuses: words with advice
+# ---- Statuses: words with advice
 
 
 class StatusBase(enum.StrEnum):

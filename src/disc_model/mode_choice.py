@@ -27,20 +27,16 @@ from disc_model.units import Finite, Strict
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
-FREQUENCIES = "frequencies"
-"""The quantity by which modes are chosen by default."""
+FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
 CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
 """Quantities by which modes may be chosen, and their default relative tolerances."""
-RICH = (20, 6)
-"""Diameters and circles of the reference model for frequencies."""
+RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 TRUSTED = 1e-4
 """Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
 orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only, for any
 quantity, because growth rates and times depend on the frequencies."""
-_PREFIX = "truncation_"
-"""Begins the names of `CHOOSING`, beside the parameters of a case."""
-BAND = 2.0
-"""Upper end of the band of compared frequencies, relative to the lowest frequency of the disc."""
+_PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters of a case
+BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
 @dataclass(frozen=True)
@@ -188,16 +184,14 @@ def real_modes(diameters: int, circles: int) -> int:
     return (circles + 1) * (2 * diameters + 1)
 
 
-# ----------------------------------------------------------------------------------------------------
-# The choice
+# ---- The choice
 
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 """Diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes."""
 GIVEN_UP = (4, 0)
 """The search ends here if no model so far, of up to 34 modes, has the quantity: neither the candidates nor the models
 with which they are compared."""
-HORIZON = 600.0
-"""s, simulated at most until the first separation."""
+HORIZON = 600.0  # s, simulated at most until the first separation
 
 
 def choose_modes(
@@ -291,8 +285,7 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities of the motion. Most importers of this module do not need a simulation.
+# ---- Quantities of the motion. Most importers of this module do not need a simulation.
 
 
 def growth(p: Parameters) -> float:

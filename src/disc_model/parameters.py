@@ -46,15 +46,11 @@ from disc_model.units import (
 if TYPE_CHECKING:
     import os
 
-AUTO = "auto"
-"""Value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes."""
-CHOOSING = ("truncation_quantity", "truncation_tolerance")
-"""Keys of files and command lines that control this choice."""
-RESIDUAL = "residual"
-"""Value of ``contact_compliance`` that stands for the static flexibility of the modes left out."""
+AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
+CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files and command lines that control this choice
+RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 
-SURFACE = "surface"
-"""Value of ``friction_offset`` by which friction acts on the disc's surface."""
+SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 """Parameters in rules that relate several parameters."""
@@ -66,10 +62,8 @@ RATIOS = {
     for upper, lower in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
 }
 """Ratios of two parameters, which a grid may vary instead of the first one."""
-MOST_MODES = 1000
-"""Largest number of modes in the table of a disc."""
-FREQUENCIES = (1e-3, 1e7)
-"""Limits of natural frequencies, rad/s; above them a cycle would take minutes to compute."""
+MOST_MODES = 1000  # largest number of modes in the table of a disc
+FREQUENCIES = (1e-3, 1e7)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
 AMPLITUDES = (1e-6, 1e6)
 """Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
 
@@ -115,10 +109,8 @@ def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
     return _field(default, unit, description, allow_inf_nan=False, **rules)
 
 
-Quantity = float | str
-"""A number, or a text that stands for one, with or without its unit."""
-Column = Iterable[float | str]
-"""Numbers of the modes of a table."""
+Quantity = float | str  # a number, or a text that stands for one, with or without its unit
+Column = Iterable[float | str]  # numbers of the modes of a table
 
 
 class Disc(Checked):

@@ -142,8 +142,7 @@ def _data(path: Path) -> frozenset[Path]:
     return frozenset(file for file in files if file.is_file() and file.suffix not in (".py", ".pyc"))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Commit and versions
+# ---- Commit and versions
 
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
 

@@ -16,8 +16,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
-# ----------------------------------------------------------------------------------------------------
-# Numbers
+# ---- Numbers
 
 TOLERANCES = (1e-15, 1e-2)
 """Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
@@ -25,8 +24,7 @@ CYCLE_TOLERANCES = (1e-14, 1e-6)
 """Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
 
 
-Units = str | Mapping[str, "Units"]
-"""A unit; or, for values by name, those that have one."""
+Units = str | Mapping[str, "Units"]  # a unit; or, for values by name, those that have one
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +41,7 @@ class Unit:
         return {**handler(schema), "unit": self.name} if self.name and isinstance(self.name, str) else handler(schema)
 
 
-UNITS: dict[str, str] = {}
-"""Units of parameters by their names, filled by `disc_model.parameters`."""
+UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
 
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
@@ -174,8 +171,7 @@ Tolerance = Annotated[Real, within(TOLERANCES)]
 CycleTolerance = Annotated[Real, within(CYCLE_TOLERANCES)]
 
 
-# ----------------------------------------------------------------------------------------------------
-# Bases
+# ---- Bases
 
 
 def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
@@ -284,8 +280,7 @@ class Checked(Strict):
         return type(self)(**{**dict(self), **changes})
 
 
-# ----------------------------------------------------------------------------------------------------
-# Names by content
+# ---- Names by content
 
 
 def content_key(text: str) -> str:

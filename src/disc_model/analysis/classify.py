@@ -29,8 +29,7 @@ the intervals of a motion on a torus mostly differ by far more."""
 NEAR_RETURN = 1e-3
 """A quasi-periodic motion also nearly returns: among its first n returns one misses by about 1/n of its spread. A
 period of n must close a thousand times better than that."""
-FEWEST = 20
-"""Fewest intervals from which a motion is classified."""
+FEWEST = 20  # fewest intervals from which a motion is classified
 SETTLED = 0.01
 """Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Aperiodic
 motions vary by half of it. Growth or decay at 0.00025/s or faster changes them by more."""
@@ -217,8 +216,7 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     return Location(kind, where, drop)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Shares of samples
+# ---- Shares of samples
 
 
 class Share(NamedTuple):
@@ -243,12 +241,10 @@ def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) ->
     return Share(hits / trials, float(low), float(high))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Poincare sections: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n points, a
+# ---- Poincare sections: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n points, a
 # quasi-periodic one a closed curve, an irregular one a cloud.
 
-SAME = 0.01
-"""Share of the range, along every axis, within which two points count as one."""
+SAME = 0.01  # share of the range, along every axis, within which two points count as one
 
 
 class Stages(NamedTuple):

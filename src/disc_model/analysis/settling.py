@@ -15,18 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 from disc_model.data.variables import Variable
 
 Array = NDArray[np.float64]
-WINDOWS, FEWEST = 8, 8
-"""Number of windows into which a record is cut, and least number of samples in each."""
+WINDOWS, FEWEST = 8, 8  # number of windows into which a record is cut, and least number of samples in each
 PARTS = 1 - np.geomspace(1, 0.05, 40)
 """Starts of the later parts of a record that are tried, relative to its length: each leaves out 7 % of the rest."""
 QUANTILE = 3.707
 """Of Student's t with `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope, in its errors."""
-RESOLUTION = 0.01
-"""Least change over a record that counts as visible, relative to the width of the motion."""
+RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
 SLOWEST = 5e-5
 """1/s: a motion has settled if its width changes by less than 5 % in 1000 s, and the record is able to show that."""
-STILL = 1e-3
-"""Width, over the mean, below which a signal counts as constant: changes are then relative to this width."""
+STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
 
 
 class Settled(StrEnum):
@@ -37,8 +34,7 @@ class Settled(StrEnum):
     SETTLED = "settled"
 
 
-ANSWER = Variable("1", "whether the motion has settled", tuple(Settled))
-"""Its variable in datasets."""
+ANSWER = Variable("1", "whether the motion has settled", tuple(Settled))  # its variable in datasets
 
 
 class Settling(NamedTuple):

@@ -10,12 +10,9 @@ from disc_model.errors import ParameterError
 
 Array = NDArray[np.float64]
 
-AROUND = (1.0, 6.0)
-"""Hz, distances from a line between which the level of its neighbourhood is determined."""
-RESOLVED = 4
-"""Bins, half the width of a line's main lobe: two lines nearer to each other are not resolved."""
-SIDE_LOBES = 3e-5
-"""Highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a fifth."""
+AROUND = (1.0, 6.0)  # Hz, distances from a line between which the level of its neighbourhood is determined
+RESOLVED = 4  # bins, half the width of a line's main lobe: two lines nearer to each other are not resolved
+SIDE_LOBES = 3e-5  # highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a fifth
 
 
 class Line(NamedTuple):

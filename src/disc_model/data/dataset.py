@@ -35,8 +35,7 @@ from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 CONVENTIONS = "CF-1.11"
 
 
-# ----------------------------------------------------------------------------------------------------
-# The groups of a case
+# ---- The groups of a case
 
 
 def events_dataset(events: Any) -> xr.Dataset:
@@ -107,8 +106,7 @@ def _compliance(p: Parameters) -> float:
         return math.nan
 
 
-# ----------------------------------------------------------------------------------------------------
-# Trees and files
+# ---- Trees and files
 
 
 def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
@@ -199,11 +197,9 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
     return {"_FillValue": None} | compressed
 
 
-# ----------------------------------------------------------------------------------------------------
-# Tables of a result in files of several kinds
+# ---- Tables of a result in files of several kinds
 
-Tables = dict[str, dict[str, Any]]
-"""Columns of numbers, shape (n,), by the names of tables and their own."""
+Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def save_tables(tables: Tables, described: str, path: str | Path) -> None:
@@ -280,8 +276,7 @@ def _in_numbers(frame: pd.DataFrame) -> dict[str, Any]:
     }
 
 
-# ----------------------------------------------------------------------------------------------------
-# Whole files
+# ---- Whole files
 
 
 class WriteError(DiscModelError, OSError):
@@ -350,8 +345,7 @@ def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
     return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Access to the tree of one case, for claims and figures; a missing part is explained
+# ---- Access to the tree of one case, for claims and figures; a missing part is explained
 
 
 class Missing(Exception):
@@ -385,8 +379,7 @@ def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool =
     return window
 
 
-# ----------------------------------------------------------------------------------------------------
-# Tables in Markdown
+# ---- Tables in Markdown
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:

@@ -17,8 +17,7 @@ from disc_model.data.dataset import markdown_table
 
 UNITS = {"%": 100, "mm": 1e3, "ms": 1e3, "GPa": 1e-9}
 """Units that a format may name after a space, by how many of them are one of the number's own."""
-Section = tuple[str, str, pd.DataFrame]
-"""Part of a page: its heading, or "", a text and a table."""
+Section = tuple[str, str, pd.DataFrame]  # part of a page: its heading, or "", a text and a table
 
 
 def number_text(value: Any, form: str) -> Any:

@@ -25,26 +25,16 @@ STATUSES = (*(status.value for status in Status), "failed")
 class Outcome(enum.StrEnum):
     """Outcome of a motion, in the words of all datasets; `disc_model.stability.attractor` gives the criteria."""
 
-    QUIET = "quiet"
-    """the stable stick-slip cycle of the static start"""
-    OTHER_CYCLE = "other_cycle"
-    """another stable cycle in contact"""
-    SEPARATING = "separating"
-    """a stable cycle that loses contact"""
-    QUASI_PERIODIC = "quasi_periodic"
-    """a motion on an attractor that is regular and aperiodic"""
-    IRREGULAR = "irregular"
-    """a motion on a chaotic attractor"""
-    STEADY_SLIDING = "steady_sliding"
-    """steady sliding"""
-    AT_REST = "at_rest"
-    """the slider stuck to the disc for good"""
-    UNDECIDED = "undecided"
-    """none of these could be shown"""
-    GROWING = "growing"
-    """in contact at the horizon, after a departure from an unstable cycle"""
-    SEPARATION = "separation"
-    """contact is lost before the horizon, and the later motion is not examined"""
+    QUIET = "quiet"  # the stable stick-slip cycle of the static start
+    OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
+    SEPARATING = "separating"  # a stable cycle that loses contact
+    QUASI_PERIODIC = "quasi_periodic"  # a motion on an attractor that is regular and aperiodic
+    IRREGULAR = "irregular"  # a motion on a chaotic attractor
+    STEADY_SLIDING = "steady_sliding"  # steady sliding
+    AT_REST = "at_rest"  # the slider stuck to the disc for good
+    UNDECIDED = "undecided"  # none of these could be shown
+    GROWING = "growing"  # in contact at the horizon, after a departure from an unstable cycle
+    SEPARATION = "separation"  # contact is lost before the horizon, and the later motion is not examined
 
 
 class CycleStatus(StatusBase):
@@ -141,12 +131,9 @@ WITHOUT_CYCLE = {
     "at_rest": "permanent stick",
 }
 """Names in tables and figures of points without a stick-slip cycle, by their status."""
-EXCLUDED = "excluded"
-"""Flag of points that a grid's rule leaves out; other variables have no value there."""
-START = "start"
-"""The dimension of a grid along which the initial conditions vary."""
-SAMPLE = "sample"
-"""The dimension of a grid that numbers the samples of distributed parameters."""
+EXCLUDED = "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
+START = "start"  # the dimension of a grid along which the initial conditions vary
+SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distributed parameters
 
 
 def attributes(name: str) -> dict[str, Any]:

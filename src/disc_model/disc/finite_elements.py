@@ -27,8 +27,7 @@ from disc_model.units import is_number
 if TYPE_CHECKING:
     from skfem import MeshQuad
 
-SAME_PLACE = 1e-9
-"""m; the slider must run through a node of the mesh."""
+SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
 MOST_ELEMENTS = 100_000
 """Largest number of elements in the rectangle around a section; more indicate a mistake in units."""
 MOST_MODES = 64

@@ -21,8 +21,7 @@ from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
 HIGHEST_HARMONIC = 4096
 """Highest harmonic of the sum; beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
-ROUNDING = 1e-13
-"""Relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l."""
+ROUNDING = 1e-13  # relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l
 MODAL_SUM = (60, 20)
 """Diameters and circles of the modal sum that represents all modes if the modes are ``as_published``."""
 

@@ -29,8 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-POINTS_PER_ROOT = 6
-"""Grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought."""
+POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11
 """Greatest ratio of squared frequencies of disc and slider. Their error is then 1e-5, compared with 60 digits."""
 

@@ -28,8 +28,7 @@ COLUMNS = {
     TANGENTIAL: ("tangential", 1.0),
 }
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
-SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")
-"""Name of the column with the shapes at a radius."""
+SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")  # name of the column with the shapes at a radius
 STATIC_COMPLIANCE = "static_compliance_m_per_N"
 """Value that a comment line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
 
@@ -44,13 +43,10 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
 
 
-# ----------------------------------------------------------------------------------------------------
-# Universal files of modal software
+# ---- Universal files of modal software
 
-SAME_RADIUS = 1e-3
-"""Relative difference of the radii of nodes on one circle."""
-SAME_PAIR = 0.05
-"""Relative difference of the frequencies of the two halves of a pair."""
+SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
+SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
 
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
@@ -139,8 +135,7 @@ def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[tuple[float, floa
     return (float(solution[0]), float(solution[1]) if l else 0.0), float(np.sum((moves - waves @ solution) ** 2))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Tables as text
+# ---- Tables as text
 
 
 def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:

@@ -246,8 +246,7 @@ def run(model, s, state, probe, limits, buffers):
     return follow(model, s, state, probe, limits, buffers, ())
 
 
-# ----------------------------------------------------------------------------------------------------
-# Integration with derivatives: from phase to phase, and back to a section
+# ---- Integration with derivatives: from phase to phase, and back to a section
 
 
 @inlined

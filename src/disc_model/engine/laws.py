@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 from .jit import inlined
 
-TINY = 1e-100
-"""The complex step: its square is far below rounding, but not zero."""
+TINY = 1e-100  # the complex step: its square is far below rounding, but not zero
 
 
 class Instant(NamedTuple):

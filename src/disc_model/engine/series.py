@@ -575,8 +575,7 @@ def separation_series(model, s, order):
         _move_slider(model, s, k, pull / model.m, -vertical / model.m)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Contact beyond the paper: a compliant contact, a force normal to the bent disc, friction that falls with the speed.
+# ---- Contact beyond the paper: compliant, by a force normal to the bent disc, with friction that falls with the speed
 #
 # Compliant: V = (w - u) / compliance follows from the state, so that each order of V is known before its convolutions.
 # Normal, with beta = B / r_0 and s = sgn(f): in slip the disc feels V = R (1 - s mu_k beta). The in-plane motion is

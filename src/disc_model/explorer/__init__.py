@@ -23,16 +23,12 @@ from disc_model.data.variables import attributes
 from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
 from disc_model.parameters import RATIOS, Parameters
 
-# ----------------------------------------------------------------------------------------------------
-# Contents of studies: numbers packed, words as they are
+# ---- Contents of studies: numbers packed, words as they are
 
 TRACES = ("P", "u", "psi")
-LEVELS = 65535
-"""Steps between the least and the greatest value of a stored history."""
-MOST_SINGLE = 3.4e38
-"""Magnitude up to which numbers fit into 32 bits."""
-BITS = 17
-"""Number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown."""
+LEVELS = 65535  # steps between the least and the greatest value of a stored history
+MOST_SINGLE = 3.4e38  # magnitude up to which numbers fit into 32 bits
+BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = "") -> dict[str, Any]:
@@ -157,13 +153,10 @@ def _format(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-# ----------------------------------------------------------------------------------------------------
-# The page
+# ---- The page
 
-PICTURE_WIDTH = 1100
-"""Width of a page-wide figure, pixels; narrower ones are scaled alike."""
-PAGE_WIDTH = 2055
-"""Width of such a figure as drawn, pixels."""
+PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
+PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
 QUALITY = 80
 SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
 """Scripts, in the order of their dependence."""

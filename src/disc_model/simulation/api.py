@@ -49,10 +49,8 @@ log = logging.getLogger(__name__)
 Choose = Callable[[Parameters, str], tuple[Parameters, str]]
 """Maps a case and the JSON text of its choice of modes to the case with its modes and a record of the choice."""
 
-MOST_STEPS = 2**62
-"""Largest number of steps that the engine can count."""
-STEPS_PER_PAUSE = 100_000
-"""Steps between two pauses of the engine where a step is cheapest: about 0.1 s of work."""
+MOST_STEPS = 2**62  # largest number of steps that the engine can count
+STEPS_PER_PAUSE = 100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 
 _STATUS = {
     transitions.TIME_OVER: Status.OK,
@@ -364,8 +362,7 @@ def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, coupled:
     }
 
 
-# ----------------------------------------------------------------------------------------------------
-# Initial states
+# ---- Initial states
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
@@ -398,8 +395,7 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
     return simulate(p, time, tol=tol).raise_for_status().final_state
 
 
-# ----------------------------------------------------------------------------------------------------
-# A case of a study
+# ---- A case of a study
 
 
 def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:

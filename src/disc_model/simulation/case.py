@@ -25,8 +25,7 @@ from disc_model.errors import Fault, ParameterError, as_text, raise_faults
 from disc_model.parameters import AUTO, Parameters
 from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
-# ----------------------------------------------------------------------------------------------------
-# Recorded samples
+# ---- Recorded samples
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -152,8 +151,7 @@ class Poincare(Checked):
         return self
 
 
-Windows = Mapping[str, Window | Poincare]
-"""Samples to keep, by their names."""
+Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
 _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
 """Names that netCDF accepts for a group, whatever their length in bytes, and that are readable."""
 
@@ -193,8 +191,7 @@ def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
     return resolved
 
 
-# ----------------------------------------------------------------------------------------------------
-# Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
+# ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
 
 Ramped = Literal["Omega", "N"]
 RAMPED: tuple[Ramped, ...] = ("Omega", "N")
@@ -313,8 +310,7 @@ def _at(line: list[tuple[float, float, float]], time: float) -> tuple[float, flo
     return (value + rate * (time - begin) if rate else value), rate
 
 
-# ----------------------------------------------------------------------------------------------------
-# Initial states
+# ---- Initial states
 
 Coordinate = Literal["u", "u_velocity", "f"]
 
@@ -357,8 +353,7 @@ class Start(Strict):
     perturbation: Annotated[dict[Coordinate, Finite], Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"})] = Field({})
 
 
-# ----------------------------------------------------------------------------------------------------
-# One case ready to be run, and its content address
+# ---- One case ready to be run, and its content address
 
 _LATER = ("start", "truncation", "modes", "ramps")
 """Fields added later: a default is left out of the text, so that older content addresses stay valid."""

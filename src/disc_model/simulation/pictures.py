@@ -23,12 +23,10 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
 
-CYCLES = 4
-"""Number of cycles of stick and slip that are shown of the end of a run."""
+CYCLES = 4  # number of cycles of stick and slip that are shown of the end of a run
 BINS, RATE = 600, 4000.0
 """Bins of the envelope of a run, and its samples per second; of a short run there are more samples."""
-FINE = 4000
-"""Samples of the last cycles."""
+FINE = 4000  # samples of the last cycles
 
 
 class Pictures:

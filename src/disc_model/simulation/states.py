@@ -145,8 +145,7 @@ PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "
 """Units of the variables in a state's file: one value a mode, and scalars."""
 
 
-# ----------------------------------------------------------------------------------------------------
-# States made without a simulation
+# ---- States made without a simulation
 
 
 def static_start(p: Parameters) -> State:
@@ -199,8 +198,7 @@ def transfer_state(p: Parameters, state: State) -> State:
     return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
+# ---- Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
 
 Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
 """Arrays to which the engine writes, for one run at a time: the run's state, the state at a trial time ahead of it, and
@@ -432,8 +430,7 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
     return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Order and local tolerance of the series, from the tolerance that a user gives
+# ---- Order and local tolerance of the series, from the tolerance that a user gives
 
 # Local truncation error for a tolerance of 1.  With it the errors of event times over a second of motion equal the
 # tolerance, as measured against the long-double references (docs/accuracy.md).

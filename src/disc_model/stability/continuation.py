@@ -44,9 +44,7 @@ from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_fault
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# ----------------------------------------------------------------------------------------------------
-# The equation
-
+# ---- The equation
 
 USUAL = {
     "Omega": 20.0,
@@ -210,8 +208,7 @@ def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
 
 
-# ----------------------------------------------------------------------------------------------------
-# The curve
+# ---- The curve
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -403,15 +400,12 @@ def _step(
                 raise
 
 
-# ----------------------------------------------------------------------------------------------------
-# One parameter
-
+# ---- One parameter
 
 CYCLE = StepControl()
 BORDER = StepControl(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
 """Steps along borders, where each point costs several cycles."""
-UNLOCATED = "a fold that cannot be located"
-"""Beginning of one of the reasons for which a branch ends."""
+UNLOCATED = "a fold that cannot be located"  # beginning of one of the reasons for which a branch ends
 
 
 @compiling()
@@ -532,8 +526,7 @@ def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, t
     return float(at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
 
 
-# ----------------------------------------------------------------------------------------------------
-# Two parameters
+# ---- Two parameters
 
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
@@ -609,8 +602,7 @@ def continue_border(
     return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), str(ended))
 
 
-_DIFFERENCE = 1e-4
-"""Arclength of the finite difference for a multiplier's gradient along the surface."""
+_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
 
 
 @dataclass(frozen=True)

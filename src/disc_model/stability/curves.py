@@ -37,8 +37,7 @@ from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_fault
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-MOST_POINTS = 100_000
-"""Largest number of points along a line: an hour of work."""
+MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,13 +282,10 @@ def _trace(seed: _Seed, branch: Branch) -> StabilityCurve:
     return StabilityCurve(seed.kind, branch.values, border, branch.period, leading, resonance)
 
 
-# ----------------------------------------------------------------------------------------------------
-# One parameter
+# ---- One parameter
 
-ROUNDS = 5
-"""Number of times that places of resonance are predicted anew, from the multipliers beside them."""
-STRONGLY_DAMPED = 0.5
-"""Modulus below which a multiplier takes part in no resonance that could make it one."""
+ROUNDS = 5  # number of times that places of resonance are predicted anew, from the multipliers beside them
+STRONGLY_DAMPED = 0.5  # modulus below which a multiplier takes part in no resonance that could make it one
 
 
 @dataclass(frozen=True, eq=False, repr=False)

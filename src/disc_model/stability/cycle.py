@@ -40,10 +40,8 @@ from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-RETURNS_TRIED = (1, 2, 3)
-"""Numbers of releases in a period of the cycles that are sought."""
-TRANSIENT = 60
-"""Returns simulated from the static start before Newton's method is tried again."""
+RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
+TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
 
 class CycleError(DiscModelError):
@@ -310,8 +308,7 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     )
 
 
-# ----------------------------------------------------------------------------------------------------
-# Frequencies of the cycle's multipliers, beside those of steady sliding
+# ---- Frequencies of the cycle's multipliers, beside those of steady sliding
 #
 # A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T. Its sign is undetermined,
 # because multipliers come in conjugate pairs.  One assignment matches all multipliers to the modes of sliding by the

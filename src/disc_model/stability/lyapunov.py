@@ -32,8 +32,7 @@ if TYPE_CHECKING:
 _BLOCKS = 16
 MOST_INTERVALS = 10_000_000
 """Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
-CLEAR = 4.0
-"""An exponent differs from zero if it exceeds this many of its errors."""
+CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
 CONVERGED = 0.05, 0.002
 """An exponent has converged if both halves of the time agree to this share of it, or to this difference in 1/s."""
 

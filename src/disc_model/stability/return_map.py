@@ -269,8 +269,7 @@ class ReturnMap:
             yield (x := flight.end)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Fixed points of the map, by Newton's method
+# ---- Fixed points of the map, by Newton's method
 
 
 def rounding(tol: float, factor: float) -> float:
@@ -324,8 +323,7 @@ def _solve(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Multipliers of a cycle, and the stability that follows from them
+# ---- Multipliers of a cycle, and the stability that follows from them
 
 
 def multipliers(jacobian: Array) -> ComplexArray:

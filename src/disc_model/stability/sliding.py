@@ -121,8 +121,7 @@ class SteadySliding(Summarised):
         return int(np.sum(growing.imag >= 0))
 
 
-ROUNDING = 1e-9
-"""1/s; real parts of undamped modes are below 1e-11 by rounding."""
+ROUNDING = 1e-9  # 1/s; real parts of undamped modes are below 1e-11 by rounding
 
 
 def steady_sliding(p: Parameters) -> SteadySliding:
@@ -249,8 +248,7 @@ def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: 
     return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])
 
 
-# ----------------------------------------------------------------------------------------------------
-# Modes
+# ---- Modes
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,8 +303,7 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     )
 
 
-ALIKE = 0.9
-"""Least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times."""
+ALIKE = 0.9  # least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times
 HALVINGS = 6
 
 

@@ -61,8 +61,7 @@ class HelperLibrary(JITCodeLibrary):
     def get_pointer_to_function(self, name):
         return 0
 
-    known: ClassVar[dict] = {}
-    """Libraries by their keys, the function and the types of its arguments, or by their code."""
+    known: ClassVar[dict] = {}  # libraries by their keys, the function and the types of its arguments, or by their code
     key = None
 
     def stored(self):

@@ -274,9 +274,7 @@ def _excess_rate(near: NearCycle, distance: Array) -> float | None:
     return float(math.log(abs(part) / before) / (count * near.cycle.period) / near.cycle.growth_rate - 1)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Steady sliding
-
+# ---- Steady sliding
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
 

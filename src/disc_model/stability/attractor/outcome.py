@@ -380,8 +380,7 @@ def growing(changes: Sequence[float]) -> bool:
     return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Description of segments
+# ---- Description of segments
 
 
 def final_segment(
@@ -423,8 +422,7 @@ def switch_angles(leg: Result) -> Array:
     return events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]].to_numpy(dtype=float).T
 
 
-# ----------------------------------------------------------------------------------------------------
-# What a motion has come to: whether it has settled, on what, and how regular it is; sweeps through a parameter
+# ---- What a motion has come to: whether it has settled, on what, and how regular it is; sweeps through a parameter
 
 
 class Arrival(NamedTuple):

@@ -3,30 +3,24 @@
 Distances and changes are on the section of the return map, relative to the norm of the static deflection.
 """
 
-# ----------------------------------------------------------------------------------------------------
-# Simulated legs
+# ---- Simulated legs
 
 FIRST_LEG = 5.0
 """s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
 LONGEST_LEG = 160.0
 """s, of later legs. The tests after each cost little beside so much simulation."""
-SAMPLING_RATE = 4000.0
-"""Hz, of described segments: above twice the highest modal frequency."""
+SAMPLING_RATE = 4000.0  # Hz, of described segments: above twice the highest modal frequency
 
-# ----------------------------------------------------------------------------------------------------
-# Linear motion near a cycle, or near steady sliding
+# ---- Linear motion near a cycle, or near steady sliding
 
 AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Distances from the cycle up to which multipliers may represent a departure."""
-NEAR = AMPLITUDES[0]
-"""Distance from a cycle within which a motion counts as near it: none is linear beyond."""
+NEAR = AMPLITUDES[0]  # distance from a cycle within which a motion counts as near it: none is linear beyond
 SAME_POINT = 1e-4
 """Fixed points nearer than this are the same. Distinct known cycles differ a thousand times as much, and residuals are
 a million times smaller."""
-ARRIVED = 1e-8
-"""A motion as near to a stable cycle is on it: the limit is 10,000 times the rounding."""
-ERROR_OF_TOL = 100
-"""Errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s."""
+ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
+ERROR_OF_TOL = 100  # errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
 """s, at which a motion is compared with the linear one; its growth rate is taken between them. The longer test follows
 if the shorter one fails, because it resolves slower rates."""
@@ -44,8 +38,7 @@ the growth rate and the multiplier's, for which the departure is corrected."""
 CERTAIN = 0.02
 """Distance from a cycle from which a departure that came to a stable cycle is simulated: farther away, its phase may
 decide between that cycle and separation."""
-LINGERS = 1e-3
-"""Largest change over a period of a motion that stays near an unstable cycle: on a torus it would move."""
+LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
 LARGEST_PERIOD = 8
 """Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
 RISE = 1.5
@@ -55,8 +48,7 @@ STEADY_FOR = 360.0
 """s for which a motion must have settled in contact until it is left. Of about 190 such motions of
 `map_N`, 2 lost contact before 1000 s, both in the last 30 s; after 200 s about 5 would have."""
 
-# ----------------------------------------------------------------------------------------------------
-# Attractors of many motions of a case
+# ---- Attractors of many motions of a case
 
 NEARING, SETTLING = 4, 8
 """Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
@@ -64,7 +56,6 @@ STEADY = 1e-3
 """Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
 SAME = 0.05
 """Segments that differ by less belong to one attractor; the extrapolated rest of a drift may reach half of it."""
-SMALLEST = 1e-3
-"""Range, over the static deflection, below which ranges count as equal: the slider's height is constant."""
+SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 """Downward perturbations of the static start from which attractors are sought, over the static deflection."""
