@@ -359,7 +359,7 @@ class Sources:
         """Errors of event times divided by the default tolerance, by case."""
         text = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8").partition("\n## Event times\n")[2]
         rows = [line.split("|") for line in text.partition("\n## ")[0].splitlines() if line.startswith("|")][2:]
-        return np.array([float(row[5]) for row in rows])
+        return np.array([float(row[4]) for row in rows])
 
     # ---- the package
 
