@@ -101,6 +101,11 @@ def violations(*rules: tuple[object, str, object, str]) -> list[str]:
     return [Fault.of(tuple(name.split(".")), value, rule) for holds, name, value, rule in rules if not holds]
 
 
+def require(*rules: tuple[object, str, object, str]) -> None:
+    """Raise one `ParameterError` that lists the `violations` of the rules, if there are any."""
+    raise_faults(violations(*rules))
+
+
 class ModeError(DiscModelError):
     """The plate's modes could not be computed to the promised accuracy."""
 

@@ -20,7 +20,7 @@ from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, violations
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
 
@@ -115,9 +115,7 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
         error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
         if error <= tolerance:
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
-    raise DiscModelError(
-        f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge the tolerance"
-    )
+    raise DiscModelError(f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it")
 
 
 def counts(disc: Disc) -> range:
@@ -224,7 +222,7 @@ def choose_modes(
     """
     request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     known = isinstance(case, Parameters | Mapping)
-    raise_faults(violations((known, "case", case, "must be Parameters, or a mapping of names to values")))
+    require((known, "case", case, "must be Parameters, or a mapping of names to values"))
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})

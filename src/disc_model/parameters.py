@@ -214,8 +214,7 @@ class Disc(Checked):
         ParameterError
             If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
         """
-        disc: Disc = import_module("disc_model.disc.tables").read_disc(path)
-        return disc
+        return import_module("disc_model.disc.tables").read_disc(path)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
@@ -252,8 +251,7 @@ class Disc(Checked):
         ParameterError
             If the file cannot be read, or lacks nodes on the circle, modal masses or modes across the disc.
         """
-        disc: Disc = import_module("disc_model.disc.tables").read_uff(path, r_0)
-        return disc
+        return import_module("disc_model.disc.tables").read_uff(path, r_0)
 
     @classmethod
     def from_section(  # noqa: PLR0913
@@ -302,11 +300,10 @@ class Disc(Checked):
         """
         elements = import_module("disc_model.disc.finite_elements")
         mesh = section if size is None else elements.section(section, size)
-        disc: Disc = elements.disc_of_section(
+        return elements.disc_of_section(
             mesh, E=E, nu=nu, rho=rho, clamped=clamped, slider=slider, highest_Hz=highest_Hz,
             damping_ratio=damping_ratio,
         )  # fmt: skip
-        return disc
 
     def plot(self, *, r_0: float | None = None, most: int = 15, ax: Any = None) -> Any:
         """Draw the shapes of the modes with their nodal lines and frequencies; needs shapes at two radii or more.
@@ -393,10 +390,8 @@ class Disc(Checked):
 
     def with_numbers(self, **changes: float) -> Disc:
         """The disc with some of its `numbers` changed."""
-        values, count = [*(self.numbers | changes).values()], len(self.omega)
-        return self.replace(
-            omega=values[:count], amplitude=values[count : 2 * count], damping_ratio=values[2 * count : 3 * count]
-        )
+        values, n = [*(self.numbers | changes).values()], len(self.omega)
+        return self.replace(omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n])
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""
@@ -535,11 +530,7 @@ class Parameters(Checked):
         others = {"contact_compliance": 0, "friction_offset": 0, "friction_decay": math.inf}  # of other models
         unused |= {name for name, value in others.items() if getattr(self, name) == value}
         numbers = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
-        ratios = {
-            name: numbers[upper] / numbers[two]
-            for name, (upper, two) in RATIOS.items()
-            if upper in numbers and numbers.get(two)
-        }
+        ratios = {name: numbers[a] / numbers[b] for name, (a, b) in RATIOS.items() if a in numbers and numbers.get(b)}
         return numbers | ratios | ({} if self.disc is None else self.disc.numbers)
 
     @property
@@ -553,13 +544,8 @@ class Parameters(Checked):
         rows = []
         for name, field in type(self).model_fields.items():
             if (value := getattr(self, name)) is not None:
-                text = (
-                    f"{len(value.omega)} modes"
-                    if isinstance(value, Disc)
-                    else f"{value:.15g}"
-                    if is_number(value)
-                    else value
-                )
+                value = f"{len(value.omega)} modes" if isinstance(value, Disc) else value
+                text = f"{value:.15g}" if is_number(value) else value
                 rows.append((name, text, self.unit(name).removeprefix("1"), str(field.description)))
         return html_table(("symbol", "value", "unit", "meaning"), rows)
 

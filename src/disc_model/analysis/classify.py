@@ -86,9 +86,8 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     if period := shortest_period(intervals, tolerance):
         return Motion(Outcome.OTHER_CYCLE, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
-    kind = (
-        Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.IRREGULAR if chaos > 1 - REGULAR else Outcome.UNDECIDED
-    )
+    kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else Outcome.UNDECIDED
+    kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else kind
     return Motion(kind, 0, spread, closure(intervals, 1), chaos, longest)
 
 

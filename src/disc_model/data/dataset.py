@@ -70,27 +70,15 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    disc = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
-    for name, value in (
-        p.model_dump() | {"contact_compliance": _compliance(p), "friction_offset": _offset(p), "disc": disc}
-    ).items():
+    numbers: dict[str, Any] = {"contact_compliance": _compliance(p)}
+    numbers["disc"] = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
+    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
+        numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
+    for name, value in (p.model_dump() | numbers).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
-    attrs = {
-        "Conventions": CONVENTIONS,
-        "parameters": p.canonical_json,
-        "parameters_key": p.key,
-        "status": status,
-        "message": message,
-    }
-    return xr.Dataset(data, attrs=attrs)
-
-
-def _offset(p: Parameters) -> float:
-    """Height of friction above the middle plane, m; nan if it follows from the table of a disc."""
-    if p.friction_offset != SURFACE:
-        return float(p.friction_offset)
-    return p.h / 2 if p.disc is None else math.nan
+    attrs = {"Conventions": CONVENTIONS, "parameters": p.canonical_json, "parameters_key": p.key}
+    return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
 
 
 def _compliance(p: Parameters) -> float:

@@ -201,8 +201,7 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:
     """The "base" or the "options" that the dataset of a grid study states."""
-    stated: dict[str, Any] = json.loads(study.attrs[what])
-    return stated
+    return json.loads(study.attrs[what])
 
 
 def angles_text(angles: Iterable[float]) -> str:

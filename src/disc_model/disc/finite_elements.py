@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
-from disc_model.errors import Fault, ParameterError, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, require
 from disc_model.parameters import Disc, Parameters
 from disc_model.units import is_number
 
@@ -53,11 +53,11 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
         if not (len(box) == 4 and 0 < box[0] < box[1] < math.inf and -math.inf < box[2] < box[3] < math.inf):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
             raise ParameterError(Fault.of(("rectangles", str(i)), box, rule))
-    raise_faults(violations((is_number(size) and size > 0, "size", size, "must be > 0")))
+    require((is_number(size) and size > 0, "size", size, "must be > 0"))
     inner, outer, low, high = zip(*numbers, strict=True)
     count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
     rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: size and rectangles are in m"
-    raise_faults(violations((count <= MOST_ELEMENTS, "size", size, rule)))
+    require((count <= MOST_ELEMENTS, "size", size, rule))
     axes = [_divided({edge for box in numbers for edge in box[i : i + 2]}, size) for i in (0, 2)]
     mesh = mesh_type.init_tensor(*axes)
     r, z = mesh.p[:, mesh.t].mean(axis=1)
@@ -87,11 +87,9 @@ def disc_of_section(
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
-    raise_faults(
-        violations(
-            (is_point, "slider", slider, "must be two numbers, r and z"),
-            (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
-        )
+    require(
+        (is_point, "slider", slider, "must be two numbers, r and z"),
+        (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
     )
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
@@ -103,12 +101,10 @@ def disc_of_section(
     measured = np.array([vertical[int(np.argmin(apart))], circular[nearest], *vertical[level[first]]])
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     pieces = _pieces(mesh)
-    raise_faults(
-        violations(
-            (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
-            (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
-            (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
-        )
+    require(
+        (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
+        (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
+        (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
     warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
     highest = math.tau * highest_Hz
@@ -121,7 +117,7 @@ def disc_of_section(
         rows += [(w, l, i, a, 0.0 - v, shape) for i, (w, (a, v, *shape)) in enumerate(zip(omega, moves, strict=True))]
     largest = max((row[3] for row in rows), default=0.0)
     transverse = sorted(row for row in rows if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
-    raise_faults(violations((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")))
+    require((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider"))
     omegas, diameters, circles, amplitudes, tangential, shapes = zip(*transverse, strict=True)
     return Disc(
         omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,

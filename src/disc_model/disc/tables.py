@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table, tangential_amplitudes
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Disc, Parameters
 
 if TYPE_CHECKING:
@@ -111,8 +111,8 @@ def _uff_mode(
     radius, angle, moves = np.hypot(x, y), np.arctan2(y, x), moves[known]
     circle = np.abs(radius - r_0) < SAME_RADIUS * r_0
     rule = f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
-    raise_faults(violations((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule)))
-    raise_faults(violations((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale")))
+    require((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule))
+    require((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale"))
     fits = [_harmonic_fit(angle[circle], moves[circle], l) for l in range(min(60, (int(circle.sum()) - 1) // 2) + 1)]
     l = int(np.argmin([rest for _, rest in fits]))
     (cosine, sine), rest = fits[l]
@@ -236,9 +236,8 @@ def _text(path: str | os.PathLike[str]) -> str:
 
 
 def _static_compliance(lines: list[str], path: object) -> float | None:
-    values = [
-        match[1] for line in lines if (match := re.fullmatch(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*", line))
-    ]
+    stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
+    values = [match[1] for line in lines if (match := stated.fullmatch(line))]
     if len(values) > 1:
         raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
     try:

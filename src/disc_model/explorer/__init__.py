@@ -162,15 +162,8 @@ SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
 """Scripts, in the order of their dependence."""
 PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)
 """Colours of flags whose words have none of their own, distinct to colour-blind readers too."""
-WORDS = {
-    **PHASE_COLOURS,
-    "ok": SKY,
-    "quiet": BLUE,
-    "stable": BLUE,
-    "growing": ORANGE,
-    "unstable": ORANGE,
-    "failed": BLACK,
-}
+WORDS = {"ok": SKY, "quiet": BLUE, "stable": BLUE, "growing": ORANGE, "unstable": ORANGE, "failed": BLACK}
+WORDS = {**PHASE_COLOURS, **WORDS}
 
 
 class Picture(NamedTuple):

@@ -14,7 +14,7 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.bifurcation import draw_branch
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
@@ -62,7 +62,7 @@ def window_of(case: xr.DataTree, name: object, which: str = "window", **variable
 def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str], ax: Any = None) -> np.ndarray:
     """Draw variables of a run, a row each, in windows, a column each."""
     several = isinstance(variables, list | tuple) and len(variables) > 0
-    raise_faults(violations((several, "variables", variables, "must be a list of one or more")))
+    require((several, "variables", variables, "must be a list of one or more"))
     shown = [window_of(case, name, "windows", variables=variables) for name in windows]
     rows, columns = len(variables), len(windows)
     width = PAGE if columns > 1 else 1.3 * COLUMN
@@ -96,7 +96,7 @@ def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any 
 @by_itself
 def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float, ax: Any = None) -> Axes:
     """Draw the amplitude of a variable over the frequency."""
-    raise_faults(violations((is_number(highest) and highest > 0, "highest", highest, "must be a number > 0, in Hz")))
+    require((is_number(highest) and highest > 0, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, variable=variable)
     if variable not in samples:
         raise ParameterError(Fault.of(("window",), window, "must hold samples, not their ranges"))
@@ -138,7 +138,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
             (writer, "path", str(path), "must end in .gif or .mp4"),
             (available, "path", str(path), f"needs the program {writer}"),
         ]
-    raise_faults(violations(*rules))
+    require(*rules)
     with drawing.styled():
         figure = Figure(figsize=(6.4, 2.7), layout="constrained")
         film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
@@ -354,11 +354,9 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     'Speed Ω (rad/s)'
     """
     texts = (isinstance(value, str | None) for value in (variable, x))
-    raise_faults(
-        violations(
-            (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
-            *zip(texts, ("variable", "x"), (variable, x), ("must be a name",) * 2, strict=True),
-        )
+    require(
+        (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
+        *zip(texts, ("variable", "x"), (variable, x), ("must be a name",) * 2, strict=True),
     )
     study = study.squeeze()
     numbers = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]

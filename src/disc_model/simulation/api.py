@@ -19,7 +19,7 @@ from disc_model.display import Progress, simulating
 from disc_model.engine import audit, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, Status, as_text, raise_faults, violations
+from disc_model.errors import DiscModelError, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
@@ -306,15 +306,40 @@ class _Run:
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
-            statistics=_statistics(
-                self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled), self.wall_time
-            ),
+            statistics=self._statistics(),
             samples=self.collector.finish(),
             ramps=self.ramps,
             initial_state=self.initial_state,
         )
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
         return result
+
+    def _statistics(self) -> dict[str, float]:
+        def relative(residual: int, scale: int, turnover: int) -> float:
+            """Sum of the residuals over the largest energy present plus all energy exchanged."""
+            size = total[scale] + total[turnover]
+            if not every_step:
+                return math.nan
+            return abs(total[residual]) / size if size > 0 else 0.0
+
+        buffers, every_step, coupled = self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled)
+        count, total = buffers.counters.tolist(), buffers.audit.tolist()
+        stick, slip, separation = buffers.phase_times.tolist()
+        return {
+            "steps": count[event_loop.STEPS],
+            "events": count[event_loop.EVENTS],
+            "separations": count[event_loop.SEPARATIONS],
+            "time_stick": stick,
+            "time_slip": slip,
+            "time_separation": separation,
+            "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
+            "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+            "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+            "audited_steps": int(total[audit.STEPS]),
+            "couple_work": total[audit.COUPLE] if coupled and every_step else math.nan,
+            "surface_speed": total[audit.SURFACE] if coupled else math.nan,
+            "wall_time": self.wall_time,
+        }
 
 
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
@@ -335,33 +360,6 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
     return text
 
 
-def _statistics(buffers: event_loop.RunBuffers, audit_every_step: bool, coupled: bool, wall: float) -> dict[str, float]:
-    def relative(residual: int, scale: int, turnover: int) -> float:
-        """Sum of the residuals over the largest energy present plus all energy exchanged."""
-        size = total[scale] + total[turnover]
-        if not audit_every_step:
-            return math.nan
-        return abs(total[residual]) / size if size > 0 else 0.0
-
-    count, total = buffers.counters.tolist(), buffers.audit.tolist()
-    stick, slip, separation = buffers.phase_times.tolist()
-    return {
-        "steps": count[event_loop.STEPS],
-        "events": count[event_loop.EVENTS],
-        "separations": count[event_loop.SEPARATIONS],
-        "time_stick": stick,
-        "time_slip": slip,
-        "time_separation": separation,
-        "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
-        "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
-        "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
-        "audited_steps": int(total[audit.STEPS]),
-        "couple_work": total[audit.COUPLE] if coupled and audit_every_step else math.nan,
-        "surface_speed": total[audit.SURFACE] if coupled else math.nan,
-        "wall_time": wall,
-    }
-
-
 # ---- Initial states
 
 
@@ -377,9 +375,7 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
         other = p.replace(**start.prerun.parameters)
         sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
         path, rule = "start.prerun.parameters.", "must be that of the case, "
-        raise_faults(
-            violations(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
-        )
+        require(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
         state = transfer_state(p, _end_of(other, start.prerun.time, tol))
     return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
 

@@ -11,14 +11,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import (
-    Field,
-    SerializerFunctionWrapHandler,
-    create_model,
-    field_validator,
-    model_serializer,
-    model_validator,
-)
+from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults
@@ -53,12 +46,9 @@ class Span(Checked):
         return self
 
     @model_serializer(mode="wrap")
-    def _plain(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    def _plain(self, handler: Any) -> dict[str, Any]:
         """Leave out an absent ``last``, so that the content address of a case with absolute times stays the same."""
-        values: dict[str, Any] = handler(self)
-        if self.last is None:
-            values.pop("last", None)
-        return values
+        return {name: value for name, value in handler(self).items() if name != "last" or value is not None}
 
     def resolved(self, start: float, t_end: float) -> Self:
         """The same span with absolute times, for a run from ``start`` to ``t_end``.
@@ -264,9 +254,8 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
                 rule = f"must be >= {as_text(before.end)}, where the ramp of {name} before it ends"
                 yield Fault(("ramps", str(i), "start"), as_text(ramp.start), rule)
     if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
-        yield Fault(
-            ("record", "poincare"), "", "must not be asked for on ramps of Omega: the drive has no period there"
-        )
+        rule = "must not be asked for on ramps of Omega: the drive has no period there"
+        yield Fault(("record", "poincare"), "", rule)
 
 
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
@@ -314,9 +303,7 @@ def _at(line: list[tuple[float, float, float]], time: float) -> tuple[float, flo
 
 Coordinate = Literal["u", "u_velocity", "f"]
 
-_OPTIONAL: dict[str, Any] = {
-    name: (Annotated[field.annotation, field], None) for name, field in Parameters.model_fields.items()
-}
+_OPTIONAL: Any = {name: (Annotated[x.annotation, x], None) for name, x in Parameters.model_fields.items()}
 SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL)
 """Parameters of which any may be absent; rules between several are checked if all of them are present."""
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import Array, State, amplitude_faults, is_finite_array, static_start
@@ -59,7 +59,7 @@ def snapshots(
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state = static_start(p) if initial_state is None else initial_state
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
-    raise_faults(violations(*((time >= state.time, "times", time, rule) for time in wanted[:1])))
+    require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
     states = []
     for time in wanted:
         if time > state.time:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.display import draw
-from disc_model.errors import raise_faults, violations
+from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import is_whole
 
@@ -129,7 +129,7 @@ class Pictures:
         >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
         counts = (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1")
-        raise_faults(violations(counts))
+        require(counts)
         case, name = self._of(window, "end")
         samples = draw("window_of", case, name)
         result: Any = self

@@ -17,7 +17,7 @@ from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, number_text
 from disc_model.engine.event_loop import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status, as_text, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, Status, as_text, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
 from disc_model.simulation.pictures import Pictures
@@ -105,7 +105,7 @@ class Result(Summarised, Pictures):
         known = isinstance(name, str) and name in RAMPED
         finite = is_finite_array(times, flat=False)
         rule = f"must be one of {', '.join(RAMPED)}"
-        raise_faults(violations((known, "name", name, rule), (finite, "times", times, "must be finite numbers")))
+        require((known, "name", name, rule), (finite, "times", times, "must be finite numbers"))
         return values_at(self.parameters, self.ramps, name, times)
 
     def __getitem__(self, name: str) -> xr.Dataset:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import defaultdict
-from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
@@ -106,12 +105,9 @@ class State:
 
         from disc_model.data import dataset
 
-        modal = {
-            name: ("mode", np.asarray(getattr(self, name), float), {"units": unit}) for name, unit in MODAL.items()
-        }
+        known = MODAL | ({} if self.mode_amplitudes is None else {"mode_amplitudes": "kg-1/2"})
+        modal = {name: ("mode", np.asarray(getattr(self, name), float), {"units": x}) for name, x in known.items()}
         plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in PLAIN.items()}
-        if self.mode_amplitudes is not None:
-            modal["mode_amplitudes"] = ("mode", np.asarray(self.mode_amplitudes, float), {"units": "kg-1/2"})
         whole = {"direction": ((), np.int64(self.direction)), "roots": ("kind", np.array(self._roots, np.int64))}
         attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
         dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
@@ -378,7 +374,7 @@ def _faults(source: State, case: EngineCase) -> list[str]:
     # the clock's compensation is at most a unit in the last place of the time
     small = finite["time_low"] and (not finite["time"] or abs(source.time_low) <= math.ulp(source.time))
     phase = source.phase if isinstance(source.phase, str) else ""
-    f, directed = source.f if finite["f"] else 0.0, _is_among(source.direction, (-1, 1))
+    f, directed = source.f if finite["f"] else 0.0, is_number(source.direction) and source.direction in (-1, 1)
     against = phase == "slip" and directed and f * source.direction < 0
     rules = (
         *((finite[name], name, "must be finite") for name in PLAIN if name != "time_low"),
@@ -389,9 +385,8 @@ def _faults(source: State, case: EngineCase) -> list[str]:
         (not against, "f", f"must have the sign of direction={source.direction}"),
     )
     faults += amplitude_faults(source, case.amplitudes, ("initial_state",))
-    return faults + violations(
-        *((holds, f"initial_state.{name}", getattr(source, name), rule) for holds, name, rule in rules)
-    )
+    named = ((holds, f"initial_state.{name}", getattr(source, name), rule) for holds, name, rule in rules)
+    return faults + violations(*named)
 
 
 def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> list[str]:
@@ -405,19 +400,13 @@ def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> 
     # modes from two processors differ by at most 1e-13 (measured)
     other = np.abs(stated - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
     rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
-    return [
-        Fault((*path, str(i)), as_text(float(stated[i])), rule.format(amplitudes[i])) for i in np.flatnonzero(other)[:1]
-    ]
+    first = np.flatnonzero(other)[:1]
+    return [Fault((*path, str(i)), as_text(float(stated[i])), rule.format(amplitudes[i])) for i in first]
 
 
 def is_finite(value: object) -> bool:
     """Whether a value is a finite number."""
     return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
-
-
-def _is_among(value: object, known: Collection[int]) -> bool:
-    """Whether a value is one of the given whole numbers; a bool does not count as one."""
-    return is_number(value) and value in known
 
 
 def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:

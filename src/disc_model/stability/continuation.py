@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from disc_model.display import Summarised, draw
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.parameters import DEFAULTS, Parameters, foreign_case
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
@@ -46,15 +46,8 @@ if TYPE_CHECKING:
 
 # ---- The equation
 
-USUAL = {
-    "Omega": 20.0,
-    "N": 300.0,
-    "c": 0.5,
-    "c_p": 0.5,
-    "contact_compliance": 1e-8,
-    "damping_ratio": 1e-3,
-    "friction_decay": 1.0,
-}
+USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
+USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
 DIFFERENCE = 1e-5
 """Step of finite differences, over a parameter's scale: flights are accurate to 1e-13, and their second derivatives
@@ -103,9 +96,7 @@ class CycleProblem:
         self.n = reference.size
         self.scale = reference.scale
         self.size = reference.deflection
-        self.scales = np.array(
-            [default_scale(p, name) if parameter_scale is None else parameter_scale for name in names]
-        )
+        self.scales = np.array([parameter_scale or default_scale(p, name) for name in names])
 
     def case(self, z: Array) -> Parameters:
         values = z[self.n :] * self.scales
@@ -266,8 +257,7 @@ class Branch(Summarised):
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period (ms)'
         """
-        axes: Axes = draw("plot_branch", self, y, ax=ax)
-        return axes
+        return draw("plot_branch", self, y, ax=ax)
 
     def bifurcation_types(self) -> list[str]:
         """Bifurcation that the leading multiplier of each point indicates."""
@@ -281,9 +271,8 @@ def is_interval(bounds: Any) -> bool:
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
     """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
-    rule = (
-        "guess: must lie near a cycle that can be followed" if problem.order else "p: must have a cycle to start from"
-    )
+    rule = "p: must have a cycle to start from"
+    rule = "guess: must lie near a cycle that can be followed" if problem.order else rule
     if cycle.releases > 1 and not problem.order:
         raise ParameterError("p: must have a cycle with a single release to start from")
     if cycle.state is None:
@@ -349,7 +338,7 @@ class StepControl:
         lengths = [(name, getattr(self, name)) for name in names]
         rules = [(is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths]
         counts = is_whole(self.max_points) and self.max_points >= 1
-        raise_faults(violations(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1")))
+        require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
 
 
 def continue_curve(
@@ -478,10 +467,8 @@ def continue_cycle(
     points = [place.point for place in places]
     if isinstance(ended, Reordered):
         duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-        motions = (
-            simulate(problem.case(z), duration, tol=tol, initial_state=problem.state(z))
-            for z in (points[-1].z, ended.z)
-        )
+        ends_of = ((problem.case(z), problem.state(z)) for z in (points[-1].z, ended.z))
+        motions = (simulate(case, duration, tol=tol, initial_state=state) for case, state in ends_of)
         ended = f"{ended}; {changed_event(*motions)}"
     return branch_of(problem, points, np.array(folds).reshape(-1, 1), str(ended))
 

@@ -106,8 +106,7 @@ class NeutralCurves(Summarised):
         >>> curves.plot().get_xlabel()
         'Speed Ω (rad/s)'
         """
-        axes: Axes = draw("plot_neutral_curves", self, ax=ax)
-        return axes
+        return draw("plot_neutral_curves", self, ax=ax)
 
 
 @dataclass(frozen=True)
@@ -159,9 +158,8 @@ def neutral_curves(
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
     within = free and all(is_interval(interval) for interval in bounds.values())
-    wrong = violations(
-        (within, "bounds", bounds, "must be two ascending finite numbers, by the names of two parameters")
-    )
+    rule = "must be two ascending finite numbers, by the names of two parameters"
+    wrong = violations((within, "bounds", bounds, rule))
     if free and isinstance(p, Parameters):
         wrong += free_faults(p, [*bounds])
     if lines is None and within:
@@ -343,8 +341,7 @@ class Critical(Summarised):
         >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7).plot().get_ylabel()
         'Growth rate of the cycle (1/s)'
         """
-        axes: Axes = draw("plot_critical", self, ax=ax)
-        return axes
+        return draw("plot_critical", self, ax=ax)
 
 
 @compiling()

@@ -115,8 +115,7 @@ class FloquetResult(Summarised):
         >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
         'Re λ'
         """
-        axes: Axes = draw("plot_multipliers", self.raise_for_status(), ax=ax)
-        return axes
+        return draw("plot_multipliers", self.raise_for_status(), ax=ax)
 
     @cached_property
     def sliding(self) -> SteadySliding:
@@ -172,9 +171,8 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
     >>> cycle.stable, cycle.attractors
     (True, ('stick_slip',))
     """
-    raise_faults(
-        [*case_faults(p, "floquet"), *limits_faults("tol", tol, CYCLE_TOLERANCES), *guess_faults(guess, releases)]
-    )
+    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
+    raise_faults(case_faults(p, "floquet") + wrong)
     return find_cycle(p, tol, guess, releases)
 
 

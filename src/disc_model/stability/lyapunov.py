@@ -86,8 +86,7 @@ class Lyapunov(Summarised):
         >>> dm.lyapunov_exponents(dm.Parameters(N=385, Omega=15), 1).plot().get_ylabel()
         'Lyapunov exponent (1/s)'
         """
-        axes: Axes = draw("plot_exponents", self, ax=ax)
-        return axes
+        return draw("plot_exponents", self, ax=ax)
 
 
 @compiling()

@@ -80,9 +80,5 @@ def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
         (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]), True)
         for frequency, shape in zip(frequencies, shapes.T, strict=True)
     ]
-    alone = [
-        (float(omega) / (2 * math.pi), int(l), False)
-        for omega, l in zip(modes.omega, modes.diameters, strict=True)
-        if l > 0
-    ]
-    return sorted(coupled + alone)
+    pairs = zip(modes.omega[modes.diameters > 0], modes.diameters[modes.diameters > 0], strict=True)
+    return sorted(coupled + [(float(omega) / (2 * math.pi), int(l), False) for omega, l in pairs])

@@ -44,9 +44,8 @@ def case_faults(p: object, analysis: str) -> list[str]:
     """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can become unstable."""
     if not isinstance(p, Parameters):
         return foreign_case(p)
-    return violations(
-        (p.n_diameters >= 0, "n_diameters", p.n_diameters, f"must be >= 0: {analysis} needs modes of the disc")
-    )
+    rule = f"must be >= 0: {analysis} needs modes of the disc"
+    return violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
@@ -239,9 +238,8 @@ class ReturnMap:
     def next_release(self, start: State) -> tuple[int, Array]:
         """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
         write_state(self._case, start, self._state)
-        course = event_loop.IntegrationLimits(
-            self.order, self.tolerance, math.inf, self.longest, 1, may_separate=True, tangent=False
-        )
+        limits = self.order, self.tolerance, math.inf, self.longest, 1
+        course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=False)
         code: int = event_loop.integrate(self.model, self._series, self._state, self._tangent, course)
         return code, self._coordinates()
 

@@ -106,8 +106,7 @@ class SteadySliding(Summarised):
         >>> dm.steady_sliding(dm.Parameters(N=385, Omega=15.1)).plot().get_ylabel()
         'Frequency (Hz)'
         """
-        axes: Axes = draw("plot_eigenvalues", self, ax=ax)
-        return axes
+        return draw("plot_eigenvalues", self, ax=ax)
 
     @property
     def stable(self) -> bool:
@@ -216,9 +215,8 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     l, weight, w2, d = (each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p)))
     rate_a, rate_b = alpha + l * f * b, beta - l * f * a
     free_along, free_across = l * f * beta - d * alpha - w2 * a, -l * f * alpha - d * beta - w2 * b
-    w, velocity, slope, free = (
-        np.sum(weight * part, axis=0) for part in (a, rate_a, l * b, free_along + l * f * rate_b)
-    )
+    parts = (a, rate_a, l * b, free_along + l * f * rate_b)
+    w, velocity, slope, free = (np.sum(weight * part, axis=0) for part in parts)
     u, v = height if len(height) else (w, velocity)
     i = laws.Instant(
         p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_compliance(p), psi, f, w, velocity, slope, free, u, v

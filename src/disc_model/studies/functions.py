@@ -17,7 +17,7 @@ import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.display import counting
-from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.api import run_case
@@ -62,7 +62,7 @@ def _several(values: Any) -> bool:
 def _scan(ends: Any, step: Any) -> Any:
     """The range of a scan as an option of a quantity, which says what is wrong with it."""
     pair = _several(ends) and len(ends) == 2
-    raise_faults(violations((pair, "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed")))
+    require((pair, "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed"))
     return {"start": ends[0], "stop": ends[1], "step": step}
 
 
@@ -455,11 +455,9 @@ def run_study(
         text = f"studies need {error.name}: pip install 'disc_model[workflow]' brings it"
         raise ModuleNotFoundError(text, name=error.name) from None
     named = isinstance(source, str | Path | Mapping)
-    raise_faults(
-        violations(
-            (named, "source", source, "must be the path of a study file, or a mapping"),
-            *_rules_of_workers(workers, processes),
-        )
+    require(
+        (named, "source", source, "must be the path of a study file, or a mapping"),
+        *_rules_of_workers(workers, processes),
     )
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)

@@ -63,9 +63,8 @@ class Basins:
         self.known: list[Attractor] = []
         if self.cycle is not None:
             assert self.cycle.cycle.state is not None
-            self.known.append(
-                self._periodic(self.cycle, segment_of(self._leg(self.cycle.cycle.state, thresholds.FIRST_LEG)))
-            )
+            leg = self._leg(self.cycle.cycle.state, thresholds.FIRST_LEG)
+            self.known.append(self._periodic(self.cycle, segment_of(leg)))
         for kick in thresholds.OWN_STARTS:
             start = static_start(p)
             self.follow(perturb(p, start, u=-kick * self.static) if kick else start)

@@ -64,10 +64,8 @@ class NearCycle:
         if np.linalg.norm(self.x - self.map.static) <= thresholds.NEAR * self.map.deflection:
             return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
-        same = cycle.releases == self.cycle.releases and math.isclose(
-            cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED
-        )
-        return Outcome.QUIET if same else Outcome.OTHER_CYCLE
+        same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
+        return Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:

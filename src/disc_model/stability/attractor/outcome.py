@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -542,9 +542,8 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
         return Regularity(periodic, n, closure(intervals, n))
     duration = thresholds.SETTLING * thresholds.FIRST_LEG / 2
     # exponents below -90/s are not resolved by this interval; such a motion repeats
-    largest = lyapunov_exponents(
-        p, duration, count=1, interval=0.25, initial_state=state, tol=tol, leave_out_trivial=True
-    )
+    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True}
+    largest = lyapunov_exponents(p, duration, initial_state=state, tol=tol, **how)
     rate, error = float(largest.exponents[0]), float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Regularity(Outcome.UNDECIDED)

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from disc_model.analysis.settling import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
-from disc_model.errors import raise_faults, violations
+from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start
 from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
@@ -87,7 +87,7 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.simulation.api import make_initial_state, simulate
 
     p = point.parameters
-    raise_faults(violations((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn")))
+    require((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn"))
     turn = 2 * math.pi / p.Omega
     first = math.ceil(options.transient / turn)
     # both ends lie between samples, so that rounding neither adds one nor leaves one out
