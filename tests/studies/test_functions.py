@@ -1,6 +1,7 @@
 """Quantities of a case, sweeps and studies as functions: the same numbers as those of the workflow's batches."""
 
 import json
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,26 @@ def test_a_sweep_takes_any_function_and_passes_its_arguments() -> None:
     assert sweep(dm.simulate, P, t_end=0.1, N=[200])["n_separations"].values.tolist() == [0]
     with pytest.raises(dm.ParameterError, match=r"Omga=.*: is no number of the case.*did you mean Omega"):
         sweep(dm.floquet, P, Omga=[1])
+    assert sweep(partial(dm.floquet, tol=1e-10), P, N=[200]).attrs["function"] == "partial"
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_wrong_argument_of_the_function_ends_a_sweep_at_once(workers: int) -> None:
+    called = []
+
+    def function(case: dm.Parameters, factor: float, tol: float = 1e-12) -> float:
+        called.append(case.N)
+        return factor * dm.floquet(case, tol=tol).growth_rate
+
+    for options, message in (
+        ({"factor": 1, "tol": -1}, r"^tol=-1: must be within 1e-14 and 1e-06$"),
+        ({"tol": -1}, r"^factor: is required by function$"),
+    ):
+        with pytest.raises(dm.ParameterError, match=message):
+            sweep(function, P, N=np.linspace(200, 300, 50), workers=workers, **options)
+    assert len(called) <= 2 * workers  # those that other workers had begun
+    with pytest.raises(dm.ParameterError, match=r"^t_end: is required"):
+        sweep(dm.simulate, P, N=[200], workers=workers)
 
 
 def test_a_study_of_cases_is_a_tree() -> None:

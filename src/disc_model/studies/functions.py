@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import fields, is_dataclass
@@ -254,7 +255,8 @@ def sweep(
     ------
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
-        by itself. Where values break a rule together, the point has failed.
+        by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
+        case break a rule together, the point has failed.
 
     Examples
     --------
@@ -280,9 +282,14 @@ def sweep(
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"
     faults += [Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown]
+    own = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
+    title = getattr(function, "__name__", type(function).__name__)
+    needed = [argument.name for argument in own if argument.default is argument.empty and argument.name not in named]
+    faults += [Fault((name,), "", f"is required by {title}") for name in needed]
     raise_faults(faults)
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-    rows = _in_parallel(partial(_row, function, case, options), points, workers, processes)
+    call = partial(_row, function, case, options, frozenset(argument.name for argument in own))
+    rows = _in_parallel(call, [*enumerate(points)], workers, processes)
     sizes = {name: len(values) for name, values in axes.items()}
     coordinates = {
         name: (
@@ -294,7 +301,7 @@ def sweep(
     }
     variables, fixed = _stacked(rows, sizes)
     base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
-    attrs = {"function": function.__name__, "parameters": case.canonical_json, "base": base}
+    attrs = {"function": title, "parameters": case.canonical_json, "base": base}
     return xr.Dataset(variables, fixed | coordinates, attrs)
 
 
@@ -341,12 +348,19 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
 
 
 def _row(
-    function: Callable[..., Any], case: Parameters, options: dict[str, Any], point: dict[str, Any]
+    function: Callable[..., Any],
+    case: Parameters,
+    options: dict[str, Any],
+    own: frozenset[str],
+    place: tuple[int, dict[str, Any]],
 ) -> dict[str, xr.Variable]:
-    """The variables of one call."""
+    """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
+    number, point = place
     try:
         result = function(case.replace(**point), **options)
     except NUMERICAL as error:
+        if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
+            raise
         return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
     variables = _variables(result)
     status = getattr(result, "status", "ok")
