@@ -17,8 +17,8 @@ from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.bifurcation import draw_branch
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, axes_for, by_itself
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, by_itself
+from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
 if TYPE_CHECKING:
@@ -38,6 +38,15 @@ def _title(ax: Axes, p: Parameters, *varied: str, ours: bool = True) -> None:
         figure.suptitle(drawing.head_text(figure.get_figwidth(), "", text), fontsize=8)
 
 
+def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> list[Axes]:
+    """The axes to draw on, as `drawing.axes_for`; raises `ParameterError` for what is no axes."""
+    from matplotlib.axes import Axes as Known
+
+    right = ax is None or all(isinstance(one, Known) for one in np.ravel(np.asarray(ax, dtype=object)))
+    require((right, "ax", ax, "must be axes of matplotlib"))
+    return drawing.axes_for(ax, width, height, rows, columns, **shared)
+
+
 # ---- Runs
 
 
@@ -52,7 +61,7 @@ def window_of(case: xr.DataTree, name: object, which: str = "window", **variable
     window = dataset.group(case, name)
     kept = dict.fromkeys(str(kept).removesuffix("_min").removesuffix("_max") for kept in window if kept != "phase")
     for argument, names in variables.items():
-        for one in names if isinstance(names, list | tuple) else [names]:
+        for one in names if argument == "variables" else [names]:  # type: ignore[attr-defined]
             if not (isinstance(one, str) and one in kept):
                 raise ParameterError(Fault.of((argument,), one, f"is not in the window {name}{suggestion(one, kept)}"))
     return window
@@ -62,7 +71,8 @@ def window_of(case: xr.DataTree, name: object, which: str = "window", **variable
 def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str], ax: Any = None) -> np.ndarray:
     """Draw variables of a run, a row each, in windows, a column each."""
     several = isinstance(variables, list | tuple) and len(variables) > 0
-    require((several, "variables", variables, "must be a list of one or more"))
+    rules = (several, "variables", variables), (len(windows) > 0, "windows", windows)
+    require(*((*rule, "must be a list of one or more") for rule in rules))
     shown = [window_of(case, name, "windows", variables=variables) for name in windows]
     rows, columns = len(variables), len(windows)
     width = PAGE if columns > 1 else 1.3 * COLUMN
@@ -100,6 +110,9 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float,
     samples = window_of(case, window, variable=variable)
     if variable not in samples:
         raise ParameterError(Fault.of(("window",), window, "must hold samples, not their ranges"))
+    span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
+    rule = f"must be at least the resolution of the window, {1 / span if span else 0:.3g} Hz"
+    require((not span or highest * span >= 1, "highest", highest, rule))
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.6)
     try:
         motion.draw_spectrum(axes, samples, variable, highest)
@@ -166,7 +179,8 @@ def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
     axes.text(0, 0.08, f"largest |λ| = {abs(values[0]):.5g}", ha="center", fontsize=7)
     word = "stable" if cycle.stable else "unstable"
     axes.set(xlabel="Re λ", ylabel="Im λ", aspect="equal")
-    axes.set_title(f"{word}, growth rate {cycle.growth_rate:.3g}/s, period {1e3 * cycle.period:.4g} ms", loc="left")
+    period = f"{cycle.period:.4g} s" if cycle.period > 1 else f"{1e3 * cycle.period:.4g} ms"
+    axes.set_title(f"{word}, growth rate {cycle.growth_rate:.3g}/s, period {period}", loc="left")
     axes.margins(0.12)
     axes.legend(loc="lower right")
     _title(axes, cycle.parameters, ours=ax is None)
@@ -208,7 +222,7 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
         values = branch.values[:, 1] * scale
     else:
         labels = {"growth_rate": "Growth rate of the cycle (1/s)", "period": "Period (ms)", "stick_fraction": "Stick"}
-        if y not in labels:
+        if not isinstance(y, str) or y not in labels:
             raise ParameterError(Fault.of(("y",), y, f"must be one of {', '.join(labels)}"))
         name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
     draw_branch(axes, x, values, stable, BLACK, np.inf)
@@ -224,6 +238,7 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
     axes.margins(0.04)
     axes.set(xlabel=label, ylabel=name)
     drawing.legend_above(axes)
+    _title(axes, branch.case, *branch.parameters, ours=ax is None)
     return axes
 
 
@@ -243,13 +258,19 @@ def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:
         label, factor = drawing.axis_of(name)
         axes.set(**{f"{side}label": label, f"{side}lim": tuple(factor * end for end in ends)})
         factors.append(factor)
+    names: list[np.ndarray] = []
     for curve in curves:
         x, y = curve.values.T * np.array(factors)[:, None]
         colour = BLACK if curve.kind == "neutral" else SEPARATED
         draw_branch(axes, x, y, curve.adjoins_stable_cycle, colour)
         text = drawing.typeset(curve.resonance.label)
-        where = (float(x[len(x) // 2]), float(y[len(y) // 2]))
-        drawing.say(axes, text, where, (8, 0), fontsize=6, color=colour, path_effects=drawing.halo())
+        share = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y])))
+        free = [i for i, at in enumerate(share) if all(at > 0.02) and at[0] < 0.75 and at[1] < 0.98
+                and all(np.any(np.abs(at - other) > (0.27, 0.06)) for other in names)]  # fmt: skip
+        if free:  # otherwise there is no room for its name
+            i = free[len(free) // 2]
+            names.append(share[i])
+            drawing.say(axes, text, (x[i], y[i]), (8, 0), fontsize=6, color=colour, path_effects=drawing.halo())
     kinds = {curve.kind for curve in curves}
     for kind, colour, text in (("neutral", BLACK, "loses stability"), ("fold", SEPARATED, "ends in a fold")):
         if kind in kinds:
@@ -296,7 +317,9 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
 
 
 # ---- Grids and discs
-PREFERRED = ("growth_rate", "outcome", "separation_rate", "scan_first_separation", "kind")
+NAMES = {*Parameters.model_fields, *RATIOS}
+# Coordinates of one value that titles state.
+PREFERRED = ("growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
 """Variables that a sweep shows first."""
 
 
@@ -357,6 +380,7 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         *zip(texts, ("variable", "x"), (variable, x), ("must be a name",) * 2, strict=True),
+        (isinstance(log, bool), "log", log, "must be True or False"),
     )
     study = study.squeeze()
     numbers = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
@@ -384,7 +408,9 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
     base = next((what for what in ("base", "parameters") if what in study.attrs), "")
     case = drawing.stated_in(study, base) if base else {}
-    values = {name: value for name, value in case.items() if name not in study.coords}
+    shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
+    fixed = {str(name): at.item() for name, at in study.coords.items() if not at.ndim and str(name) in NAMES}
+    values = {name: value for name, value in case.items() if name not in shown} | fixed
     if ax is None:
         figure: Any = axes.figure
         figure.suptitle(drawing.head_text(figure.get_figwidth(), "", drawing.what_case(values)), fontsize=8)

@@ -217,6 +217,7 @@ class Branch(Summarised):
     folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
         in one parameter
     ended : reason for which the branch ends
+    case : whose cycle is followed; its own values of the free parameters do not count
     """
 
     parameters: tuple[str, ...]
@@ -229,6 +230,7 @@ class Branch(Summarised):
     points: Array = field(repr=False)
     folds: Array
     ended: str
+    case: Parameters = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.period)
@@ -297,6 +299,7 @@ def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array,
         points=np.array([point.z[: problem.n] * problem.size for point in points]),
         folds=folds,
         ended=ended,
+        case=problem.base,
     )
 
 

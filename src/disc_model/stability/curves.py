@@ -311,8 +311,9 @@ class Critical(Summarised):
 
     def __repr__(self) -> str:
         first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
-        seen = f"{len(self.crossings)} crossings, {len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
-        return f"Critical({self.name}: {first}, {seen})"
+        crossings = f"{len(self.crossings)} crossing{'s' * (len(self.crossings) != 1)}"
+        seen = f"{len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
+        return f"Critical({self.name}: {first}, {crossings}, {seen})"
 
     @property
     def unstable(self) -> Array:
@@ -381,7 +382,7 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s: unstable from 0.3, 1 crossings, ... cycles, tongues down to ... seen)
+    Critical(mu_s: unstable from 0.3, 1 crossing, ... cycles, tongues down to ... seen)
     """
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)

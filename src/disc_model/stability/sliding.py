@@ -59,7 +59,7 @@ class SlidingStatus(StatusBase):
     PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SteadySliding(Summarised):
     """The sliding equilibrium.
 
@@ -87,6 +87,10 @@ class SteadySliding(Summarised):
     eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
+
+    def __repr__(self) -> str:
+        numbers = f"growth rate {self.growth_rate:.6g} 1/s, {self.eigenvalues.size} eigenvalues"
+        return f"SteadySliding({self.message}{', ' + numbers if self.eigenvalues.size else ''})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         yield "status", self.message
