@@ -15,10 +15,11 @@ from disc_model.stability.continuation import StepControl
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.nan, "negative": -1.5, "huge": 10**400}
-WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object()}
+WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object(), "nothing": []}
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
 GRID = xr.Dataset({"growth_rate": ("Omega", [0.1, 0.2])}, {"Omega": [1.0, 2.0]})
+DISC = dm.Disc(diameters=[0], omega=[1e3], amplitude=[1.0])
 PLANE = {"p": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
 
@@ -57,11 +58,17 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"source": {"study": "s", "quantity": "sliding", "base": {"N": 200}, "axes": {"Omega": [20]}}},
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
-    (dm.plot_modes, {"p": P}, {"ax": [*WRONG], "most": "huge"}),
-    (dm.plot_sweep, {"study": GRID}, {"ax": [*WRONG], "log": [*WRONG], "variable": "None", "x": "None"}),
-    (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": [*WRONG]}),
-    (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": [*WRONG]}),
-    (RUN.plot_spectrum, {"window": "all"}, {"window": "None", "ax": [*WRONG], "highest": "huge"}),
+    (dm.plot_modes, {"p": P}, {"ax": "None", "most": "huge"}),
+    (dm.plot_sweep, {"study": GRID}, {"ax": "None", "log": "True", "variable": "None", "x": "None"}),
+    (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": "None"}),
+    (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": "None"}),
+    (RUN.plot_spectrum, {"window": "all", "highest": 1e5}, {"window": "None", "ax": "None", "highest": "huge"}),
+    (RUN.plot_poincare, {}, {"ax": "None"}),
+    *((found.plot, {}, {"ax": "None"}) for found in (dm.floquet(P), dm.steady_sliding(P))),
+    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
+    (RUN.__getitem__, {}, {}),
+    (DISC.to_csv, {}, {"path": "text"}),
+    (dm.Disc.from_csv, {}, {"path": "text"}),
     (RUN.animate, {"window": "all", "frames": 2}, {"window": "None", "path": "None", "frames": "huge", "fps": "huge"}),
     (run, {}, {"progress": "None True", "max_steps": "None huge", "audit_every_step": "True"}),
     (
@@ -69,8 +76,8 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {},
         dict.fromkeys(("time", "psi", "u_velocity"), "negative") | {"mode_amplitudes": "None", "case_key": [*WRONG]},
     ),
-    (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None"}),
-    (dm.deflection, SHAPES, {"theta": "negative"}),
+    (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
+    (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
     (dm.floquet, {"p": P}, {"guess": "None"}),
     (dm.continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, {"guess": "None"}),
     (
@@ -83,12 +90,12 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"p": P, "name": "mu_s", "bounds": (0.3, 0.5), "points": 2},
         {"precision": "None huge", "others": [*WRONG]},
     ),
-    (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None"}),
+    (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None nothing"}),
     (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),
     (dm.Poincare, {}, {"stop": "huge", "theta": "negative"}),
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),
-    (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix"}),
+    (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix nothing"}),
     (RUN.save, {}, {}),
     *((function, {}, {"path": "text"}) for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)),
     (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text"}),

@@ -148,6 +148,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             path = (model.__name__.lower(),)
         context = item.get("ctx", {})
         reason = context.get("error")
+        if kind == "too_short" and len(value) >= context["min_length"]:  # it has faults of its own, which are listed
+            continue
         if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":

@@ -20,6 +20,7 @@ from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
+from disc_model.display import Summarised, draw
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
@@ -39,8 +40,8 @@ _PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
-@dataclass(frozen=True)
-class ModeChoice:
+@dataclass(frozen=True, repr=False)
+class ModeChoice(Summarised):
     """The smallest model that meets a tolerance, and the basis of the choice.
 
     Attributes
@@ -60,6 +61,26 @@ class ModeChoice:
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"ModeChoice({', '.join(f'{name}: {text}' for name, text in self.summary())})"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        p, name = self.parameters, self.quantity.replace("_", " ")
+        of_plate = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
+        size = of_plate if p.disc is None else f"the first {len(p.disc.omega)} of the table"
+        yield "modes chosen", f"{size} ({name}: error {self.error:.2g}, {self.tolerance:g} asked for)"
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draw the modes that were chosen, as `disc_model.plot_modes` does; returns an array of axes, one for each.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> len(dm.choose_modes(dm.Parameters(N=385, Omega=15), 0.05).plot())
+        4
+        """
+        return draw("plot_modes", self.parameters, self.modes, ax=ax)
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""

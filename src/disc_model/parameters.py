@@ -214,7 +214,8 @@ class Disc(Checked):
         ParameterError
             If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
         """
-        return import_module("disc_model.disc.tables").read_disc(path)
+        file = import_module("disc_model.data.dataset").regular_file(path)
+        return import_module("disc_model.disc.tables").read_disc(file)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
@@ -227,7 +228,9 @@ class Disc(Checked):
         >>> dm.Disc.from_csv("disc.csv") == disc
         True
         """
-        Path(path).write_text(import_module("disc_model.disc.tables").table_text(self), encoding="utf-8")
+        dataset, tables = (import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.tables"))
+        text = tables.table_text(self)
+        dataset.write_atomically(dataset.regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8"))
 
     @classmethod
     def from_uff(cls, path: str | os.PathLike[str], r_0: float) -> Disc:

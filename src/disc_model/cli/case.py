@@ -158,12 +158,7 @@ def model_lines(p: Parameters, choice: ModeChoice | None) -> Iterator[tuple[str,
     """The model of a case in words, and the result of ``--n-diameters auto``."""
     modes = p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
     yield "model", f"{modes}, {p.contact} contact"
-    if choice is not None:
-        name = choice.quantity.replace("_", " ")
-        right = f"{name}: error {choice.error:.2g}, {choice.tolerance:g} asked for"
-        of_plate = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
-        size = of_plate if p.disc is None else f"the first {len(p.disc.omega)} of the table"
-        yield "modes chosen", f"{size} ({right})"
+    yield from choice.summary() if choice else ()
 
 
 # ----------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 """Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in GPa."""
 
 import math
+import sys
 import warnings
 from collections.abc import Callable
 from functools import partial
@@ -40,7 +41,14 @@ def doubts(p: Parameters) -> dict[str, str]:
     return {kind: text for kind, rule in RULES.items() if (text := rule.doubt(p))}
 
 
-_warn = partial(warnings.warn, category=ImplausibleValue, stacklevel=5)  # shows the line that calls `simulate`
+def _warn(text: str) -> None:
+    """Warn with the line that called this package, however deep in it the case is looked at."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back and frame.f_globals["__name__"].startswith(("disc_model.", "contextlib")):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, ImplausibleValue, stacklevel=level)
+
+
 _reported: set[str] = set()
 
 

@@ -19,7 +19,7 @@ from disc_model.display import Progress, simulating
 from disc_model.engine import audit, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, Status, as_text, raise_faults, require, violations
+from disc_model.errors import DiscModelError, Fault, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
@@ -86,6 +86,16 @@ class Execution:
     progress: Progress = None
     max_steps: int | None = None
 
+    def __post_init__(self) -> None:
+        counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
+        shows = self.progress is None or isinstance(self.progress, bool) or callable(self.progress)
+        every = isinstance(self.audit_every_step, bool)
+        require(
+            (every, "audit_every_step", self.audit_every_step, "must be True or False"),
+            (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
+            (shows, "progress", self.progress, "must be a function of the time, or False"),
+        )
+
 
 _PLAIN = Execution()
 
@@ -140,7 +150,9 @@ def simulate(  # noqa: PLR0913
     (Frozen({'time': 2001}), 'N')
     """
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    raise_faults([] if (t_end is None) != (duration is None) else ["t_end: is required, or duration instead of it"])
+    rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside duration={duration}"
+    wrong = (t_end is None) == (duration is None)
+    raise_faults([Fault(("t_end",), "" if t_end is None else as_text(t_end), rule)] * wrong)
     until: Any = t_end if duration is None else duration
     if isinstance(until, str):
         with suppress(ValueError):
@@ -189,20 +201,14 @@ def _faults(  # noqa: PLR0913
         rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
         rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(t_end, str) else rule
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    how = execution if isinstance(execution, Execution) else _PLAIN
-    counts = how.max_steps is None or (is_whole(how.max_steps) and how.max_steps >= 1)
-    shows = how.progress is None or isinstance(how.progress, bool) or callable(how.progress)
     faults = foreign_case(p) + limits_faults("tol", tol, TOLERANCES)
     faults += violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
-        (isinstance(how.audit_every_step, bool), "audit_every_step", how.audit_every_step, "must be True or False"),
         (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
         (is_finite(time), "initial_state.time", time, "must be finite"),
         (later, name, t_end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-        (how is execution, "execution", execution, "must be an Execution"),
-        (counts, "max_steps", how.max_steps, "must be a whole number >= 1"),
-        (shows, "progress", how.progress, "must be a function of the time, or False"),
+        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
     return [*faults, *request_faults(p, windows, ramps)]
 

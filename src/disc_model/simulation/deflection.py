@@ -122,7 +122,7 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     psi, (low, high) = mode_arrays(p).psi, radial_range(p)
     radii, angles = _numbers(r), _numbers(theta)
-    within = radii is not None and np.all((radii >= low) & (radii <= high))
+    within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
     limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
     faults = violations(
         (within, "r", r, f"must be within {limits}"),

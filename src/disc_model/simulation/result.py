@@ -112,7 +112,7 @@ class Result(Summarised, Pictures):
         """Samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
         from disc_model.data.dataset import samples_dataset
 
-        if name not in self.samples:
+        if not isinstance(name, str) or name not in self.samples:
             raise ParameterError(Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}"))
         return samples_dataset(self.samples[name], self.windows[name].theta)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
@@ -17,6 +18,7 @@ from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.display import Summarised
 from disc_model.engine import layout
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
@@ -26,7 +28,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class State:
+class State(Summarised):
     """State of the system in the slider's frame.
 
     Attributes
@@ -92,6 +94,11 @@ class State:
             f"State(time={self.time:.9g} s, {self.phase}, psi={self.psi:.6g} rad, f={self.f:.6g} rad/s, "
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "phase", self.phase
+        yield from ((name, f"{getattr(self, name):.9g} {unit}") for name, unit in PLAIN.items() if name != "time_low")
+        yield "modes", len(self.a)
 
     def save(self, path: str | Path) -> None:
         """Write the state as netCDF; `load` reads back the same bits.
