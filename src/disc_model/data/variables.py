@@ -142,8 +142,12 @@ def attributes(name: str) -> dict[str, Any]:
     if bound in ("min", "max") and stem in SERIES:
         which = "least" if bound == "min" else "greatest"
         variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
+    elif name in (known := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
+        variable = known[name]
     else:
-        variable = (SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS).get(name) or _parameter_variable(name)
+        field = Parameters.model_fields[name]
+        unit = re.sub(r"/(\w+?)\^?(\d?)$", lambda below: f" {below[1]}-{below[2] or 1}", Parameters.unit(name) or "1")
+        variable = Variable(unit, field.description or name, CHOICES.get(name, ()))
     return variable.attributes
 
 
@@ -152,12 +156,6 @@ def flag_names(variable: Any) -> np.ndarray:
     if variable.dtype.kind in "UO":
         return np.asarray(variable.values, dtype=str)
     return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
-
-
-def _parameter_variable(name: str) -> Variable:
-    field = Parameters.model_fields[name]
-    unit = re.sub(r"/(\w+?)\^?(\d?)$", lambda below: f" {below[1]}-{below[2] or 1}", Parameters.unit(name) or "1")
-    return Variable(unit, field.description or name, CHOICES.get(name, ()))
 
 
 def typeset(text: str) -> str:

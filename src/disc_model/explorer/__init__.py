@@ -47,7 +47,10 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     motions.
     """
     study = study.transpose(*study.sizes)
-    message = study.get("message")
+    messages = None
+    if "message" in study:  # as indices into the distinct ones; most points share theirs
+        words, indices = np.unique(study["message"].values.astype(str), return_inverse=True)
+        messages = {"dims": [*study["message"].dims], "words": words.tolist(), "data": packed(indices, "<u4")}
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
@@ -57,7 +60,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
         ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"],
-        "messages": None if message is None else _messages(message),
+        "messages": messages,
         "motions": None if motions is None else motion_contents(motions, text),
     }
 
@@ -137,12 +140,6 @@ def _variable(variable: xr.DataArray) -> dict[str, Any]:
     if np.abs(values[np.isfinite(values)]).max(initial=0.0) > MOST_SINGLE:
         return described | {"wide": True, "data": packed(values, "<f8")}
     return described | {"data": packed(shortened(values), "<f4")}
-
-
-def _messages(variable: xr.DataArray) -> dict[str, Any]:
-    """Messages of the points, as indices into the distinct ones; most points share theirs."""
-    words, indices = np.unique(variable.values.astype(str), return_inverse=True)
-    return {"dims": list(variable.dims), "words": words.tolist(), "data": packed(indices, "<u4")}
 
 
 def _plain(values: NDArray[Any]) -> list[Any]:

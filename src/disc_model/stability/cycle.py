@@ -25,7 +25,6 @@ from disc_model.stability.return_map import (
     RETURNED,
     Array,
     ComplexArray,
-    Counts,
     Flight,
     ReturnMap,
     bifurcation_type,
@@ -271,12 +270,6 @@ def never_pulls(p: Parameters) -> bool:
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
-def _counted(counts: Counts) -> str:
-    """Numbers of events in words; those of sticks are left out."""
-    named = zip(counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
-    return ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for count, name in named if count)
-
-
 def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
     """The result without a cycle."""
     return FloquetResult(p, tol, status, f"{status}: {reason}")
@@ -289,11 +282,13 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
     for array in (values, exponents):
         array.setflags(write=False)
+    named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
+    events = ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for count, name in named if count)
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {_counted(flight.counts)}",
+        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {events}",
         period=flight.period,
         multipliers=values,
         exponents=exponents,

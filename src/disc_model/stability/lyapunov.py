@@ -127,7 +127,22 @@ def lyapunov_exponents(
     >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
-    _check(p, duration, count, interval, initial_state, tol, leave_out_trivial)
+    faults = case_faults(p, "lyapunov_exponents")
+    lasts = _is_within(duration, sys.float_info.min)
+    most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
+    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
+    most -= leaves_out and bool(leave_out_trivial)
+    counts = is_whole(count) and 1 <= count <= most
+    shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
+    starts = initial_state is None or isinstance(initial_state, State)
+    faults += violations(
+        (lasts, "duration", duration, "must be finite and > 0"),
+        (counts, "count", count, f"must be a whole number from 1 to {most}"),
+        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
+        (starts, "initial_state", initial_state, "must be a State"),
+        (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
+    )
+    raise_faults(faults + limits_faults("tol", tol, TOLERANCES))
     duration, interval, tol = float(duration), float(interval), float(tol)
     case, order = engine_case(p), series_order(tol)
     model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
@@ -215,34 +230,6 @@ def _summary(
         order = order[order != 0]
     order, separations = order[:count], int(log[tangent.SEPARATIONS])
     return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
-
-
-def _check(
-    p: Parameters,
-    duration: float,
-    count: int,
-    interval: float,
-    initial_state: State | None,
-    tol: float,
-    leave_out_trivial: bool,
-) -> None:
-    """Raise one ParameterError that lists every fault."""
-    faults = case_faults(p, "lyapunov_exponents")
-    lasts = _is_within(duration, sys.float_info.min)
-    most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
-    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
-    most -= leaves_out and bool(leave_out_trivial)
-    counts = is_whole(count) and 1 <= count <= most
-    shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
-    starts = initial_state is None or isinstance(initial_state, State)
-    faults += violations(
-        (lasts, "duration", duration, "must be finite and > 0"),
-        (counts, "count", count, f"must be a whole number from 1 to {most}"),
-        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (starts, "initial_state", initial_state, "must be a State"),
-        (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
-    )
-    raise_faults([*faults, *limits_faults("tol", tol, TOLERANCES)])
 
 
 def _is_within(value: object, least: float) -> bool:

@@ -343,7 +343,7 @@ def _numbered(
 
     if not len(modes.frequency):
         return np.zeros(0, np.int64), np.zeros(0)
-    scaled = np.sqrt(_energy_weights(p))[:, None] * modes.shapes
+    scaled = np.sqrt(energy_weights(p))[:, None] * modes.shapes
     scaled = scaled / np.linalg.norm(scaled, axis=0)
     mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
@@ -362,7 +362,7 @@ def _numbered(
     return matched, likeness
 
 
-def _energy_weights(p: Parameters) -> Array:
+def energy_weights(p: Parameters) -> Array:
     """Weights of squared rows of the Jacobian in the energy of a motion."""
     modes, compliance = mode_arrays(p), contact_compliance(p)
     stiffness, ones = modes.omega**2, np.ones(len(modes.omega))

@@ -29,7 +29,7 @@ from disc_model.stability.cycle import (
     run_through_once,
 )
 from disc_model.stability.return_map import Array, ComplexArray, Flight, ReturnMap, newton
-from disc_model.stability.sliding import SteadySliding, join_rows, steady_sliding
+from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,12 +281,7 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
     """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
     if state.phase != "slip" or p.n_diameters < 0 or not (sliding := _sliding(p)).stable:
         return False
-    modes, give = mode_arrays(p), contact_compliance(p)
-    ones = np.ones_like(modes.omega)
-    # with these factors the norm of rows is that of the energy
-    slider = [p.r_0 * math.sqrt(p.k_p), p.r_0 * math.sqrt(p.m)]
-    height: Sequence[float] = [math.sqrt(1 / give + p.k), math.sqrt(p.m)] if give else []
-    scale = join_rows(modes, (modes.omega, ones, modes.omega, ones), slider, height)
+    modes, scale = mode_arrays(p), np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
