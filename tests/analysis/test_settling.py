@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.analysis.settling import SLOWEST, Settled, settling
+from disc_model.analysis.classify import SLOWEST, Settled, settling
 
 TIME = np.arange(0.0, 1000.0, 0.05)
 BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))

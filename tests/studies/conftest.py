@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.analysis.settling import Settled, Settling
+from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
 from disc_model.stability.attractor import outcome as arrivals
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment

@@ -13,8 +13,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.analysis.classify import stages
-from disc_model.analysis.settling import settling
+from disc_model.analysis.classify import settling, stages
 from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing

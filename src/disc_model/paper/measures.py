@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Motion, motion_of
-from disc_model.analysis.settling import Settled, Settling, settling
+from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling, motion_of, settling
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -29,7 +28,7 @@ Array = NDArray[np.float64]
 STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
 STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a case, s
 STEADY = 3e-4
-"""1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.settling`."""
+"""1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.classify`."""
 LOW, HIGH = 20.0, 700.0  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
 EARLY = (1.0, 1.0 + STRETCH)  # the first 20 s without the first second, s
 

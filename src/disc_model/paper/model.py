@@ -16,7 +16,7 @@ import pandas as pd
 import yaml
 from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
 
-from disc_model.analysis.settling import Settled
+from disc_model.analysis.classify import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.paper.measures import Absent, CaseView

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.analysis.settling import Settled, Settling
+from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor import outcome as arrival
 from disc_model.studies.quantities.hysteresis import Hysteresis

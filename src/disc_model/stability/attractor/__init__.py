@@ -12,7 +12,7 @@ The outcomes are those of `disc_model.data.variables.Outcome`. One test decides 
   largest nontrivial Lyapunov exponent is zero, or positive (`arrival.regularity`).
 - `growing`: the motion is in contact at the horizon and departs from an unstable cycle, or its changes from one period
   to the next have risen (`outcome.growing`). Its simulation ends once the record shows that it has settled in contact
-  (`disc_model.analysis.settling`). `separation`: contact is lost before the horizon.
+  (`disc_model.analysis.classify`). `separation`: contact is lost before the horizon.
 - `undecided`: none of these.
 
 Claims and benchmarks know the times of events alone: `disc_model.analysis.classify` finds their period, and tells

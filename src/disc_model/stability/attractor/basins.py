@@ -3,7 +3,7 @@
 A motion is followed in legs of some seconds, as docs/method.md, Settled motions, describes.  A motion that
 stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
 the motion might only be passing an unstable one, and the record must show that the motion has settled
-(`disc_model.analysis.settling`).
+(`disc_model.analysis.classify`).
 """
 
 import math
@@ -14,8 +14,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 
-from disc_model.analysis.classify import SETTLED
-from disc_model.analysis.settling import Settled, settling
+from disc_model.analysis.classify import VARIATION, Settled, settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -140,13 +139,13 @@ class Basins:
         if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
             return None
         last = apart[nearest][-1]
-        nearing = all(later < earlier or later <= SETTLED for earlier, later in pairwise(apart[nearest]))
-        slows = _rest_of_drift(ranges) <= (2 * last + SETTLED) * ranges[-1]
+        nearing = all(later < earlier or later <= VARIATION for earlier, later in pairwise(apart[nearest]))
+        slows = _rest_of_drift(ranges) <= (2 * last + VARIATION) * ranges[-1]
         return others[nearest] if last <= self.near and nearing and slows else None
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
         last = segments[-thresholds.SETTLING :]
-        if len(last) < thresholds.SETTLING or any(self._difference(part, last[-1]) > SETTLED for part in last[:-1]):
+        if len(last) < thresholds.SETTLING or any(self._difference(part, last[-1]) > VARIATION for part in last[:-1]):
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]

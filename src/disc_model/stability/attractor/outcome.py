@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.analysis.classify import CLOSES, FEWEST, closure, shortest_period
-from disc_model.analysis.settling import Settled, Settling, settling
+from disc_model.analysis.classify import CLOSES, FEWEST, Settled, Settling, closure, settling, shortest_period
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters

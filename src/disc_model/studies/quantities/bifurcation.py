@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.settling import ANSWER, Settling, settling
+from disc_model.analysis.classify import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.settling import ANSWER
+from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity

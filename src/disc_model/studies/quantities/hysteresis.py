@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from disc_model.analysis.settling import ANSWER
+from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.studies.quantity import DIRECTION, SIMULATED, STATUS, STATUSES, Coordinate, Point, Quantity, Range
 from disc_model.units import Seconds, Tolerance, Unit
