@@ -144,9 +144,8 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
     """Label models with their numbers of nodal diameters, the largest first; a dot where there is no room."""
     to_panel = ax.transScale + ax.transLimits
     numbered: list[np.ndarray] = []
-    for count, *point in points.sort_values("setting", ascending=False, kind="stable")[
-        ["setting", "error", "seconds"]
-    ].values:
+    points = points.sort_values("setting", ascending=False, kind="stable")
+    for count, *point in points[["setting", "error", "seconds"]].values:
         panel_point = np.asarray(to_panel.transform(point))
         if any(np.abs(panel_point - other).max() < 0.045 for other in numbered):  # of a panel's side
             ax.plot(*point, ".", color=BLACK, markersize=2)

@@ -60,9 +60,8 @@ class Bifurcation(Plot):
         settled = (flag_names(study["settled"]) == "settled")[:, None]
         dots = [("not settled, or undecided", ~settled & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
         for code, (name, color) in enumerate(PHASE_COLOURS.items()):
-            dots.append(
-                (names.get(name, name), settled & (phase == code), DOT | {"color": color} | MARKS.get(name, {}))
-            )
+            look = DOT | {"color": color} | MARKS.get(name, {})
+            dots.append((names.get(name, name), settled & (phase == code), look))
         for label, mask, look in dots:
             if mask.any():
                 ax.plot(position[mask], values[mask], linestyle="", label=label, **look)
@@ -153,27 +152,20 @@ class Branches(Plot):
         figure, [ax] = panels(PAGE, 3.6)
         ax.set_yscale("log")
         for i in range(int(study["n_branches"])):
-            branch_data = study.isel(branch=i)
-            height, color = 1e3 * branch_data["range"].values, SEPARATED if branch_data["separations"] > 0 else BLACK
-            draw_branch(
-                ax, branch_data["value"].values * factor, height, branch_data["growth_rate"].values < 0, color, BENDS
-            )
+            branch = study.isel(branch=i)
+            color, stable = SEPARATED if branch["separations"] > 0 else BLACK, branch["growth_rate"].values < 0
+            draw_branch(ax, branch["value"].values * factor, 1e3 * branch["range"].values, stable, color, BENDS)
         along = study["sweep_value"].values * factor
         for way, mark in enumerate("^v"):
             heights, separates = 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0
-            settled = flag_names(study["sweep_settled"])[way] == "settled"
-            _swept(ax, along, heights, separates, settled, mark)
+            _swept(ax, along, heights, separates, flag_names(study["sweep_settled"])[way] == "settled", mark)
         unstable = study["sliding_growth_rate"].values > 0
         phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
         draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
         drawing.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
         drawing.mark_cases([ax], {case: value * factor for case, value in self.paper_cases.items()}, 0.05)
-        ax.set(
-            xlabel=label,
-            ylabel="Range of the slider's height (mm)",
-            xlim=(along[0], along[-1]),
-            ylim=(LOWEST * 0.8, None),
-        )
+        ax.set(xlabel=label, ylabel="Range of the slider's height (mm)")
+        ax.set(xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None))
         separating = (study["separations"].values > 0).any() or (study["sweep_separation_rate"].values > 0).any()
         for color, text in ((BLACK, "in contact"), (SEPARATED, "separating"))[: 1 + separating]:
             ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
@@ -261,18 +253,14 @@ class LateRange(Plot):
                     ax.plot(study["Omega"].values[apart], height[apart], "o", color=colour, markersize=3)
             ax.set(yscale="log", ylim=(SMALLEST / 2, 10), xlabel=drawing.label_of(study["Omega"])[0])
         axes[0].set_ylabel("Slider, peak to peak (thicknesses)")
-        axes[0].text(
-            0.03, 0.99, "beyond linear plate theory", transform=axes[0].transAxes, va="top", color=GREY, size=6
-        )
+        first = axes[0]
+        first.text(0.03, 0.99, "beyond linear plate theory", transform=first.transAxes, va="top", color=GREY, size=6)
         drawing.letters(axes, [str(name) for name in names])
-        figure.legend(
-            handles=[
-                *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
-                drawing.sample(color=GREY, linestyle="-", label="unilateral contact"),
-                drawing.sample(color=GREY, linestyle="--", label="bilateral contact"),
-                drawing.sample(color=GREY, linestyle="", marker="o", markersize=3, label="separates"),
-            ],
-            loc="outside lower center",
-            ncols=5,
-        )
+        handles = [
+            *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
+            drawing.sample(color=GREY, linestyle="-", label="unilateral contact"),
+            drawing.sample(color=GREY, linestyle="--", label="bilateral contact"),
+            drawing.sample(color=GREY, linestyle="", marker="o", markersize=3, label="separates"),
+        ]
+        figure.legend(handles=handles, loc="outside lower center", ncols=5)
         return figure

@@ -51,9 +51,8 @@ class CriticalSpeed(Plot):
             cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
         figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
         loads = study["N"].values
-        axes[0].set(
-            xlim=scan if cycle is None else span(cycle["Omega"].values), ylim=(0.95 * loads.min(), 1.02 * loads.max())
-        )
+        axes[0].set_xlim(scan if cycle is None else span(cycle["Omega"].values))
+        axes[0].set_ylim(0.95 * loads.min(), 1.02 * loads.max())
         drawing.mark_failed(axes[0], loads[lost], on="y")
         study = study.isel(N=~lost).sortby("N")
         handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
@@ -96,9 +95,8 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
     speeds_of_loads = [speeds[row] for speeds, row in zip(of_horizon["crossing"].values, mask, strict=True)]
     if kind == "begins":
         lowest = of_horizon["critical_speed"].values[:, None]
-        speeds_of_loads = [
-            np.union1d(speeds, low[np.isfinite(low)]) for speeds, low in zip(speeds_of_loads, lowest, strict=True)
-        ]
+        lows = [low[np.isfinite(low)] for low in lowest]
+        speeds_of_loads = [*map(np.union1d, speeds_of_loads, lows)]
     return speeds_of_loads
 
 
@@ -131,34 +129,29 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
 def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
     """Draw the longest horizon as a line, shorter ones where their speed differs, and where separation ends again."""
     edges = EDGES | {"path_effects": drawing.outline(1.3, BLACK)}
-    longest = speeds_of(study, horizons[0], "begins")
+    loads, longest = study["N"].values, speeds_of(study, horizons[0], "begins")
     for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
         look = edges | {"color": color, "marker": marker, "zorder": 1.9 - 0.1 * i}  # below the curves
         if i == 0:
             _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
         elif later := [
             (speed, load)
-            for load, first_speeds, known in zip(
-                study["N"].values, speeds_of(study, horizon, "begins"), longest, strict=True
-            )
-            for speed in first_speeds
+            for load, speeds, known in zip(loads, speeds_of(study, horizon, "begins"), longest, strict=True)
+            for speed in speeds
             if not np.isclose(known, speed).any()
         ]:
             ax.plot(*np.transpose(later), linestyle="", label=f"at another speed within {horizon:g} s", **look)
     ends = speeds_of(study, horizons[0], "ends")
     if sum(map(len, ends)):
-        loads = np.repeat(study["N"].values, [row.size for row in ends])
-        ax.plot(np.concatenate(ends), loads, "x", color=BLACK, markersize=3, label="end of separation")
+        at = np.repeat(loads, [row.size for row in ends])
+        ax.plot(np.concatenate(ends), at, "x", color=BLACK, markersize=3, label="end of separation")
 
 
 # ---- The map behind, and the panel beside
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend.
-
-    cycle : over N and Omega, of the quantity `regions` or `floquet`
-    """
+    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend."""
     from matplotlib.patches import Patch
 
     if "outcome" in cycle:
@@ -201,9 +194,8 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     stable = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
     look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
     ax.pcolormesh(speeds, loads, np.ma.masked_where(~stable, stable), cmap=ListedColormap([ORANGE]), **look)
-    ax.fill_between(
-        [], [], [], color=ORANGE, alpha=0.25, label="the cycle is stable where the\nsweep down still separates"
-    )
+    label = "the cycle is stable where the\nsweep down still separates"
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:

@@ -179,9 +179,8 @@ def restate_axes(figure: Figure) -> None:
             if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
                 ratio = factor / shown.factor
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
-                axis.set_major_locator(
-                    Ticks(ratio) if axis.get_scale() == "linear" else FixedLocator((decades / ratio).tolist())
-                )
+                linear = axis.get_scale() == "linear"
+                axis.set_major_locator(Ticks(ratio) if linear else FixedLocator((decades / ratio).tolist()))
                 axis.set_major_formatter(FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
 
 
@@ -430,11 +429,10 @@ def mark_failed(
     """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
     if not values.size:
         return
-    low = np.full(values.shape, 0.02)
-    anchor, transform = (
-        ((values, low), ax.get_xaxis_transform()) if on == "x" else ((low, values), ax.get_yaxis_transform())
-    )
-    ax.plot(*anchor, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
+    points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
+    if on == "y":
+        points, transform = points[::-1], ax.get_yaxis_transform()
+    ax.plot(*points, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
 # ---- Pictures that a reader asks for, beside those of a study
@@ -456,9 +454,8 @@ def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int =
     if ax is not None:
         panels_given = list(np.ravel(ax))
         if len(panels_given) != rows * columns:
-            raise ParameterError(
-                Fault(("ax",), f"{len(panels_given)} axes", f"must be {rows * columns}, one for each panel")
-            )
+            rule = f"must be {rows * columns}, one for each panel"
+            raise ParameterError(Fault(("ax",), f"{len(panels_given)} axes", rule))
         return panels_given
     from matplotlib import pyplot
 

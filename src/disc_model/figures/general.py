@@ -26,6 +26,7 @@ LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
 FEW = 12  # counts below which each has a colour of its own
 MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
+UNITS = {name: Parameters.unit(name) for name in Parameters.model_fields}
 
 
 class General(Plot):
@@ -41,9 +42,7 @@ class General(Plot):
 
     variable: str
     x: str
-    at: Annotated[dict[str, Finite | str], Unit({name: Parameters.unit(name) for name in Parameters.model_fields})] = (
-        Field({})
-    )
+    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
     by: str | None = None
     log: bool = False
 
@@ -53,13 +52,9 @@ class General(Plot):
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
-    def faults_among(
-        self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Sequence[str]]
-    ) -> Iterator[Fault]:
+    def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
         """Faults that keep it from being drawn.
 
-        Parameters
-        ----------
         dims : values along each dimension, the quantity's own included; tuples for a zip; none if it has faults
         variables : dimensions of each variable
         """
@@ -315,7 +310,5 @@ class CurvePlot(General):
         if labels := ax.get_legend_handles_labels()[1]:
             # names of more letters do not fit there
             beside = self.by is not None and max(map(len, labels)) < 25
-            figure.legend(
-                loc="outside right upper" if beside else "outside lower right", ncols=1 if beside or self.by else 2
-            )
+            figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if self.by else 2)
         return figure

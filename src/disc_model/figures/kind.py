@@ -59,9 +59,8 @@ def _kinds_in(part: str) -> dict[str, type[Kind]]:
 
 
 def _joined(caption: Any) -> Any:
-    return (
-        " ".join(caption) if isinstance(caption, list) and all(isinstance(part, str) for part in caption) else caption
-    )
+    of_parts = isinstance(caption, list) and all(isinstance(part, str) for part in caption)
+    return " ".join(caption) if of_parts else caption
 
 
 def _si_unit(name: str) -> str:

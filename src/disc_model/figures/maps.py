@@ -255,10 +255,8 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
         label = ""
         # a resonance farther away, in Hz, is not named
         if kinds[i] == "fold" and abs(float(curve_data["resonance_detuning"])) < 3.0:
-            near = Resonance(
-                **{field.name: curve_data[f"resonance_{field.name}"].item() for field in fields(Resonance)}
-            )
-            label = near.label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
+            values = (curve_data[f"resonance_{field.name}"].item() for field in fields(Resonance))
+            label = Resonance(*values).label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
         curves.append(Curve(x, y, str(kinds[i]), label))
     return curves
 
@@ -272,10 +270,8 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
 
     rate = cycle["growth_rate"]
     # beside a cell are the eight around it
-    stable, unstable, not_stable = (
-        binary_dilation(side, np.ones((3, 3))) for side in (rate < 0, rate > 0, ~(rate < 0))
-    )
-    beside = {"neutral": stable & unstable, "fold": stable & not_stable}
+    stable, unstable, other_side = (binary_dilation(of, np.ones((3, 3))) for of in (rate < 0, rate > 0, ~(rate < 0)))
+    beside = {"neutral": stable & unstable, "fold": stable & other_side}
     shown: list[Curve] = []
     other: list[Curve] = []
     for curve in curves:

@@ -123,13 +123,10 @@ def _rise(study: xr.Dataset, index: int, mode: int, crossings: list[int]) -> Not
     for i in crossings:
         crossing = study.isel(crossing=i)
         line = "$f_s$" if flag_names(crossing["crossing_line"]) == "stick_slip" else _TURN
-        texts.append(
-            f"{float(crossing['crossing_multiple']):g} {line} = {float(crossing['crossing_frequency']):.0f} Hz"
-        )
-    sliding_frequency, rate = float(peak["sliding_frequency"]), float(peak["cycle_growth_rate"])
-    return Noted(
-        float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {sliding_frequency:.0f} Hz mode, {rate:.2g}/s"
-    )
+        multiple, frequency = float(crossing["crossing_multiple"]), float(crossing["crossing_frequency"])
+        texts.append(f"{multiple:g} {line} = {frequency:.0f} Hz")
+    of_mode = f"{float(peak['sliding_frequency']):.0f} Hz mode, {float(peak['cycle_growth_rate']):.2g}/s"
+    return Noted(float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {of_mode}")
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
@@ -188,9 +185,7 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
     named = speeds[0]
     for half in range(math.floor(2 * highest / np.nanmin(rate)), 0, -1):
         n, whole = half / 2, half % 2 == 0
-        look: dict[str, Any] = (
-            {"linewidth": 0.6, "linestyle": (0, (4, 2))} if whole else {"linewidth": 0.3, "linestyle": "-"}
-        )
+        look: dict[str, Any] = {"linewidth": 0.6, "linestyle": (0, (4, 2))} if whole else {"linewidth": 0.3}
         ax.plot(speeds, n * rate, color=GREY, alpha=1 if whole else 0.6, zorder=0, **look)
         if whole and n * rate[known[-1]] <= highest:
             drawing.say_beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
@@ -199,9 +194,8 @@ def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -
             if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
                 continue  # no room
             named = leaves
-            ax.text(
-                leaves, highest, f"{n:g}", fontsize=7, color=GREY, ha="center", va="top", path_effects=drawing.halo()
-            )
+            aligned: dict[str, Any] = {"ha": "center", "va": "top", "path_effects": drawing.halo()}
+            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, **aligned)
 
 
 def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
@@ -296,9 +290,8 @@ class SlidingModes(Plot):
             top.set_ylim(0, self.highest)
         # the sign matters: decay of high modes may be much faster
         low, high = (float(end(study["mode_growth_rate"])) for end in (np.nanmin, np.nanmax))
-        bottom.set(
-            xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -2 * max(high, 0.1)), 1.1 * max(high, 0.1))
-        )
+        top_rate = max(high, 0.1)
+        bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -2 * top_rate), 1.1 * top_rate))
         drawing.letters([top, bottom])
         grows = drawing.sample(color=GREY, linewidth=THICK, label="grows")
         handles = [*mode_handles(l for l, _ in modes_of(study)), grows]
@@ -381,11 +374,8 @@ class SlidingOutcome(Plot):
             ax.label_outer()
         drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
         total = sum(used.values())
-        looks = {
-            w: look._replace(label=f"{look.label} ({used[w] / total:.0%})")
-            for w, look in AGREEMENTS.items()
-            if w in used
-        }
+        shares = {word: f"{AGREEMENTS[word].label} ({count / total:.0%})" for word, count in used.items()}
+        looks = {word: look._replace(label=shares[word]) for word, look in AGREEMENTS.items() if word in used}
         figure.legend(handles=patches(looks, used), loc="outside lower center", ncols=2, title="Steady sliding is")
         return figure
 

@@ -268,11 +268,9 @@ def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) 
         xlim=(0, frequency[shown][-1]), ylim=(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, 3 * largest),
     )  # fmt: skip
     ax.set_title(name or label, loc="left")
-    strong = sorted(
-        lines(samples["time"].values, samples[variable].values, below=highest), key=lambda one: -one.amplitude
-    )
+    strong = lines(samples["time"].values, samples[variable].values, below=highest)
     named: list[float] = []
-    for line in strong:  # the strongest, where there is room for their names
+    for line in sorted(strong, key=lambda line: -line.amplitude):  # the strongest, where there is room for their names
         if len(named) < 5 and all(abs(line.frequency - other) > 0.09 * frequency[shown][-1] for other in named):
             named.append(line.frequency)
             drawing.say(ax, f"{line.frequency:.1f} Hz", (line.frequency, factor * line.amplitude), (3, 2), fontsize=7)

@@ -53,14 +53,9 @@ class BasinShares(Plot):
             shares = study["basin_fraction_by_energy"].sel(energy=energy, attractor_class=classes)
             low = shares.cumsum("attractor_class") - shares.fillna(0)
             for class_ in classes:
-                selected = {"attractor_class": class_}
-                bars = {
-                    "edgecolor": BLACK,
-                    "linewidth": 0.4,
-                    "facecolor": LOOKS[class_].face,
-                    "hatch": LOOKS[class_].hatch,
-                }
-                ax.bar(along, shares.sel(selected), width, low.sel(selected), **bars)
+                bars = [values.sel(attractor_class=class_) for values in (shares, low)]
+                look = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
+                ax.bar(along, bars[0], width, bars[1], linewidth=0.4, **look)
             ax.set(ylim=(0, 1))
         axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
         _attractors(axes[-2], study, along)
@@ -106,10 +101,8 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     if np.any(sample > 0):
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
-        for coordinate in along[bound == 0]:
-            drawing.say(
-                ax, "0", (coordinate, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7
-            )
+        for x in along[bound == 0]:
+            drawing.say(ax, "0", (x, 0), (0, 2), xycoords=("data", "axes fraction"), color=SEPARATED, fontsize=7)
     drawing.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
 
 

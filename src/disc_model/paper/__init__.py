@@ -4,19 +4,8 @@ Each claim states in our own words what the paper says, where it says it, and wh
 check computes all numbers from merged cases, grid studies or the disc's modes. `ledger.check_claims` makes the table.
 """
 
-SCANS = (
-    "basins",
-    "bonded",
-    "critical_speed",
-    "hysteresis",
-    "map_D_star",
-    "map_E",
-    "map_N",
-    "map_c_p",
-    "map_k",
-    "map_k_p",
-    "map_m",
-)
+_MAPS = (f"map_{name}" for name in ("D_star", "E", "N", "c_p", "k", "k_p", "m"))
+SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)
 """Grid studies that rows use; listed here so that the workflow reads them without importing the computations."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
 """Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""

@@ -13,20 +13,8 @@ from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read
 
 MODULES = (section2, section41, section43, section44)
 ROWS = tuple(row for module in MODULES for row in rows_of(module))  # all rows, in the order of the paper
-COLUMNS = [
-    "id",
-    "section",
-    "place",
-    "quote",
-    "verdict",
-    "here",
-    "matters",
-    "notes",
-    "rule",
-    "figures",
-    "data",
-    "counts",
-]
+COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "matters", "notes"]
+COLUMNS += ["rule", "figures", "data", "counts"]
 
 
 def section_of(place: str) -> str:
@@ -46,11 +34,9 @@ def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     """
     table = judge(ROWS, {"": cases})
     table["section"] = [section_of(row.place) for row in ROWS]
-    links = {"figures": [_figures(row) for row in ROWS], "data": [_data(row) for row in ROWS]}
-    table = table.assign(**{name: pd.Series(each) for name, each in links.items()})
-    table["counts"] = [
-        "error in print" if row.print_error else "after the fact" if row.after_the_fact else "" for row in ROWS
-    ]
+    table["figures"], table["data"] = pd.Series(map(_figures, ROWS)), pd.Series(map(_data, ROWS))
+    late = ["after the fact" if row.after_the_fact else "" for row in ROWS]
+    table["counts"] = ["error in print" if row.print_error else word for row, word in zip(ROWS, late, strict=True)]
     for column in ("place", "quote", "matters", "rule"):
         table[column] = [getattr(row, column) for row in ROWS]
     return table[COLUMNS]

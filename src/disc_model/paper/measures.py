@@ -97,10 +97,9 @@ class CaseView:
     @property
     def place(self) -> str:
         """Preload and speed of the case, and what else differs from Table 1, in words."""
-        others = {
-            name: value for name, value in self.parameters if name not in ("N", "Omega") and not isinstance(value, str)
-        }
-        return ", ".join(filter(None, [place(self["N"], self["Omega"]), values_text(others)]))
+        p = self.parameters
+        others = {name: x for name, x in p if name not in ("N", "Omega") and not isinstance(x, str)}
+        return ", ".join(filter(None, [place(p.N, p.Omega), values_text(others)]))
 
     @property
     def drive(self) -> float:
@@ -218,10 +217,8 @@ class CaseView:
 
     def first_separation(self) -> str:
         """Time of the first separation in words."""
-        time = self["first_separation"]
-        return (
-            f"no separation in {self['time_reached']:g} s" if math.isnan(time) else f"first separation at {time:.2f} s"
-        )
+        time, end = self["first_separation"], self["time_reached"]
+        return f"no separation in {end:g} s" if math.isnan(time) else f"first separation at {time:.2f} s"
 
     def late_range(self, name: str) -> Range:
         """Range over the last 20 s of the run."""

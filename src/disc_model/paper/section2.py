@@ -99,9 +99,8 @@ def slip_condition(*cases: CaseView) -> Answer:
         ends += stops.sizes["event"]
     if not ends:
         raise Missing("no case keeps an end of slip")
-    return Answer(
-        not true, f"The relation as printed is true at {true} of {ends} ends of slip, where the slider sticks."
-    )
+    text = f"The relation as printed is true at {true} of {ends} ends of slip, where the slider sticks."
+    return Answer(not true, text)
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
@@ -161,9 +160,8 @@ def often(*cases: CaseView, factor: float, share: float) -> Answer:
     for case, bonded in pairs(cases):
         sticks, ratio = (case.stick, bonded.stick), width_ratio(case, bonded)
         differ.append(ratio * factor <= 1 or max(sticks) >= factor * min(sticks))
-        rows.append(
-            f"{case.place}: disc {ratio:.2f} as far, stick {100 * sticks[0]:.1f} instead of {100 * sticks[1]:.1f} %"
-        )
+        shares = f"{100 * sticks[0]:.1f} instead of {100 * sticks[1]:.1f} %"
+        rows.append(f"{case.place}: disc {ratio:.2f} as far, stick {shares}")
     return Answer(
         sum(differ) >= share * len(differ),
         f"With separation, in {sum(differ)} of {len(differ)} pairs: {'; '.join(rows)}.",

@@ -41,9 +41,8 @@ def upward(*cases: CaseView, share: float) -> Answer:
         if not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         parts.append(float(np.mean(velocity > 0)))
-        rows.append(
-            f"{case.place}: {100 * parts[-1]:.0f} %, at {velocity.mean():+.2f} m/s and {1e3 * height.mean():+.1f} mm"
-        )
+        means = f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():+.1f} mm"
+        rows.append(f"{case.place}: {100 * parts[-1]:.0f} %, at {means}")
     return Answer(min(parts) >= share, f"Upward in {'; '.join(rows)} from equilibrium.")
 
 
@@ -279,10 +278,8 @@ def far_below(*cases: CaseView, share: float) -> Answer:
     lower = [case for case in cases if case["Omega"] < share * critical and case.separates]
     speeds = [case["Omega"] for case in lower]
     shares = [100 * speed / critical for speed in speeds]
-    text = (
-        f"Contact is lost at {listed(speeds, 'g')} rad/s. These are {listed(shares, '.1f')} % of {critical:.2f} rad/s."
-    )
-    return Answer(bool(lower), text if lower else "No separation.")
+    text = f"Contact is lost at {listed(speeds, 'g')} rad/s. These are {listed(shares, '.1f')} %"
+    return Answer(bool(lower), f"{text} of {critical:.2f} rad/s." if lower else "No separation.")
 
 
 def unstable_means_separation(study: xr.Dataset, scan: xr.Dataset) -> Answer:

@@ -49,11 +49,10 @@ def _drift(case: CaseView) -> float:
 
 def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     """Whether lines come to rest, and not without separation."""
-    drift, bonded_drift = _drift(case), _drift(bonded)
-    text = (
-        f"From 100 to 110 s lines move by {drift:.0e} Hz at most with separation, and by {bonded_drift:.0e} Hz without."
-    )
-    return Answer(FALSE if drift > within else PART if bonded_drift <= within else TRUE, text)
+    drift, other = _drift(case), _drift(bonded)
+    verdict = FALSE if drift > within else PART if other <= within else TRUE
+    text = f"From 100 to 110 s lines move by {drift:.0e} Hz at most with separation, and by {other:.0e} Hz without."
+    return Answer(verdict, text)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
@@ -84,10 +83,8 @@ def follow(*cases: CaseView, within: float) -> Answer:
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in lines]
         away += [_from_natural(case, line) / case.drive for line in lines]
-        found_text = ", ".join(f"{line.frequency:.1f}" for line in lines)
-        rows.append(
-            f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s, f_s = {rate:.2f} Hz: {found_text} Hz"
-        )
+        stated = f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s"
+        rows.append(f"{stated}, f_s = {rate:.2f} Hz: {listed((line.frequency for line in lines), '.1f')} Hz")
     combined = [each <= within for each in off]
     return Answer(
         max(away) <= 4 and not any(combined),
@@ -255,9 +252,8 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
         f"{case.place}: {case.first_separation()}, largest growth rate without friction {rate:.0e}/s"
         for case, rate in zip(cases, smooth, strict=True)
     ]
-    return Answer(
-        any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True)), f"{'; '.join(rows)}."
-    )
+    apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
+    return Answer(apart, f"{'; '.join(rows)}.")
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:

@@ -38,9 +38,8 @@ Name = Annotated[
 ]
 """A name that files are called by; Snakemake takes a name that repeats itself for an endless recursion."""
 CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
-WindowName = Annotated[
-    Name, _but(TAKEN | BESIDE_WINDOWS, "a window must not be called so, the name is taken by a variable or group")
-]
+_WINDOW = "a window must not be called so, the name is taken by a variable or group"
+WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, _WINDOW)]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
@@ -207,9 +206,7 @@ class NamedCase(Strict):
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
     ramps: tuple[Ramp, ...] = ()
-    record: Annotated[RecordSpec, BeforeValidator(lambda stated: stated, json_schema_input_type=SomeRecord)] = (
-        RecordSpec()
-    )
+    record: Annotated[RecordSpec, BeforeValidator(lambda raw: raw, json_schema_input_type=SomeRecord)] = RecordSpec()
 
     def spec(self) -> CaseSpec:
         """The specification to simulate; raises `ParameterError` with places inside the case."""
@@ -226,16 +223,10 @@ class NamedCase(Strict):
             faults.append(fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault)
         if faults:
             raise ParameterError(*faults)
-        return CaseSpec(
-            parameters=p,
-            truncation=truncation,
-            modes=modes,
-            windows=tuple(windows.items()),
-            poincare=record.poincare,
-            events=events,
-            audit_every_step=record.audit_every_step,
-            **{name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")},
-        )
+        of_case = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        of_record = {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
+        recorded = of_record | {"windows": tuple(windows.items()), "events": events}
+        return CaseSpec(parameters=p, truncation=truncation, modes=modes, **of_case, **recorded)
 
     def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
         """Parameters, and how their modes were chosen or will be chosen when the case runs."""
@@ -270,21 +261,10 @@ def _figure(raw: Any) -> Kind:
     return kind_of(raw.get("kind")).model_validate(raw)
 
 
-_OTHER_KIND = {
-    "type": "object",
-    "properties": {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}},
-    "required": ["kind"],
-}
-Figure = Annotated[
-    Kind,
-    PlainValidator(
-        _figure,
-        json_schema_input_type=Annotated[
-            Union[*(kind for _, kind in sorted(library_kinds().items()))], Field(discriminator="kind")
-        ]
-        | Annotated[Any, WithJsonSchema(_OTHER_KIND)],
-    ),
-]
+_OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
+_OTHER_KIND = Annotated[Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})]
+_KIND: Any = Annotated[Union[*(kind for _, kind in sorted(library_kinds().items()))], Field(discriminator="kind")]
+Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
 
 

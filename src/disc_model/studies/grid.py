@@ -397,9 +397,8 @@ class GridStudy:
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
-        return FigureEntry(
-            plot, inputs, category, plot.section, title, f"{plot.caption} From the grid study {self.name}.".strip()
-        )
+        caption = f"{plot.caption} From the grid study {self.name}.".strip()
+        return FigureEntry(plot, inputs, category, plot.section, title, caption)
 
 
 _CHOSEN = f"is chosen for each point, since base.n_diameters is {AUTO!r}"

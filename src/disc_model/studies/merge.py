@@ -23,6 +23,8 @@ from disc_model.errors import DiscModelError, as_text
 from disc_model.studies.quantity import STATUSES, Quantity, holds, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
+JOINED: Any = {"join": "exact", "combine_attrs": "override", "data_vars": "all", "coords": "minimal"}
+
 
 class MergeError(DiscModelError):
     """The batches are not those of the grid."""
@@ -33,9 +35,7 @@ def merge_batches(
 ) -> xr.Dataset:
     """Merge batches; raises `MergeError` if they disagree, or if they do not match `grid`, as of `GridStudy.grid`."""
     try:
-        flat = xr.concat(
-            batches, POINT, join="exact", combine_attrs="override", data_vars="all", coords="minimal", compat="equals"
-        )
+        flat = xr.concat(batches, POINT, compat="equals", **JOINED)
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
     base = _common(batches)
@@ -125,9 +125,8 @@ def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
     if not quantity.SUMMARY_COLUMNS:
         return study
     others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != quantity.over}
-    rows = [
-        quantity.summarise(study.isel(dict(zip(others, index, strict=True)))) for index in np.ndindex(*others.values())
-    ]
+    cells = (dict(zip(others, index, strict=True)) for index in np.ndindex(*others.values()))
+    rows = [quantity.summarise(study.isel(cell)) for cell in cells]
     coords = coordinates_of(quantity.SUMMARY_COORDINATES, quantity)
     return study.assign_coords(coords).assign(variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others))
 
@@ -144,7 +143,7 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
     labels : by case, texts that become variables of the table, such as title and reference
     """
     rows = [tree.to_dataset() for tree in cases.values()]
-    table = xr.concat(rows, dim="case", join="exact", combine_attrs="override", data_vars="all", coords="minimal")
+    table = xr.concat(rows, dim="case", **JOINED)
     table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
     texts = [{"message": row.attrs["message"], **labels.get(case, {})} for case, row in zip(cases, rows, strict=True)]
     for name, meaning in _TEXTS.items():

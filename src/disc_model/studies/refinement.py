@@ -225,14 +225,11 @@ class Tile:
         if result is None:
             row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
         else:
+            method = "simulation" if result.simulated else "multipliers"
             row |= {
                 "status": result.status,
                 "outcome": result.word,
-                "method": "settled"
-                if result.stage is Stage.STEADY
-                else "simulation"
-                if result.simulated
-                else "multipliers",
+                "method": "settled" if result.stage is Stage.STEADY else method,
                 "first_separation": result.first_separation,
                 "simulated_time": result.simulated,
             }

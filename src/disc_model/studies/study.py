@@ -362,10 +362,8 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
         needed, varied = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
         yield f"must vary {needed} beside {NORM}, and not {varied}"
         return
-    of_study, of_other = (
-        {str(value) for (value,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other)
-    )
-    if absent := of_study - of_other:
+    norms = [{str(value) for (value,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other)]
+    if absent := norms[0] - norms[1]:
         yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
 
 

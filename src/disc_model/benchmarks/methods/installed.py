@@ -199,13 +199,9 @@ def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[f
     for t, y in zip(times[1], states[1], strict=True):
         rising = law.force(y + 1e-9 * law.rate(y)) > law.force(y)
         events.append((float(t), "reattachment" if rising else "separation"))
-    return _without_reversals(sorted(events))
-
-
-def _without_reversals(events: list[tuple[float, str]]) -> list[tuple[float, str]]:
-    """Events without sticks shorter than a microsecond: there f only passes zero, a slip reversal."""
     merged: list[tuple[float, str]] = []
-    for t, kind in events:
+    for t, kind in sorted(events):
+        # in a stick shorter than a microsecond f only passes zero
         if kind == "stick_to_slip" and merged and merged[-1][1] == "slip_to_stick" and t - merged[-1][0] < 1e-6:
             merged[-1] = (merged[-1][0], "slip_reversal")
         else:

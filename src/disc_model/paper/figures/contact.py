@@ -372,18 +372,13 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
     ax.pcolormesh(across, up, cells, cmap=ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
     for name, (of, point) in SEPARATING.items():
         if of == "map_N":
-            both = cells[
-                np.searchsorted(study["N"], point["N"] - 1e-6), np.searchsorted(study["Omega"], point["Omega"] - 1e-6)
-            ]
-            fill = SEPARATED if both == 3 else "white"
+            cell = tuple(np.searchsorted(study[axis], point[axis] - 1e-6) for axis in ("N", "Omega"))
+            fill = SEPARATED if cells[cell] == 3 else "white"
             ax.plot(point["Omega"], point["N"], "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
             side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
             drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
-    for words, corner in (
-        ("only as\npublished", (0.68, 0.2)),
-        ("both", (0.68, 0.62)),
-        ("only by\nEq. (17)", (0.29, 0.93)),
-    ):
+    places = {"only as\npublished": (0.68, 0.2), "both": (0.68, 0.62), "only by\nEq. (17)": (0.29, 0.93)}
+    for words, corner in places.items():
         ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 

@@ -298,13 +298,8 @@ def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -
 Strokes = Sequence[tuple[ArrayLike, ArrayLike]]
 """Lines between two points: fractions of the way, and offsets to its left in widths."""
 SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]  # a zigzag
-DAMPER: Strokes = [
-    ([0, 0.35], [0, 0]),
-    ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1]),
-    ([0.55, 0.55], [-0.7, 0.7]),
-    ([0.55, 1], [0, 0]),
-]
-"""A cup and a piston."""
+_CUP: Strokes = [([0, 0.35], [0, 0]), ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1])]
+DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a cup and a piston
 
 
 def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:

@@ -103,9 +103,8 @@ class FourStretches(CasePlot):
                 if not i:
                     start, stop = span_of(spectrum)
                     whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
-                    whole.text(
-                        start + 0.4, 0.97, f"({text})", transform=whole.get_xaxis_transform(), ha="left", va="top"
-                    )
+                    at_top = {"transform": whole.get_xaxis_transform(), "va": "top"}
+                    whole.text(start + 0.4, 0.97, f"({text})", ha="left", **at_top)
             drawing.show(whole, cases[0], drawing.history(cases[0], self.history, self.until), "w_point")
             drawing.headroom(whole, 0.15)
             whole.set_ylabel(fill(whole.get_ylabel(), 40))

@@ -119,9 +119,7 @@ class AttractorBasins(Start, Quantity):
             "kind": [[reached.word for reached in row] for row in results],
             "attractor_index": [[numbers[reached.attractor] for reached in row] for row in results],
             "simulated_time": [[reached.simulated for reached in row] for row in results],
-            "lost_contact": [
-                ["no" if math.isnan(reached.first_separation) else "yes" for reached in row] for row in results
-            ],
+            "lost_contact": [["no" if math.isnan(each.first_separation) else "yes" for each in row] for row in results],
         }
         values |= _shares("basin_fraction_by_energy", results, self.confidence)
         values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}

@@ -109,10 +109,8 @@ class Branches(Quantity):
                     unfollowed.append(str(error))
 
         lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
-        dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
-        for (way, i), result, late, reached in sweep(
-            point.parameters, self.parameter, values, dwell, longest, evaluated, self.tol, lowest
-        ):
+        how = self.dwell, self.max_dwell, self.evaluation_time, self.tol, lowest
+        for (way, i), result, late, reached in sweep(point.parameters, self.parameter, values, *how):
             if late is None:
                 message = f"{self.parameter}={values[i]:g}: {result.message}"
                 break

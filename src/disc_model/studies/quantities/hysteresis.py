@@ -59,14 +59,11 @@ class Hysteresis(Quantity):
         """Sweep the speed up and down; the point's own Omega is not used."""
         from disc_model.stability.attractor.outcome import sweep
 
-        speeds = self.scan.values
-        shape = 2, len(speeds)
-        values: dict[str, Any] = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims}
+        speeds, columns = self.scan.values, self.COLUMNS.items()
+        values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}
         status, message = "ok", ""
-        dwell, longest, evaluated = self.dwell, self.max_dwell, self.evaluation_time
-        for index, result, late, reached in sweep(
-            point.parameters, "Omega", speeds, dwell, longest, evaluated, self.tol
-        ):
+        times = self.dwell, self.max_dwell, self.evaluation_time
+        for index, result, late, reached in sweep(point.parameters, "Omega", speeds, *times, self.tol):
             if late is None:
                 status, message = result.status.value, f"Omega={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)

@@ -67,15 +67,8 @@ class Lyapunov(Start, Quantity):
             start = self.state_at(point)
         except SimulationError as error:
             return {"status": STATUS_OF[type(error)].value}, str(error)
-        result = lyapunov_exponents(
-            point.parameters,
-            self.duration,
-            count=self.exponents,
-            interval=self.interval,
-            initial_state=start,
-            tol=self.tol,
-            leave_out_trivial=True,
-        )
+        how: dict[str, Any] = {"count": self.exponents, "interval": self.interval, "tol": self.tol}
+        result = lyapunov_exponents(point.parameters, self.duration, initial_state=start, leave_out_trivial=True, **how)
         known = np.isfinite(result.exponents)
         values = {
             "status": result.status.value,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -74,11 +73,13 @@ class HorizonOutcome(Start, EarlyEnd):
             "outcome": reached.word,
             "first_separation": reached.first_separation,
             "time_reached": reached.time,
-            "return_map_residual_rate": _rate(reached),
             "cycle_distance": reached.distance,
         }
         if reached.changes:
             values["return_map_residual"] = reached.changes[-1]
+        t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
+        if len(t) == FEWEST and np.all(d > 0):
+            values["return_map_residual_rate"] = float(np.polyfit(t, np.log(d), 1)[0])
         if reached.outcome is Outcome.SEPARATION and result is not None:
             values["time_reached"] = result.final_state.time
         elif reached.outcome is not None and reached.time < self.horizon:
@@ -101,26 +102,14 @@ def _late(point: Point, options: HorizonOutcome) -> tuple[OutcomeResult, Result 
     from disc_model.simulation.api import make_initial_state
     from disc_model.stability.attractor.outcome import final_segment, find_outcome
 
-    p = point.parameters
-    reached = find_outcome(
-        p,
-        options.horizon,
-        tol=options.tol,
-        furthest=0.0,
-        start=make_initial_state(p, point.start, options.tol),
-        early=options.early_end,
-        late=options.evaluation_time,
-    )
+    p, length = point.parameters, options.evaluation_time
+    start = make_initial_state(p, point.start, options.tol)
+    how: dict[str, Any] = {"tol": options.tol, "furthest": 0.0, "early": options.early_end, "late": length}
+    reached = find_outcome(p, options.horizon, start=start, **how)
     if reached.outcome is Outcome.SEPARATION:
-        return reached, *final_segment(p, reached.state, options.after_separation, options.evaluation_time, options.tol)
+        return reached, *final_segment(p, reached.state, options.after_separation, length, options.tol)
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
     # a stable cycle is known exactly; elsewhere the motion is steady
     on = reached.near.cycle.state if reached.near is not None and reached.near.cycle.stable else reached.state
-    return reached, *final_segment(p, on, options.evaluation_time, options.evaluation_time, options.tol)
-
-
-def _rate(reached: OutcomeResult) -> float:
-    """Growth rate of the changes between the last checks, 1/s; nan if there are too few."""
-    t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
-    return float(np.polyfit(t, np.log(d), 1)[0]) if len(t) == FEWEST and np.all(d > 0) else math.nan
+    return reached, *final_segment(p, on, length, length, options.tol)

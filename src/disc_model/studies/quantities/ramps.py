@@ -81,11 +81,10 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
         Ramp(parameter="Omega", to=options.low, start=down, end=bottom),
     )
 
-    def on(state: State | None, until: float, stop_at: str | None = None, events: bool = False) -> Result:
+    def on(state: State | None, until: float, **more: Any) -> Result:
         """Continue the motion to a later time."""
-        return simulate(
-            p, until, events=events, tol=options.tol, initial_state=state, stop_at=stop_at, ramps=up_and_down
-        )
+        how: dict[str, Any] = {"events": False, "tol": options.tol, "ramps": up_and_down} | more
+        return simulate(p, until, initial_state=state, **how)
 
     run = on(None, top, stop_at="first_separation")
     values = {"onset_speed": options.low + rate * run.first_separation}

@@ -218,10 +218,8 @@ class Sensitivity(Quantity):
         """Compute one sample about the point's own parameters."""
         p, names = point.parameters, sorted(self.distributions)
         numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
-        row = unit_draw(self.seed, len(names), point.sample)
-        drawn = [
-            quantile(self.distributions[name], float(numbers[name]), x) for name, x in zip(names, row, strict=True)
-        ]
+        draws = zip(names, unit_draw(self.seed, len(names), point.sample), strict=True)
+        drawn = [quantile(self.distributions[name], float(numbers[name]), draw) for name, draw in draws]
         p = p.replace(**dict(zip(names, drawn, strict=True)))
         cycle, message = tried("cycle", evaluate, p, self.tol)
         values = {"status": "ok", "parameter_values": np.array(drawn), "outcome": "not_simulated", **cycle}

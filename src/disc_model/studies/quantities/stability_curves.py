@@ -81,15 +81,9 @@ class StabilityCurves(Quantity):
 
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
-        curves = neutral_curves(
-            point.parameters,
-            {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)},
-            lines.values,
-            points=self.points,
-            max_points=self.max_points,
-            longest=self.max_step,
-            tol=self.tol,
-        )
+        bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
+        how: dict[str, Any] = {"points": self.points, "max_points": self.max_points, "longest": self.max_step}
+        curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
         # the array holds the longest curve
         rows = [
             {
@@ -104,8 +98,5 @@ class StabilityCurves(Quantity):
             }
             for curve in sorted(curves, key=lambda curve: -len(curve.period))
         ]
-        return listed(rows) | {
-            "status": "ok",
-            "n_curves": len(curves),
-            "n_continuation_failures": len(curves.failures),
-        }, ""
+        counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
+        return listed(rows) | counts | {"status": "ok"}, ""
