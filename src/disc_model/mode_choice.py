@@ -72,7 +72,7 @@ class ModeChoice(Summarised):
         yield "modes chosen", f"{size} ({name}: error {self.error:.2g}, {self.tolerance:g} asked for)"
 
     def plot(self, *, ax: Any = None) -> Any:
-        """Draw the modes that were chosen, as `disc_model.plot_modes` does; returns an array of axes, one for each.
+        """Draw the modes that were chosen; returns and raises as `disc_model.plot_modes`.
 
         Examples
         --------
@@ -218,10 +218,6 @@ def choose_modes(
 ) -> ModeChoice:
     """Find the model with the fewest real modes whose error of a quantity is within ``tolerance``.
 
-        >>> import disc_model as dm
-        >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
-        3
-
     Parameters
     ----------
     case : `Parameters`, or a mapping of their values; n_diameters and n_circles are ignored.  With
@@ -233,6 +229,11 @@ def choose_modes(
         "first_separation", its time within 600 s; "separation_rate", separations per second from 20 to 30 s after the
         first one.  All but the first need simulations
 
+    Returns
+    -------
+    ModeChoice
+        Its `parameters` are the case with the modes that were chosen.
+
     Raises
     ------
     ParameterError
@@ -240,6 +241,12 @@ def choose_modes(
     DiscModelError
         If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
         growth rate needs a cycle, and a first separation a motion that separates.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
+    3
     """
     request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
     known = isinstance(case, Parameters | Mapping)

@@ -213,12 +213,19 @@ class Disc(Checked):
         ------
         ParameterError
             If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
+
+        Returns
+        -------
+        Disc
         """
         file = import_module("disc_model.data.dataset").regular_file(path)
         return import_module("disc_model.disc.tables").read_disc(file)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
+
+        Raises `ParameterError` if the path is not that of a file, `disc_model.data.dataset.WriteError` if it cannot be
+        written.
 
         Examples
         --------
@@ -320,6 +327,11 @@ class Disc(Checked):
         Returns
         -------
         array of Axes
+
+        Raises
+        ------
+        ParameterError
+            If no shapes are known, or an argument breaks a rule.
         """
         if r_0 is None:
             r_0 = sum(self.radii) / len(self.radii) if self.radii else 0.1
@@ -513,9 +525,10 @@ class Parameters(Checked):
         return self
 
     def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed; for a disc given by its modes also its `Disc.numbers`.
+        """Return a copy with some values changed; for a disc given by its modes also its `Disc.numbers`.
 
         A ratio by which the case was given, such as mu_k_over_mu_s, stays what it is, unless its first one changes.
+        Raises `ParameterError` as the constructor.
         """
         if self.disc is not None and "disc" not in changes:
             numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}

@@ -36,6 +36,7 @@ def test_examples_print_what_they_say(page, tmp_path, monkeypatch):
 
 #: Classes of what functions return, whose methods draw, and the class that `Result` has them from.
 RETURNED = [
+    "mode_choice.ModeChoice",
     *("simulation.pictures.Pictures", "stability.continuation.Branch", "stability.curves.Critical"),
     *("stability.curves.NeutralCurves", "stability.cycle.FloquetResult", "stability.lyapunov.Lyapunov"),
     "stability.sliding.SteadySliding",
@@ -79,10 +80,15 @@ def test_everything_public_is_in_the_reference_and_shows_its_use():
         paragraph = " ".join((inspect.getdoc(values[name]) or "").split("\n\n")[0].split())
         assert f"| `{name}` | {re.split(r'(?<!Eq[.])(?<=[.]) ', paragraph)[0]} |" in text
     assert not [name for name in listed - errors if ">>> " not in (values[name].__doc__ or "")]
+    for name in sorted(listed - errors):
+        if inspect.isfunction(values[name]):
+            sections = re.findall(r"^(\w+)\n---", inspect.getdoc(values[name]), re.M)
+            assert {"Parameters", "Returns", "Raises", "Examples"} <= {*sections}, name
     drawing = [member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()]
     drawing = [member for member in drawing if getattr(member, "__name__", "").startswith(("plot", "animate"))]
-    assert len(drawing) == 11
-    assert all(">>> " in member.__doc__ for member in drawing)
+    assert len(drawing) == 12
+    for word in (">>> ", "Returns|returns", "Raises|raises"):
+        assert not [member.__qualname__ for member in drawing if not re.search(word, member.__doc__)], word
 
 
 STUDIES = [

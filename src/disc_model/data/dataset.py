@@ -138,6 +138,15 @@ def _write(tree: xr.DataTree, name: str) -> None:
 def load(path: str | Path) -> xr.DataTree:
     """Read a file written by `save` into memory.
 
+    Parameters
+    ----------
+    path : of a netCDF file
+
+    Returns
+    -------
+    xarray.DataTree
+        Of a run: single numbers at its root, and a group for the events and for each window.
+
     Raises
     ------
     ParameterError

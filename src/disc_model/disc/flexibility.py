@@ -57,6 +57,15 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     Modes ``as_published`` do not expand a load, so that only their sum up to `MODAL_SUM` is available. Its remainder
     is a third of the sum's upper half, because terms decrease at least as the third power.
 
+    Parameters
+    ----------
+    p : the case
+
+    Returns
+    -------
+    Flexibility
+        m/N: total, kept, their difference residual, and remainder, the error of the total.
+
     Raises
     ------
     ParameterError

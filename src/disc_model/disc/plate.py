@@ -37,6 +37,10 @@ WIDEST = 1e11
 def plate_modes(p: Parameters) -> pd.DataFrame:
     """Natural frequencies of the free disc and the modes' amplitudes under the slider.
 
+    Parameters
+    ----------
+    p : the case
+
     Returns
     -------
     DataFrame
@@ -157,9 +161,22 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
     """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s, ascending.
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
-    under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Shape
-    (number of real modes,). Contact is rigid as in the paper, whatever the contact of the case. Raises ParameterError
-    if `p` is not a `Parameters`, and ModeError as `plate_modes`.
+    under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Contact is rigid
+    as in the paper, whatever the contact of the case.
+
+    Parameters
+    ----------
+    p : the case
+
+    Returns
+    -------
+    array
+        Shape (number of real modes,).
+
+    Raises
+    ------
+    ParameterError, ModeError
+        As `plate_modes`.
 
     Examples
     --------

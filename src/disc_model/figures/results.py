@@ -333,6 +333,15 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     most : number of modes that are drawn, by ascending frequency
     ax : axes to draw on, one for each mode
 
+    Returns
+    -------
+    array of Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or the disc has no shapes.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -368,6 +377,15 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     x : the dimension along the horizontal axis; the first of numbers if not given
     log : whether the scale of the variable is logarithmic
     ax : axes to draw on
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or more than two dimensions vary.
 
     Examples
     --------

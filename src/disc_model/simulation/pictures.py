@@ -57,6 +57,11 @@ class Pictures:
         Axes, or array of Axes
             Of shape (variables, columns) if there are several.
 
+        Raises
+        ------
+        ParameterError
+            If a window was not recorded, lacks a variable, or `ax` does not fit.
+
         Examples
         --------
         >>> import disc_model as dm
@@ -74,6 +79,8 @@ class Pictures:
     ) -> Axes:
         """Draw one variable over another, coloured by phase; of the last cycles if no window is named.
 
+        Returns the axes. Raises `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
+
         Examples
         --------
         >>> import disc_model as dm
@@ -87,7 +94,8 @@ class Pictures:
     ) -> Axes:
         """Draw the amplitude of a variable over the frequency, up to one in Hz.
 
-        Without a named window it is that of the last 8 s, or of the second half of a shorter run.
+        Without a named window it is that of the last 8 s, or of the second half of a shorter run. Returns the axes.
+        Raises `ParameterError` as `plot_phase_portrait`, and if the window is too short or nothing vibrates in it.
 
         Examples
         --------
@@ -98,7 +106,9 @@ class Pictures:
         return draw("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
 
     def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
-        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes.
+        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes, which it returns.
+
+        Raises `ParameterError` unless `ax` is two axes.
 
         Examples
         --------
@@ -122,6 +132,11 @@ class Pictures:
         Returns
         -------
         matplotlib.animation.FuncAnimation
+
+        Raises
+        ------
+        ParameterError
+            If an argument breaks a rule, or the file has another suffix or no folder.
 
         Examples
         --------

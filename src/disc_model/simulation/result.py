@@ -95,7 +95,7 @@ class Result(Summarised, Pictures):
         return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
-        """Omega (rad/s) or N (N) at given times (s), ramps included.
+        """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the shape of `times`.
 
         Raises
         ------
@@ -109,7 +109,7 @@ class Result(Summarised, Pictures):
         return values_at(self.parameters, self.ramps, name, times)
 
     def __getitem__(self, name: str) -> xr.Dataset:
-        """Samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
+        """The samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
         from disc_model.data.dataset import samples_dataset
 
         if not isinstance(name, str) or name not in self.samples:
@@ -117,7 +117,7 @@ class Result(Summarised, Pictures):
         return samples_dataset(self.samples[name], self.windows[name].theta)
 
     def to_tree(self) -> xr.DataTree:
-        """The result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
+        """Return the result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
 
         Its root holds the scalars, and its groups are "events" (along `event`), and each window (along `time`).
         """
@@ -195,7 +195,7 @@ class Result(Summarised, Pictures):
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Read a file that `save` has written: the same result to the last bit, but for the `wall_time`, which is nan.
+        """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which is nan.
 
         Raises
         ------

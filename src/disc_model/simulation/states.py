@@ -20,7 +20,7 @@ from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitu
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion, violations
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
@@ -78,7 +78,7 @@ class State(Summarised):
     """Multiplicity of the roots of event function and contact force at this instant: `layout.KNOWN`, `KNOWN_FORCE`."""
 
     def replace(self, **changes: Any) -> State:
-        """A copy with some values changed.
+        """Return a copy with some values changed; raises `ParameterError` for names and numbers that no state has.
 
         A new time is exact and sets `time_low` to 0.  Any other change separates the state from the case in which it
         was computed, and empties `case_key`.
@@ -87,6 +87,9 @@ class State(Summarised):
             changes = {"time_low": 0.0} | changes
         if not changes.keys() <= {"time", "time_low"}:
             changes = {"case_key": ""} | changes
+        known = [each.name for each in dataclasses.fields(self)]
+        require(*((x in known, x, value, f"is not of a state{suggestion(x, known)}") for x, value in changes.items()))
+        require(*((is_finite(changes[name]), name, changes[name], "must be finite") for name in PLAIN.keys() & changes))
         return dataclasses.replace(self, **changes)
 
     def __repr__(self) -> str:
@@ -121,7 +124,7 @@ class State(Summarised):
 
     @classmethod
     def load(cls, path: str | Path) -> State:
-        """Read a file that `save` has written.
+        """Return the state that `save` has written to a file.
 
         Raises
         ------

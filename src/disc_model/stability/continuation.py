@@ -251,7 +251,8 @@ class Branch(Summarised):
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
         """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is stable.
 
-        A branch in two parameters is drawn as the second over the first.
+        A branch in two parameters is drawn as the second over the first. Returns the axes; raises `ParameterError` if
+        `y` is another name, or `ax` no axes.
 
         Examples
         --------
@@ -262,7 +263,7 @@ class Branch(Summarised):
         return draw("plot_branch", self, y, ax=ax)
 
     def bifurcation_types(self) -> list[str]:
-        """Bifurcation that the leading multiplier of each point indicates."""
+        """Return the bifurcation that the leading multiplier of each point indicates."""
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
@@ -425,6 +426,11 @@ def continue_cycle(
     direction : 1 to begin with increasing values, -1 with decreasing ones
     guess, releases, tol : as in `floquet`
     steps : length and number of the steps
+
+    Returns
+    -------
+    Branch
+        The cycles in their order along the curve, its folds, and in `ended` why it ends.
 
     Raises
     ------

@@ -96,7 +96,9 @@ class NeutralCurves(Summarised):
         yield "not followed", "; ".join(self.failures)
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the curves in the plane of the two parameters, thick beside a stable cycle.
+        """Draw the curves in the plane of the two parameters, thick beside a stable cycle; returns the axes.
+
+        Raises `ParameterError` if `ax` is no axes.
 
         Examples
         --------
@@ -140,6 +142,11 @@ def neutral_curves(
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
     tol : as in `floquet`
+
+    Returns
+    -------
+    NeutralCurves
+        The curves that were found, and descriptions of those that could not be followed.
 
     Raises
     ------
@@ -335,6 +342,8 @@ class Critical(Summarised):
     def plot(self, *, ax: Axes | None = None) -> Axes:
         """Draw the growth rate of the cycle (1/s) over the parameter, with the intervals without a stable motion.
 
+        Returns the axes; raises `ParameterError` if `ax` is no axes.
+
         Examples
         --------
         >>> import disc_model as dm
@@ -371,6 +380,11 @@ def critical(
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
     **others : values of other numbers of the case, instead of its own, such as ``Omega=20``
+
+    Returns
+    -------
+    Critical
+        `value`, `crossings`, and `resolution`, the width of the narrowest tongue that cannot be overlooked.
 
     Raises
     ------

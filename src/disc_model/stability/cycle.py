@@ -106,7 +106,9 @@ class FloquetResult(Summarised):
         yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the multipliers in the complex plane, and the unit circle; raises `CycleError` without a cycle.
+        """Draw the multipliers in the complex plane, and the unit circle; returns the axes.
+
+        Raises `CycleError` without a cycle, `ParameterError` if `ax` is no axes.
 
         Examples
         --------

@@ -78,7 +78,7 @@ class Lyapunov(Summarised):
         yield "averaged over", f"{number_text(self.duration, 's')}, {self.separations} separations"
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the exponents with their errors (1/s).
+        """Draw the exponents with their errors (1/s); returns the axes; raises `ParameterError` if `ax` is no axes.
 
         Examples
         --------
@@ -114,6 +114,11 @@ def lyapunov_exponents(
     tol : tolerance, as in `simulate`
     leave_out_trivial : whether to leave out the exponent along the motion, which is zero; it does not exist without
         events, as in steady sliding
+
+    Returns
+    -------
+    Lyapunov
+        It is also returned if the motion ends early: `status` then says why.
 
     Raises
     ------

@@ -102,7 +102,9 @@ class SteadySliding(Summarised):
         yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in grows)
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the eigenvalues, frequency over growth rate; raises `ParameterError` if there are none.
+        """Draw the eigenvalues, frequency over growth rate; returns the axes.
+
+        Raises `ParameterError` if there are none, or `ax` is no axes.
 
         Examples
         --------
@@ -129,6 +131,15 @@ ROUNDING = 1e-9  # 1/s; real parts of undamped modes are below 1e-11 by rounding
 
 def steady_sliding(p: Parameters) -> SteadySliding:
     """Find the equilibrium f = Omega and its eigenvalues.
+
+    Parameters
+    ----------
+    p : the case
+
+    Returns
+    -------
+    SteadySliding
+        It is also returned if there is no such equilibrium: `status` and `message` then say why.
 
     Raises
     ------

@@ -94,6 +94,11 @@ def outcome(
     xarray.Dataset
         `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -132,6 +137,11 @@ def critical_speed(
     -------
     xarray.Dataset
         `critical_speed` (rad/s, nan if there is none) and crossings by horizon; first separations along the scan
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
@@ -178,6 +188,11 @@ def basins(  # noqa: PLR0913
     xarray.Dataset
         `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors
 
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -216,6 +231,11 @@ def hysteresis(
     -------
     xarray.Dataset
         `onset_speed`, `offset_speed` (rad/s), and `separation_rate` (1/s) and others by direction and speed
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
 
     Examples
     --------
