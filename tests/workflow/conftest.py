@@ -110,6 +110,7 @@ class Project:
 
     def change(self, path: str) -> None:
         """Change what a source does, as far as anyone can tell without running it: a comment would not count."""
+        assert (self.folder / path).is_file()
         with (self.folder / path).open("a") as file:
             file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
 

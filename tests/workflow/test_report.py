@@ -22,4 +22,5 @@ def test_the_report_holds_every_result_and_needs_no_network(finished: Project, t
     assert [name for name in loaded if not name.startswith(("data:", "file:", "blob:"))] == []
     assert found.keys() >= {"Claims of the paper", "Figures", "Maps and curves", "Provenance"}
     files = {Path(file).name for parts in found.values() for inside in parts.values() for file in inside}
-    assert files == {"fig11.png", "fig13.png", "chart.png", "claims.html", "provenance.html"}
+    pages = {"claims.html", "provenance.html", "table1.html", "table2.html"}
+    assert files == {"fig11.png", "fig13.png", "chart.png", *pages}

@@ -14,7 +14,9 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
 FIGURES = {"draw_figure:small:fig11", "draw_figure:small:fig13"}
-TABLES = {"merge_cases", "check_claims", "describe_study"}
+MERGED = {"merge_cases", "check_claims"}
+OF_F13 = {"make_table:table1", "make_table:table2"}
+TABLES = MERGED | OF_F13
 PLOT = {"draw_figure:small_map:chart"}
 MAP_TAIL = {"merge_batches:small_map"} | PLOT
 GROWTH_TAIL = {"merge_batches:small_growth"} | PLOT
@@ -56,8 +58,8 @@ def test_a_second_run_does_nothing(project: Project) -> None:
     ("file", "old", "new", "jobs"),
     [
         (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:small:fig13"} | TABLES),
-        (SMALL, "title: quiet", "title: calm", lambda _: TABLES),
-        (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | TABLES),
+        (SMALL, "title: quiet", "title: calm", lambda _: MERGED),
+        (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | MERGED),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
         (MAP, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),  # the default as it was
         (MAP, "title: outcome", "title: what becomes of it", lambda _: MAP_TAIL),
@@ -71,7 +73,7 @@ def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str,
 def test_what_is_removed_computes_nothing_and_is_gone(project: Project) -> None:
     project.edit(SMALL, "  X: {title: another, parameters: {N: 200, Omega: 20}, t_end: 2}\n", "")
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 300]")
-    assert project.planned() == TABLES | MAP_TAIL
+    assert project.planned() == MERGED | MAP_TAIL
     project.complete("-j2")
     assert list(dataset(project, "small/cases.nc")["case"].values) == ["F11", "F13"]
     assert list(dataset(project, "small_map/small_map.nc")["N"].values) == [100, 300]
@@ -103,10 +105,10 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/stability/attractor/outcome.py", whole_map),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
-        ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | TABLES),
+        ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | MERGED),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/motion.py", lambda _: FIGURES),
-        ("src/disc_model/figures/sliding.py", lambda _: PLOT),
+        ("src/disc_model/figures/modes.py", lambda _: PLOT),
         ("src/disc_model/paper/figures/spectra.py", lambda _: set()),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),

@@ -1,4 +1,4 @@
-# Named cases: one job for each, and all of them in one file.
+# Named cases: one job for each, and all of them in one file and on one page.
 
 
 rule simulate_case:
@@ -22,14 +22,21 @@ rule merge_cases:
     input:
         sorted(map(case_file, STUDY.specs)),
     output:
-        f"{RESULTS}/cases.nc",
+        nc=f"{RESULTS}/cases.nc",
+        html=report(
+            f"{RESULTS}/provenance.html",
+            caption="../report/provenance.rst",
+            category="Provenance",
+            labels={"page": "Cases, sources and versions"},
+        ),
     log:
         f"{RESULTS}/logs/merge_cases.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function, so that braces in a title are no wildcards
+        # functions, so that braces in a title are no wildcards; JSON is ASCII
+        title=lambda wildcards: PAGE_TITLE,
         labels=lambda wildcards: LABELS,
         made_of=cases_made_of(),
     shell:
-        "job merge_cases {params.labels:q} {output} {input} > {log} 2>&1"
+        "job merge_cases {params.title:q} {params.labels:q} {output} {input} > {log} 2>&1"

@@ -1,14 +1,14 @@
 # The paper's claims and tables against the computed results, with the modes normalised otherwise, and under other models.
 
 
-from disc_model.paper import SCANS, SURVIVAL_GRIDS
+from disc_model.paper import SCANS, SURVIVAL_GRIDS, TABLE_CASES
 
 SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
 
 
 rule check_claims:
     input:
-        cases=rules.merge_cases.output,
+        cases=rules.merge_cases.output.nc,
         scans=list(SCANNED.values()),
     output:
         csv=f"{RESULTS}/claims.csv",
@@ -31,25 +31,10 @@ rule check_claims:
         "job check_claims {output} {input.cases} {input.scans} > {log} 2>&1"
 
 
-# A study may lack the case and the window of Tables 1 and 2, and the cases of the others.
-TABLES = [
-    *(
-        ["table1", "table2"]
-        if STUDY.claims
-        and "spectrum_a"
-        in (dict(STUDY.specs["F13"].windows) if "F13" in STUDY.specs else {})
-        else []
-    ),
-    *(["periods", "impact_law"] if STUDY.claims and "P03res" in STUDY.specs else []),
-]
-
-
 rule make_table:
-    # Tables 1 and 2 of the paper, and two of what results rest on.
+    # Tables 1 and 2 of the paper, and two of what results rest on: each from its own cases, if the study has them.
     input:
-        lambda wildcards: (
-            [] if wildcards.table == "periods" else rules.merge_cases.output
-        ),
+        lambda wildcards: [*map(case_file, TABLE_CASES[wildcards.table])],
     output:
         csv=f"{RESULTS}/tables/{{table}}.csv",
         md=f"{RESULTS}/tables/{{table}}.md",
@@ -64,11 +49,13 @@ rule make_table:
     log:
         f"{RESULTS}/logs/make_table/{{table}}.log",
     wildcard_constraints:
-        table="|".join(["table[12]", "periods", "impact_law"]),
+        table="|".join(TABLE_CASES),
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("make_table", of=cases_made_of()),
+        made_of=lambda wildcards: made_of(
+            "make_table", of=[*map(case_made_of, TABLE_CASES[wildcards.table])]
+        ),
     shell:
         "job make_table {wildcards.table} {output} {input} > {log} 2>&1"
 

@@ -6,6 +6,7 @@ def case_file(case):
 
 
 LABELS = json.dumps(STUDY.labels, sort_keys=True)
+PAGE_TITLE = json.dumps(STUDY.title or STUDY.name)
 
 
 def case_made_of(case):
@@ -15,7 +16,9 @@ def case_made_of(case):
 
 
 def cases_made_of():
-    return made_of("merge_cases", of=[LABELS, *map(case_made_of, sorted(STUDY.specs))])
+    return made_of(
+        "merge_cases", of=[PAGE_TITLE, LABELS, *map(case_made_of, sorted(STUDY.specs))]
+    )
 
 
 def batch_file(study, batch):

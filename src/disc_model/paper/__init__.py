@@ -9,3 +9,11 @@ SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)
 """Grid studies that rows use; listed here so that the workflow reads them without importing the computations."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
 """Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""
+TABLE_CASES = {
+    "table1": ("F13",),
+    "table2": ("F13",),
+    "periods": ("F02", "F07", "F22"),
+    "impact_law": ("F13", "P03l8", "P03l4c1", "P03l4c2", "P03res"),
+}
+"""Cases of each table; of periods those that the paper calls quasi-periodic or unpredictable and that repeat after many
+releases."""

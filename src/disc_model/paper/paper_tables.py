@@ -1,7 +1,11 @@
 """Tables 1 and 2 of the paper beside ours, with the origin of every line of Table 2; and two tables of what results
 rest on: periods under other tolerances and numbers of modes, and what follows impacts with more modes."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -10,13 +14,14 @@ import yaml
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import Motion, motion_of
 from disc_model.data.dataset import Missing
+from disc_model.paper import TABLE_CASES
 from disc_model.paper.measures import CaseView, place
-from disc_model.paper.model import FOLDER, paper_cases
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State
 
-TEXTS = yaml.safe_load((FOLDER / "paper_tables.yaml").read_text(encoding="utf-8"))
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+
+TEXTS: dict[str, Any] = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]  # base values of the paper, SI units
 TABLE_2 = pd.DataFrame(
     [(symbol, value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()],
@@ -70,8 +75,6 @@ def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0
 
 
 # ---- What results rest on
-LONG = ("F02", "F07", "F22")
-"""Cases that the paper calls quasi-periodic or unpredictable, and that repeat after many releases."""
 VARIED: dict[str, tuple[float, dict[str, int]]] = {
     "as computed": (1e-10, {}),
     "tolerance 1e-8": (1e-8, {}),
@@ -83,17 +86,12 @@ VARIED: dict[str, tuple[float, dict[str, int]]] = {
 RECORD, SETTLE = 60.0, 150.0
 """Length of the record from which a motion is classified, s: four of the longest periods; time to settle before it, s,
 after a small change of the speed."""
-IMPACT_CASES = {
-    "F13": "nine modes",
-    "P03l8": "8 nodal diameters",
-    "P03l4c1": "one nodal circle",
-    "P03l4c2": "two nodal circles",
-    "P03res": "nine modes, residual flexibility",
-}
 
 
 def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:
     """Class of a motion by its releases in the last `RECORD` s before t_end, and the state there."""
+    from disc_model.simulation.api import simulate  # most tables do without
+
     run = simulate(p, t_end, tol=tol, initial_state=start)
     times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
     return motion_of(np.diff(times[times > t_end - RECORD])), run.final_state
@@ -118,12 +116,12 @@ def locked(p: Parameters, start: State, period: int, sign: int) -> float:
     return low
 
 
-def periods() -> pd.DataFrame:
-    """Releases after which the cases `LONG` repeat, under `VARIED`, and the interval of speeds with the same period."""
+def periods(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+    """Releases after which cases repeat, under `VARIED`, and the interval of speeds with the same period."""
     rows = []
-    for name in LONG:
-        case = paper_cases()[name]
-        p = Parameters(**case["parameters"], normalization="as_published")
+    for name in TABLE_CASES["periods"]:
+        case = cases[name]
+        p = case.parameters
         runs = {words: motion_to(p.replace(**changed), case["t_end"], tol) for words, (tol, changed) in VARIED.items()}
         (motion, state), *_ = runs.values()
         width = sum(locked(p, state, motion.period, sign) for sign in (-1, 1)) if motion.period else np.nan
@@ -136,7 +134,7 @@ def periods() -> pd.DataFrame:
 def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     """What follows the first separation at 385 N, 15.1 rad/s with other modes, in the last 20 s of each run."""
     rows = []
-    for name, words in IMPACT_CASES.items():
+    for name, words in zip(TABLE_CASES["impact_law"], TEXTS["impact_law"], strict=True):
         case = cases[name]
         try:
             durations, still_open = case.separation_durations()
@@ -147,3 +145,12 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
             rows.append([words, *[np.nan] * 6, str(reason)])
     columns = ["modes", "first_s", "rate_Hz", "longest_ms", "separated_%", "stick_%", "range_mm", "releases"]
     return pd.DataFrame(rows, columns=columns)
+
+
+TABLES = {
+    "table1": lambda cases: table_1(cases["F13"].parameters),
+    "table2": lambda cases: table_2(cases["F13"]),
+    "periods": periods,
+    "impact_law": impact_law,
+}
+"""Functions that make a table from the cases that it needs."""
