@@ -73,7 +73,7 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     missing = sorted(MODULES.get(name, name) for name in names([*EXTRAS["workflow"], *EXTRAS["plot"]]))
     done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", tmp_path / "run.nc", fails=True)
     assert done.returncode == 2, done.stdout + done.stderr
-    assert "psi" in done.stdout
+    assert "amplitude" in done.stdout
     assert not (tmp_path / "run.nc.study").exists()
     assert done.stderr.count("pip install 'disc_model[workflow]'") == 3
     assert done.stderr.endswith(

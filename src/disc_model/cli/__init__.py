@@ -63,7 +63,8 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
-        _fail(" ".join(error.format_message().split()).rstrip(".") + ".")
+        text = " ".join(error.format_message().split()).rstrip(".")
+        _fail(text if text.endswith("?") else f"{text}.")
     if code == studies.INTERRUPTED:
         typer.echo("error: interrupted", err=True)
     sys.exit(code if isinstance(code, int) else 0)

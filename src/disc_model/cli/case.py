@@ -32,20 +32,15 @@ from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance
 # Options, one for each field of a model
 
 PANELS = {
-    "Slider": ("N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"),
-    "Friction and contact": (
-        "mu_s",
-        "mu_k",
-        "contact",
-        "contact_compliance",
-        "contact_force",
-        "friction_offset",
-        "friction_decay",
-    ),
-    "Numerics": ("n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"),
-    "Run": ("t_end", "stop_at", "window", "ramp", "plot", "save", "csv"),
-}
-"""Headings of the help and the fields below them; all others are the disc's."""
+    "Run": ["t_end", "stop_at", "window", "ramp", "plot", "save", "csv"],
+    "Slider": ["N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"],
+    "Disc": ["D_star", "E", "a", "b", "h", "nu", "rho", "normalization", "damping_ratio", "disc"],
+    "Friction and contact": [
+        "mu_s", "mu_k", "contact", "contact_compliance", "contact_force", "friction_offset", "friction_decay",
+    ],
+    "Numerics": ["n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"],
+}  # fmt: skip
+"""Headings of the help in their order, and the fields below them."""
 HELP = {
     "n_diameters": f"highest number of nodal diameters, -1 for a rigid disc, {AUTO}: as many as a tolerance asks for",
     CHOOSING[0]: f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given",
@@ -86,7 +81,7 @@ def _option(name: str, field: Any = None, placeholder: str | None = None) -> ins
         autocompletion=None if flag else lambda: [word for word in words if not word.isupper()],
         help=told,
         show_default=False,
-        rich_help_panel=next((panel for panel, names in PANELS.items() if name in names), "Disc"),
+        rich_help_panel=next(panel for panel, names in PANELS.items() if name in names),
     )
     kind: Any = bool if flag else list[str] | None if several else str | None
     default = False if flag else placeholder
@@ -113,7 +108,9 @@ def command(options: type[Any], **placeholders: str) -> Callable[[Callable[..., 
             raise_faults(faults)
             function(p, choice, model)
 
-        wrapped.__signature__ = inspect.Signature(own_options + case_options)  # type: ignore[attr-defined]
+        order = [name for names in PANELS.values() for name in names]
+        shown = sorted(own_options + case_options, key=lambda option: order.index(option.name))
+        wrapped.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
         return wrapped
 
     return decorate
@@ -185,7 +182,15 @@ def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> No
             arrays.circles, arrays.diameters, arrays.omega, arrays.psi, damping_ratios(p), strict=True
         )
     ]
-    heads = ("circles", "diameters", "omega (rad/s)", "f (Hz)", "psi (kg^-1/2)", "psi^2 (1/kg)", "xi")
+    heads = (
+        "circles",
+        "diameters",
+        "omega (rad/s)",
+        "f (Hz)",
+        "amplitude (kg^-1/2)",
+        "squared (1/kg)",
+        "damping ratio",
+    )
     table("Modes of the disc", heads, rows, justify="right")
     if p.disc is None or p.disc.static_compliance is not None:
         give = residual_flexibility(p)
@@ -232,7 +237,7 @@ def sliding(p: Parameters, choice: ModeChoice | None, _: Strict) -> None:
             modes.frequency, modes.growth_rate, modes.damping_ratio, modes.diameters, modes.forward, strict=True
         )
     ]
-    heads = ("f (Hz)", "growth (1/s)", "xi", "nodal diameters", "forward wave")
+    heads = ("f (Hz)", "growth (1/s)", "damping ratio", "nodal diameters", "forward wave")
     table("Modes in the slider's frame", heads, rows, justify="right")
 
 

@@ -80,7 +80,10 @@ def list_(
     else:
         heads, entries = ("figure", "kind", "title"), chosen.entries(grids).items()
         rows = [(name, x.plot.kind, x.title) for (study, name), x in entries if study in (chosen.name, *requested)]
-    table(f"{what} of {chosen.name}", heads, rows, overflow="fold")
+    if rows:
+        table(f"{what} of {chosen.name}", heads, rows, overflow="fold")
+    else:
+        typer.echo(f"{chosen.name} has no {what}")
 
 
 def status(
