@@ -41,6 +41,11 @@ def number_text(value: float, unit: str = "", digits: int = 6) -> str:
     return "" if math.isnan(value) else f"{value:.{digits}g} {unit}".strip()
 
 
+def counted(number: int, noun: str) -> str:
+    """A number with its noun in the singular or the plural."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
     """Draw by a function of `disc_model.figures.results`, which is above all that it draws.
 

@@ -1,8 +1,10 @@
 """Seeds of curves of stability."""
 
+import math
+
 import pytest
 
-from disc_model import Parameters, floquet
+from disc_model import ParameterError, Parameters, continue_cycle, floquet
 from disc_model.stability import curves
 from disc_model.stability.return_map import ReturnMap
 
@@ -42,3 +44,15 @@ def test_a_narrow_tongue_between_two_values_is_seen():
         below, above = (floquet(p.replace(Omega=crossing + move)).stable for move in (-2e-4, 2e-4))
         assert (below, above) == (unstable, not unstable)
     assert 0 < found.resolution < 1
+
+
+@pytest.mark.compiled
+def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
+    p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
+    found = curves.critical(p, "Omega", ("142.5 rpm", 15), points=3)
+    assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
+    assert "has left 14.9226 .. 15" in continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s")).ended
+    plane = curves.neutral_curves(p, {"Omega": ("142.5 rpm", 15), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2)
+    assert plane.bounds["h"] == pytest.approx((2e-3, 2.1e-3))
+    with pytest.raises(ParameterError, match=r"^bounds=\('5 kg', 15\): must be two ascending finite numbers$"):
+        curves.critical(p, "Omega", ("5 kg", 15))

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
-from disc_model.display import Summarised, number_text
+from disc_model.display import Summarised, counted, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, as_text, require, suggestion
 from disc_model.parameters import Parameters
@@ -236,7 +236,7 @@ class Result(Summarised, Pictures):
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
         lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
-        windows = f"{len(self.samples)} window{'' if len(self.samples) == 1 else 's'}"
+        windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
         events = self.statistics["events"]
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)

@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import Summarised, draw
+from disc_model.display import Summarised, counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
-from disc_model.parameters import DEFAULTS, Parameters, foreign_case
+from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, is_finite_array
@@ -39,7 +39,7 @@ from disc_model.stability.return_map import (
     multipliers,
     rounding,
 )
-from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
+from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, is_whole, limits_faults
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -238,7 +238,7 @@ class Branch(Summarised):
     def __repr__(self) -> str:
         spans = zip(self.parameters, self.values.min(axis=0), self.values.max(axis=0), strict=True)
         spanned = ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in spans)
-        folds = f"{len(self.folds)} fold{'s' * (len(self.folds) != 1)}"
+        folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {spanned}, {folds}: {self.ended})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
@@ -265,6 +265,11 @@ class Branch(Summarised):
     def bifurcation_types(self) -> list[str]:
         """Return the bifurcation that the leading multiplier of each point indicates."""
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
+
+
+def bounds_in_si(name: Any, bounds: Any) -> Any:
+    """Bounds of a parameter, of which texts with units are converted; what cannot be is left for `is_interval`."""
+    return in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
 
 
 def is_interval(bounds: Any) -> bool:
@@ -405,7 +410,7 @@ UNLOCATED = "a fold that cannot be located"  # beginning of one of the reasons f
 def continue_cycle(
     p: Parameters,
     name: str,
-    bounds: tuple[float, float],
+    bounds: tuple[Quantity, Quantity],
     *,
     direction: int = 1,
     guess: State | None = None,
@@ -422,7 +427,7 @@ def continue_cycle(
     ----------
     p : case whose cycle is the first point
     name : the free parameter, one of `Parameters.numbers`
-    bounds : values of the parameter between which the cycle is followed
+    bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
     direction : 1 to begin with increasing values, -1 with decreasing ones
     guess, releases, tol : as in `floquet`
     steps : length and number of the steps
@@ -447,7 +452,7 @@ def continue_cycle(
     Branch(16 cycles, Omega from 14.7024 to 15.0949, 1 fold: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
-        (is_interval(bounds), "bounds", bounds, "must be two ascending finite numbers"),
+        (is_interval(span := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),
     )
@@ -459,7 +464,7 @@ def continue_cycle(
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
     tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
-    low, high = (bound / problem.scales[0] for bound in bounds)
+    low, high = (bound / problem.scales[0] for bound in span)
     folds: list[float] = []
 
     def ends(places: list[Place], new: Place, ds: float) -> str:
@@ -470,7 +475,7 @@ def continue_cycle(
             except CorrectorFailed as lost:
                 where = before.point.z[-1] * problem.scales[0]
                 raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
-        return "" if low <= new.point.z[-1] <= high else f"{name} has left {bounds[0]:g} .. {bounds[1]:g}"
+        return "" if low <= new.point.z[-1] <= high else f"{name} has left {span[0]:g} .. {span[1]:g}"
 
     places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
     points = [place.point for place in places]

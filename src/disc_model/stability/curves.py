@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, values_text
-from disc_model.display import Summarised, draw
+from disc_model.display import Summarised, counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
     BORDER,
@@ -24,6 +24,7 @@ from disc_model.stability.continuation import (
     Branch,
     Kind,
     StepControl,
+    bounds_in_si,
     continue_border,
     continue_cycle,
     free_faults,
@@ -86,7 +87,7 @@ class NeutralCurves(Summarised):
 
     def __repr__(self) -> str:
         plane = " and ".join(f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items())
-        return f"NeutralCurves({len(self)} curves over {plane}, {len(self.failures)} not followed)"
+        return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         for name, (low, high) in self.bounds.items():
@@ -122,7 +123,7 @@ class _Seed:
 @compiling()
 def neutral_curves(
     p: Parameters,
-    bounds: Mapping[str, tuple[float, float]],
+    bounds: Mapping[str, tuple[Quantity, Quantity]],
     lines: Sequence[float] | None = None,
     *,
     points: int = 31,
@@ -135,7 +136,7 @@ def neutral_curves(
     Parameters
     ----------
     p : the case; its values of the two parameters are ignored
-    bounds : bounds of both, by their names: two of `Parameters.numbers`
+    bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
     lines : values of the second parameter; along each of these lines the first parameter is scanned for curves. Three
         within the bounds if they are not given
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
@@ -164,13 +165,14 @@ def neutral_curves(
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
-    within = free and all(is_interval(interval) for interval in bounds.values())
+    plane: Any = {name: bounds_in_si(name, ends) for name, ends in bounds.items()} if free else {}
+    within = free and all(map(is_interval, plane.values()))
     rule = "must be two ascending finite numbers, by the names of two parameters"
     wrong = violations((within, "bounds", bounds, rule))
     if free and isinstance(p, Parameters):
         wrong += free_faults(p, [*bounds])
     if lines is None and within:
-        low, high = [*bounds.values()][1]
+        low, high = [*plane.values()][1]
         lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
@@ -179,20 +181,20 @@ def neutral_curves(
     )
     raise_faults(foreign_case(p) + wrong)
     assert lines is not None
-    x, y = bounds
+    x, y = plane
     names = x, y
     curves: list[StabilityCurve] = []
     notes: list[str] = []
-    span = np.array([bounds[name][1] - bounds[name][0] for name in names])
+    span = np.array([plane[name][1] - plane[name][0] for name in names])
     for line in map(float, lines):
-        along = np.linspace(*bounds[names[0]], points)
+        along = np.linspace(plane[x][0], plane[x][1], points)
         for seed in _seeds([p.replace(**{names[1]: line, names[0]: float(x)}) for x in along], names[0], tol, notes):
             point = np.array([seed.case.numbers[name] for name in names])
             if _known(curves, seed.kind, point, seed.period, span):
                 continue
             where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, point, strict=True))
             try:
-                branch = continue_border(seed.kind, seed.case, names, bounds, guess=seed.point, tol=tol, steps=steps)
+                branch = continue_border(seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps)
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
                 continue
@@ -205,7 +207,7 @@ def neutral_curves(
             i = int(np.searchsorted(length, length[-1] / 2)) + 1
             if not _known(curves, curve.kind, curve.values[i], float(curve.period[i]), span):
                 curves.append(curve)
-    return NeutralCurves(p, dict(bounds), tuple(curves), tuple(notes))
+    return NeutralCurves(p, plane, tuple(curves), tuple(notes))
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
@@ -318,7 +320,7 @@ class Critical(Summarised):
 
     def __repr__(self) -> str:
         first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
-        crossings = f"{len(self.crossings)} crossing{'s' * (len(self.crossings) != 1)}"
+        crossings = counted(len(self.crossings), "crossing")
         seen = f"{len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
         return f"Critical({self.name}: {first}, {crossings}, {seen})"
 
@@ -358,7 +360,7 @@ class Critical(Summarised):
 def critical(
     p: Parameters,
     name: str,
-    bounds: tuple[float, float],
+    bounds: tuple[Quantity, Quantity],
     *,
     points: int = 41,
     precision: float | None = None,
@@ -375,7 +377,7 @@ def critical(
     ----------
     p : the case; its value of the parameter is not used
     name : one of `Parameters.numbers`, such as "mu_s"
-    bounds : lowest and highest value
+    bounds : lowest and highest value; SI units, or texts with units
     points : number of values from which the search starts
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
@@ -401,13 +403,13 @@ def critical(
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (is_interval(bounds), "bounds", bounds, "must be two ascending finite numbers"),
+        (is_interval(ends := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
     raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name, *others]))
     p = p.replace(**others) if others else p
-    shortest = 1e-6 * (bounds[1] - bounds[0]) if precision is None else float(precision)
+    shortest = 1e-6 * (ends[1] - ends[0]) if precision is None else float(precision)
     cycles: dict[float, FloquetResult] = {}
 
     def stable(x: float) -> bool:
@@ -419,7 +421,7 @@ def critical(
         sliding = cycle.status is CycleStatus.NO_STICK_SLIP and cycle.sliding.stable
         return sliding or cycle.status is CycleStatus.AT_REST
 
-    for x in np.linspace(*bounds, points).tolist():
+    for x in np.linspace(ends[0], ends[1], points).tolist():
         stable(x)
     resolution = math.inf
     for _ in range(ROUNDS):
@@ -437,7 +439,7 @@ def critical(
             while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
                 a, b = (middle, b) if stable(middle) == before else (a, middle)
             crossings.append((b, before))
-    begin = float(bounds[0])
+    begin = float(ends[0])
     first = [] if stable(begin) else [begin]
     first += [x for x, was_stable in crossings if was_stable]
     values = sorted(cycles)

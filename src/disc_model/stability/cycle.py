@@ -15,7 +15,7 @@ import numpy as np
 
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.disc.plate import mode_arrays
-from disc_model.display import Summarised, draw, number_text
+from disc_model.display import Summarised, counted, draw, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
@@ -100,7 +100,8 @@ class FloquetResult(Summarised):
         yield "growth rate", number_text(self.growth_rate, verdict)
         yield "period", number_text(self.period, "s", 9)
         yield "share of stick", number_text(self.stick_fraction, "", 3)
-        yield "a period has", f"{self.releases} releases, {self.separations} separations" if self.releases else ""
+        counts = ", ".join(counted(getattr(self, f"{name}s"), name) for name in ("release", "separation"))
+        yield "a period has", counts if self.releases else ""
         yield from (("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1])
         rate = self.sliding.growth_rate
         yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
