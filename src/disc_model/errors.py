@@ -249,18 +249,9 @@ class Status(StatusBase):
     OK = "ok", "The simulation reached t_end."
     STOPPED = "stopped", "The simulation stopped where stop_at asked it to."
     STEP_LIMIT = "step_limit", "The allowed number of steps was used up: raise max_steps, or shorten t_end."
-    PARADOX = (
-        "paradox",
-        "Painleve's paradox: rigid Coulomb friction on this slope has no solution, or two; lower mu_k or N.",
-    )
-    STALLED = (
-        "stalled",
-        "Switches follow each other without the clock moving: tighten tol, or perturb the initial state.",
-    )
-    NON_FINITE = (
-        "non_finite",
-        "The state overflowed: check the parameters' magnitudes; tighten tol if they are as meant.",
-    )
+    PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution, or two; lower mu_k or N."
+    STALLED = "stalled", "Switches follow each other without the clock moving: tighten tol, or perturb initial_state."
+    NON_FINITE = "non_finite", "The state overflowed: check the parameters' magnitudes; tighten tol if they are meant."
 
     @property
     def complete(self) -> bool:

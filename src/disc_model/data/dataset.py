@@ -53,10 +53,8 @@ def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
 
     theta : rad, angle at which ``w_point`` was taken
     """
-    data = {
-        name: ("time", np.asarray(values, dtype=np.int8 if name == "phase" else float), attributes(name))
-        for name, values in samples.items()
-    }
+    kinds = {"phase": np.int8}
+    data = {name: ("time", np.asarray(x, kinds.get(name, float)), attributes(name)) for name, x in samples.items()}
     return xr.Dataset(data, attrs={"theta": theta})
 
 
@@ -245,10 +243,8 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
 
             content = loadmat(file, appendmat=False, simplify_cells=True)
             named = {name: table for name, table in content.items() if name != "units" and isinstance(table, dict)}
-            return content.get("result", ""), {
-                name: {column: np.atleast_1d(values).ravel() for column, values in table.items()}
-                for name, table in named.items()
-            }
+            flat = {name: {key: np.atleast_1d(x).ravel() for key, x in table.items()} for name, table in named.items()}
+            return content.get("result", ""), flat
         with file.open(encoding="utf-8") as lines:
             columns, described = json.loads(next(lines).removeprefix("# ")), next(lines).removeprefix("# ")
             frame = pd.read_csv(lines, dtype=str)  # since numpy reads numbers to the last bit

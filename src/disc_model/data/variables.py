@@ -124,12 +124,8 @@ CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
 }
 _OF_RATIOS = {name: Variable("1", f"{name_above} relative to {other}") for name, (name_above, other) in RATIOS.items()}
-WITHOUT_CYCLE = {
-    "no_cycle": "no cycle found",
-    "separates": "immediate separation",
-    "no_stick_slip": "steady sliding",
-    "at_rest": "permanent stick",
-}
+WITHOUT_CYCLE = {"no_cycle": "no cycle found", "separates": "immediate separation"}
+WITHOUT_CYCLE |= {"no_stick_slip": "steady sliding", "at_rest": "permanent stick"}
 """Names in tables and figures of points without a stick-slip cycle, by their status."""
 EXCLUDED = "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
 START = "start"  # the dimension of a grid along which the initial conditions vary

@@ -145,12 +145,10 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
     except csv.Error as error:
         raise ParameterError(Fault((), "", f"must be a table of comma-separated values ({error})")) from None
     names, *rows = [row for row in table if any(row)] or [[]]
-    uneven = [
-        Fault((), "", f"mode {i} has {len(row)} values: must be as many as columns, {len(names)}")
-        for i, row in enumerate(rows, 1)
-        if len(row) != len(names)
-    ]
-    raise_faults(_column_faults(names) or uneven[:3])
+    counts = [(i, len(row)) for i, row in enumerate(rows, 1) if len(row) != len(names)]
+    rule = f"must be as many as columns, {len(names)}"
+    uneven = [Fault((), "", f"mode {i} has {count} values: {rule}") for i, count in counts[:3]]
+    raise_faults(_column_faults(names) or uneven)
     return names, rows
 
 

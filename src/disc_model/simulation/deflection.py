@@ -51,10 +51,8 @@ def snapshots(
     numbers = _numbers(times)
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
-    wrong = violations(
-        (starts, "initial_state", initial_state, "must be a State"),
-        (ascend, "times", times, "must be finite and ascend"),
-    )
+    wrong = violations((starts, "initial_state", initial_state, "must be a State"))
+    wrong += violations((ascend, "times", times, "must be finite and ascend"))
     raise_faults(foreign_case(p) + wrong)
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state = static_start(p) if initial_state is None else initial_state
@@ -124,10 +122,8 @@ def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> t
     radii, angles = _numbers(r), _numbers(theta)
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
     limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
-    faults = violations(
-        (within, "r", r, f"must be within {limits}"),
-        (angles is not None, "theta", theta, "must be finite"),
-    )
+    faults = violations((within, "r", r, f"must be within {limits}"))
+    faults += violations((angles is not None, "theta", theta, "must be finite"))
     for i, state in enumerate(states_in_order):
         if not isinstance(state, State):
             faults += violations((False, f"states.{i}", state, "must be a State"))

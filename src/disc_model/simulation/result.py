@@ -133,13 +133,8 @@ class Result(Summarised, Pictures):
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}
-        return values | {
-            "first_separation": self.first_separation,
-            "t_end": self.t_end,
-            "time_reached": self.final_state.time,
-            "tol": self.tol,
-            "u_0": self.u_0,
-        }
+        values |= {name: getattr(self, name) for name in ("first_separation", "t_end", "tol", "u_0")}
+        return values | {"time_reached": self.final_state.time}
 
     def save(self, path: str | Path) -> None:
         """Write the whole result, in one piece; `Result.load` reads it back.

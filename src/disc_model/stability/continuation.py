@@ -76,19 +76,14 @@ class CyclePoint:
 
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``parameter_scale`` replaces the usual scales.
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``scale`` replaces the usual scales.
 
     Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
     `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
-        self,
-        p: Parameters,
-        names: tuple[str, ...],
-        parameter_scale: float | None,
-        tol: float,
-        order: Counts | None = None,
+        self, p: Parameters, names: tuple[str, ...], scale: float | None, tol: float, order: Counts | None = None
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._analytic = tuple(name for name in names if name in PARAMETERS)
@@ -96,7 +91,7 @@ class CycleProblem:
         self.n = reference.size
         self.scale = reference.scale
         self.size = reference.deflection
-        self.scales = np.array([parameter_scale or default_scale(p, name) for name in names])
+        self.scales = np.array([scale or default_scale(p, name) for name in names])
 
     def case(self, z: Array) -> Parameters:
         values = z[self.n :] * self.scales

@@ -232,9 +232,8 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     begin = case.numbers[name]
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
-        branch = continue_cycle(
-            case, name, bounds, direction=direction, tol=tol, steps=StepControl(scale=abs(end - begin), max_points=40)
-        )
+        steps = StepControl(scale=abs(end - begin), max_points=40)
+        branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")
         return None
