@@ -189,10 +189,8 @@ def first_separation(
 
 
 def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
-    """Separations per second, the disc's range and the period, long after contact was first lost.
-
-    The time leaves out the disc's range, for which some methods make a call per step.
-    """
+    """Separations per second, the disc's range and the period, long after contact was first lost. The time leaves out
+    the disc's range, for which some methods make a call per step."""
     start = start_of("settled") if start is None else start
     problem = Problem(p, start, start.time + SETTLED_SPAN, watched=True)
     result = solve(problem, budget)
@@ -281,11 +279,9 @@ def growth(releases: Array) -> float:
 
 
 def region(solve: Solve, budget: float) -> Replies:
-    """Fraction of the cells with a wrong verdict.
-
-    If the budget is too small for all cells, a power of two of them is drawn at random with a fixed seed. The answer
-    then has Wilson's interval of 95 %.  The time is extrapolated to all cells.
-    """
+    """Fraction of the cells with a wrong verdict. If the budget is too small for all cells, a power of two of them is
+    drawn at random with a fixed seed. The answer then has Wilson's interval of 95 %. The time is extrapolated to all
+    cells."""
     right = [letter == "1" for row in stored("answers")["region"] for letter in row]  # loads along the first axis
     return {"region": judged(lambda index: cell(solve, cell_parameters(index), budget), right.__getitem__, budget)}
 

@@ -104,11 +104,9 @@ _RED = "#B2182B"
 
 
 def answers(dataset: xr.Dataset) -> Figure:
-    """Wall time against the error of each answer; models are marked with their numbers of nodal diameters.
-
-    Shaded: correct.  A method that wrongly reports no result has a hollow mark at the right edge. Errors below all
-    others, exact zeros among them, stand at the left edge.
-    """
+    """Wall time against the error of each answer; models are marked with their numbers of nodal diameters. Shaded:
+    correct. A method that wrongly reports no result has a hollow mark at the right edge. Errors below all others, exact
+    zeros among them, stand at the left edge."""
     enough = {name: question["enough"] for name, question in json.loads(dataset.attrs["questions"]).items()}
     answers = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
     names = [name for name in ANSWERS if name in answers]
@@ -155,10 +153,8 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
 
 
 def prices(dataset: xr.Dataset) -> Figure:
-    """Wall time of each method for each answer, at its cheapest correct setting.
-
-    The setting stands below the time. The number in red counts settings that give a wrong answer without a warning.
-    """
+    """Wall time of each method for each answer, at its cheapest correct setting. The setting stands below the time. The
+    number in red counts settings that give a wrong answer without a warning."""
     answered = dataset.to_dataframe().query("line not in @MODELS")
     names = [name for name in HEADS if name in dataset["answer"].values]
     labels = answered.drop_duplicates("line")["label"]
@@ -282,12 +278,10 @@ FAR = 25.0  # greatest difference of first separations that is shown to scale, p
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:
-    """Effect of residual flexibility against the number of real modes; one colour per case.
-
-    Filled: residual flexibility; hollow and dashed: rigid contact.  First separations are compared with that of the
-    largest model with residual flexibility. Arrows at the edge mark values far outside the panel, crosses at the foot
-    models without a cycle.
-    """
+    """Effect of residual flexibility against the number of real modes; one colour per case. Filled: residual
+    flexibility; hollow and dashed: rigid contact. First separations are compared with that of the largest model with
+    residual flexibility. Arrows at the edge mark values far outside the panel, crosses at the foot models without a
+    cycle."""
     first = dataset["first_separation"]
     late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
     part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late).sel(contact=["residual", "rigid"])

@@ -66,10 +66,8 @@ def failure_map(
 def answer_map(
     method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
 ) -> xr.Dataset:
-    """Verdicts on a method's first separation along (diameters, value), from coarse to fine.
-
-    Along diameters: ``modes`` (real modes) and ``right`` (s, nan where contact is not lost).
-    """
+    """Verdicts on a method's first separation along (diameters, value), from coarse to fine. Along diameters: ``modes``
+    (real modes) and ``right`` (s, nan where contact is not lost)."""
     judged = METHODS[method].economical()
     reference = setting_of(METHODS["series"], REFERENCE_TOL)
     right = {count: _separation(reference, math.inf, count).value for count in diameters}

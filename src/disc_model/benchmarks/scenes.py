@@ -136,11 +136,9 @@ def answer(name: str) -> Answer:
 
 
 def rigid_cycle(problem: Problem) -> Answer:
-    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping).
-
-    A rigid disc is the limit of E to infinity. At E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is
-    3e-9, and the answer is exact to about that.
-    """
+    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping). A rigid disc is
+    the limit of E to infinity. At E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is 3e-9, and the
+    answer is exact to about that."""
     p = problem.parameters
     w = math.sqrt(p.k_p / p.m)
     held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
@@ -177,10 +175,8 @@ def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
 
 
 def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> float:
-    """Largest error of an event time, s; nan if the events are wrong.
-
-    If only one of the two has an event just before the end, it counts as late, not as wrong.
-    """
+    """Largest error of an event time, s; nan if the events are wrong. If only one of the two has an event just before
+    the end, it counts as late, not as wrong."""
     common = min(len(answer.kinds), len(result.kinds))
     if common == 0 or answer.kinds[:common] != result.kinds[:common]:
         return math.nan

@@ -168,11 +168,9 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """Cost with events correct to `DEFAULT` s over that of the series engine at its default, by scene and method.
-
-    Costs are those of a further second, at that error by `cost_at`.  If the series engine's own error is larger, all
-    methods are allowed that error.
-    """
+    """Cost with events correct to `DEFAULT` s over that of the series engine at its default, by scene and method. Costs
+    are those of a further second, at that error by `cost_at`. If the series engine's own error is larger, all methods
+    are allowed that error."""
     ratios: dict[str, dict[str, float]] = {}
     for scene in JUDGED:
         part = points[points["scene"] == scene]
@@ -186,9 +184,7 @@ def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
 
 def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
     """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no setting is as accurate.
-
-    A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings.
-    """
+    A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings."""
     known = line[np.isfinite(line["event_error"])].sort_values(cost)
     errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
     best = errors < np.minimum.accumulate(np.concatenate([[np.inf], errors[:-1]])) if len(known) else []

@@ -37,10 +37,8 @@ class Bifurcation(Plot):
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw samples against a parameter, coloured by phase, grey where it is not shown that the motion has settled.
-
         A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
-        events.  Periods are below, and the further study ``lyapunov``, if it is given.
-        """
+        events. Periods are below, and the further study ``lyapunov``, if it is given."""
         from matplotlib.lines import Line2D
 
         study = study.transpose(self.x, "sample", ...)

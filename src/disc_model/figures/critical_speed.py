@@ -86,10 +86,8 @@ class CriticalSpeed(Plot):
 
 
 def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
-    """Speeds at which separation within a horizon "begins" or "ends" as the speed rises, for each load, rad/s.
-
-    Onsets include the lowest speed of the scan if it separates already.
-    """
+    """Speeds at which separation within a horizon "begins" or "ends" as the speed rises, for each load, rad/s. Onsets
+    include the lowest speed of the scan if it separates already."""
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     mask = (flag_names(of_horizon["crossing_kind"]) == kind) & np.isfinite(of_horizon["crossing"].values)
     speeds_of_loads = [speeds[row] for speeds, row in zip(of_horizon["crossing"].values, mask, strict=True)]
@@ -101,10 +99,8 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
 
 
 def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
-    """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load.
-
-    The two are nearest to each other; a crossing without such a partner ends a branch.
-    """
+    """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load. The two
+    are nearest to each other; a crossing without such a partner ends a branch."""
     links = []
     for i, (current, ahead) in enumerate(pairwise(speeds)):
         if current.size and ahead.size:
@@ -182,10 +178,8 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
     """Shade cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
-
     The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
-    sweep is left out if the sweep found no separation at one of them.
-    """
+    sweep is left out if the sweep found no separation at one of them."""
     from matplotlib.colors import ListedColormap
 
     rate = cycle["growth_rate"]
@@ -199,10 +193,8 @@ def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
 
 
 def _measured(ax: Axes, basins: xr.Dataset) -> None:
-    """Draw speeds at which some of many starts reach the quiet cycle, and others lasting separation.
-
-    Both fractions exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line.
-    """
+    """Draw speeds at which some of many starts reach the quiet cycle, and others lasting separation. Both fractions
+    exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line."""
     load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
     quiet, separating = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
     # well within the step of the sweeps, N
@@ -224,11 +216,9 @@ class RampedSpeeds(Plot):
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw one point; with the further study ``curves``, also the speed at which the cycle ends at this load.
-
-        This is the limit of the onset for slow ramps: the highest such speed below all onsets. Other ends belong to
-        other cycles.
-        """
+        """Draw one point; with the further study ``curves``, also the speed at which the cycle ends at this load. This
+        is the limit of the onset for slow ramps: the highest such speed below all onsets. Other ends belong to other
+        cycles."""
         study = study.squeeze()
         options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
         rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))

@@ -51,10 +51,8 @@ class Motion(NamedTuple):
         return cls(p, time, turned, slider, u, np.array([state.phase for state in states]))
 
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
-        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m).
-
-        Without radii it is that along the slider's circle, which needs no shapes.
-        """
+        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m). Without
+        radii it is that along the slider's circle, which needs no shapes."""
         modes = mode_arrays(self.parameters)
         shapes = modes.psi[:, None] if r is None else mode_shapes(self.parameters, r)
         turns = modes.diameters[:, None] * theta

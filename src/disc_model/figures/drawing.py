@@ -106,10 +106,8 @@ def panels(width: float, height: float, rows: int = 1, columns: int = 1, **share
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes.
-
-    The first file decides the layout. Further ones take it over, which halves their cost.
-    """
+    """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes. The first file
+    decides the layout. Further ones take it over, which halves their cost."""
     path = Path(path)
     metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
     if title:
@@ -235,10 +233,8 @@ def what_case(values: Mapping[str, Any]) -> str:
 
 
 def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
-    """Label and values of each slice along a dimension; one slice without a dimension.
-
-    A slice of a zip is labelled by its parameters.  Words are ordered as in `WORDS`, not alphabetically as in datasets.
-    """
+    """Label and values of each slice along a dimension; one slice without a dimension. A slice of a zip is labelled by
+    its parameters. Words are ordered as in `WORDS`, not alphabetically as in datasets."""
     if by is None:
         return [("", variable)]
     along = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
@@ -266,10 +262,8 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, the factor from SI to its unit, and its colour.
-
-    The label of the disc's fixed point states its angle.
-    """
+    """Axis label of a sampled variable, the factor from SI to its unit, and its colour. The label of the disc's fixed
+    point states its angle."""
     angles = variables.angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER

@@ -139,9 +139,8 @@ def draw_maps(
     figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
 ) -> list[Patch]:
     """Draw a variable in colour over two dimensions, a panel for each value of a third; returns entries of a legend.
-
-    Growth rates and outcomes look as in all maps; variables of both signs are centred on 0. Missing values are hatched.
-    """
+    Growth rates and outcomes look as in all maps; variables of both signs are centred on 0. Missing values are
+    hatched."""
     from cmcrameri import cm
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
@@ -248,11 +247,8 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a variable against one dimension, or a line for each value of a second one.
-
-    Marks at the axis stand for missing values. A second dimension of numbers has a colour scale, one of words or pairs
-    labels for a legend.
-    """
+    """Draw a variable against one dimension, or a line for each value of a second one. Marks at the axis stand for
+    missing values. A second dimension of numbers has a colour scale, one of words or pairs labels for a legend."""
     from cmcrameri import cm
     from matplotlib.cm import ScalarMappable
 

@@ -127,10 +127,8 @@ class Kind(Strict):
         raise NotImplementedError
 
     def write_head(self, figure: Figure, title: str, values: str) -> None:
-        """Write the figure's title, or else another one, and values of parameters above it, in lines that fit.
-
-        A caption says both.  Axes get the units of the reader.
-        """
+        """Write the figure's title, or else another one, and values of parameters above it, in lines that fit. A
+        caption says both. Axes get the units of the reader."""
         drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:

@@ -89,8 +89,7 @@ class Noted(NamedTuple):
 
 def noted(study: xr.Dataset) -> list[Noted]:
     """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates rise, and
-    elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one.
-    """
+    elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one."""
     rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
     speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
     rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))

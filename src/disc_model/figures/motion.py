@@ -57,10 +57,8 @@ def shade_phases(axes: Sequence[Axes], window: xr.Dataset) -> list[Artist]:
 
 
 def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
-    """Draw variables against time, one above the other, over their shaded phases; an envelope as ranges.
-
-    Returns the entries of a legend of the phases; none where they are not shaded.
-    """
+    """Draw variables against time, one above the other, over their shaded phases; an envelope as ranges. Returns the
+    entries of a legend of the phases; none where they are not shaded."""
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
         ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20))  # markup is not shown
@@ -199,9 +197,7 @@ def draw_sections(
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
     """Time from which a motion has settled, s, by its section; by the ranges of a window where that does not show it.
-
-    Points of a section may come near each other again for longer than the record.
-    """
+    Points of a section may come near each other again for longer than the record."""
     window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
     since = []
     for name in ("psi", "w_point"):

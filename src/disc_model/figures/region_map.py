@@ -68,10 +68,8 @@ class RegionMap(Plot):
             yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked.
-
-        Lines come from the further study ``curves``, if it is given, and else lie between cells.
-        """
+        """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked. Lines come
+        from the further study ``curves``, if it is given, and else lie between cells."""
         norms = drawing.normalizations(study)
         shown = planes(study, norms, self)
         figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
@@ -163,9 +161,7 @@ def planes(study: xr.Dataset, norms: Sequence[str], plot: RegionMap) -> list[xr.
 
 def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Artist]:
     """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes.
-
-    Returns legend entries, one for each shape among the marks.
-    """
+    Returns legend entries, one for each shape among the marks."""
     set_scales(axes, study, plot)
     if drawing.normalizations(study)[0] != "as_published":
         return []

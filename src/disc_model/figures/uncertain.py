@@ -38,9 +38,7 @@ class BasinShares(Plot):
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below.
-
-        The size of an attractor's mark is its fraction of all starts.
-        """
+        The size of an attractor's mark is its fraction of all starts."""
         study = study.transpose(self.x, ...)
         label, factor = drawing.label_of(study[self.x])
         along, energies = study[self.x].values * factor, study["energy"].values
@@ -126,10 +124,8 @@ class Sensitivity(Plot):
             yield Fault.of(("kind",), self.kind, rule)
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each point and a row for each parameter, those above that change most somewhere.
-
-        Bars are 95 % intervals; the dashed line is the probability at all values.
-        """
+        """Draw a panel for each point and a row for each parameter, those above that change most somewhere. Bars are 95
+        % intervals; the dashed line is the probability at all values."""
         cells = list(cells_of(study))
         names = [str(name) for name in study["parameter"].values]
         names.sort(

@@ -58,10 +58,8 @@ def _data(row: Row) -> dict[str, str]:
 
 
 def summary(table: pd.DataFrame) -> dict[str, Any]:
-    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers.
-
-    A sentence is said only if its row has the verdict that it speaks of.
-    """
+    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers. A
+    sentence is said only if its row has the verdict that it speaks of."""
     texts = read_texts("ledger.yaml")
     counted = table[table["counts"] != "error in print"]
     parts = pd.crosstab(counted["section"], counted["verdict"]).reindex(

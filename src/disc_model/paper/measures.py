@@ -191,9 +191,7 @@ class CaseView:
 
     def settling(self) -> Settling:
         """Whether the ranges of contact force and disc have settled, by the history's bins but the last, which is cut.
-
-        The last stretches are looked at once more, since a change that has just begun hardly shows in a long record.
-        """
+        The last stretches are looked at once more, since a change that has just begun hardly shows in a long record."""
         whole = self.history.isel(time=slice(None, -1))
         late = whole.sel(time=slice(self["time_reached"] - STRETCHES * STRETCH, None))
         whole_and_late = [

@@ -22,10 +22,8 @@ SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the
 
 
 def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:
-    """What changes with orthonormal modes: in "brief", then in the "modes", the "cases" and the "verdicts".
-
-    Cases of the second set alone are "instead", if there are any.
-    """
+    """What changes with orthonormal modes: in "brief", then in the "modes", the "cases" and the "verdicts". Cases of
+    the second set alone are "instead", if there are any."""
     shared = _once([case for name, case in published.items() if name in orthonormal])
     pairs = {name: (published[name], orthonormal[name]) for name in shared}
     failed = [name for name, pair in pairs.items() if "failed" in (case.status for case in pair)]

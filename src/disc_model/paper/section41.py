@@ -335,10 +335,8 @@ class Powers(NamedTuple):
 
 
 def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[Any, Any]]) -> Powers:
-    """Mean powers from samples of the disc at as many angles as it has modes, which give its whole motion.
-
-    f B is the velocity of the contact point less that of the disc's material under it.
-    """
+    """Mean powers from samples of the disc at as many angles as it has modes, which give its whole motion. f B is the
+    velocity of the contact point less that of the disc's material under it."""
     order = np.argsort(mode_arrays(p).diameters)
     omega, psi, damping = (
         np.concatenate([each[order], each[order][1:]])[:, None]

@@ -338,9 +338,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
     """Whether the rate of separations rises with a stiffer spring as the frequency of slider and spring alone does.
-
-    Ambiguous if it rises as that of the mode in which they move with the disc.
-    """
+    Ambiguous if it rises as that of the mode in which they move with the disc."""
     rows, follows, alone = [], [], []
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(case.intervals("separation").mean()) for case in pair]

@@ -137,10 +137,8 @@ def below_critical(*cases: CaseView, share: float) -> Answer:
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
-    """Cases that lose contact; raises `Missing` if one did not reach its end.
-
-    Bilateral contact may end in Painlevé's paradox, when the disc has grown so steep under the slider.
-    """
+    """Cases that lose contact; raises `Missing` if one did not reach its end. Bilateral contact may end in Painlevé's
+    paradox, when the disc has grown so steep under the slider."""
     for case in cases:
         if case.status != "ok" and not (case.bonded and case.status == "paradox"):
             raise Missing(f"{case.status} (case {case.name})")

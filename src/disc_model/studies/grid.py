@@ -422,9 +422,7 @@ def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) ->
 
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
     """The product of blocks in parts of at most `size`; each holds whole values of a block, and all of later blocks.
-
-    Thus a further value of a dimension that is cut into single values adds parts and keeps the others.
-    """
+    Thus a further value of a dimension that is cut into single values adds parts and keeps the others."""
     first, *others = blocks
     within = math.prod(map(len, others))
     if within > size:

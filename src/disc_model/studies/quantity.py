@@ -96,10 +96,8 @@ class Range(Ruled):
         return [float(value) for value in self.blocks()[0]]
 
     def blocks(self, resolution: int = 1) -> Blocks:
-        """The range's own values, then those that divide each interval further.
-
-        A finer grid adds blocks and keeps the existing ones: resolution 4 has the blocks of 2, and one more.
-        """
+        """The range's own values, then those that divide each interval further. A finer grid adds blocks and keeps the
+        existing ones: resolution 4 has the blocks of 2, and one more."""
         n = self.intervals * resolution
         if n >= MOST:
             raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
@@ -285,11 +283,8 @@ class Quantity(Ruled):
         return ()
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
-        """Values at one point by column (flags as words), and a message.
-
-        Omitted columns are missing. Lists and arrays shorter than their dimension are padded with missing values,
-        longer ones are cut.
-        """
+        """Values at one point by column (flags as words), and a message. Omitted columns are missing. Lists and arrays
+        shorter than their dimension are padded with missing values, longer ones are cut."""
         raise NotImplementedError
 
     def compute_tile(
@@ -303,10 +298,8 @@ class Quantity(Ruled):
         raise NotImplementedError
 
     def summarise(self, cell: xr.Dataset) -> Row:
-        """Values of the summary by column, for a merged dataset that has only the dimension `over` left.
-
-        A rule of the grid may leave out some of its points, or all.
-        """
+        """Values of the summary by column, for a merged dataset that has only the dimension `over` left. A rule of the
+        grid may leave out some of its points, or all."""
         raise NotImplementedError
 
 

@@ -74,10 +74,8 @@ class Tile:
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
-        """Compute the points that their cell's corners do not decide.
-
-        Their start follows a growing cycle and yet was taken to stay quiet, or follows none though most neighbours do.
-        """
+        """Compute the points that their cell's corners do not decide. Their start follows a growing cycle and yet was
+        taken to stay quiet, or follows none though most neighbours do."""
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [index for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if index in self.starts]
             doubtful = outcome in CALM
@@ -89,9 +87,7 @@ class Tile:
 
     def _confirm(self) -> bool:
         """Whether an outcome changes if its departure is simulated as a whole, where both points beside have another.
-
-        Multipliers do not keep the phase of a departure. Near a border it may decide about separation.
-        """
+        Multipliers do not keep the phase of a departure. Near a border it may decide about separation."""
         changed = False
         for (i, j), result in list(self.results.items()):
             if not isinstance(result, OutcomeResult) or result.extrapolated is None:
@@ -186,10 +182,8 @@ class Tile:
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
     def _follow(self, index: Index) -> NearCycle | None:
-        """The cycle that the static start follows at a point, if that is known.
-
-        As long as the motion departs from the point's own cycle it is that one: the later is known at few points.
-        """
+        """The cycle that the static start follows at a point, if that is known. As long as the motion departs from the
+        point's own cycle it is that one: the later is known at few points."""
         cycle, result = self._own(index), self.results.get(index)
         if not isinstance(result, OutcomeResult):
             return cycle
@@ -249,11 +243,8 @@ class Tile:
         return row, "" if result is None else result.message
 
     def _others(self) -> dict[Index, int]:
-        """Number of known cycles at each point besides the one nearest to the start.
-
-        Each row is followed in both directions. A cycle that does not continue into the next point's own cycle is
-        searched for there.
-        """
+        """Number of known cycles at each point besides the one nearest to the start. Each row is followed in both
+        directions. A cycle that does not continue into the next point's own cycle is searched for there."""
         known = {index: [start.x] if isinstance(start, NearCycle) else [] for index, start in self.starts.items()}
         for i in range(self.shape[0]):
             row = [(i, j) for j in range(self.shape[1])]

@@ -26,11 +26,9 @@ POINT = "point"
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Compute a batch, given as a text from `disc_model.studies.grid.GridStudy.batches`.
-
-    The dataset has the quantity's variables along `point`, and the parameters that vary beside them. A function `of`
-    the quantity makes what is computed instead of it.
-    """
+    """Compute a batch, given as a text from `disc_model.studies.grid.GridStudy.batches`. The dataset has the quantity's
+    variables along `point`, and the parameters that vary beside them. A function `of` the quantity makes what is
+    computed instead of it."""
     data = json.loads(text)
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
@@ -75,10 +73,8 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
 
 
 def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
-    """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order.
-
-    Each combination of the other varying parameters is a tile of its own.
-    """
+    """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order. Each
+    combination of the other varying parameters is a tile of its own."""
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
     for point in data["points"]:

@@ -268,10 +268,8 @@ def read_files(*paths: str | Path) -> Any:
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
-    """The study from Snakemake's merged configuration files, later ones first, and its command line.
-
-    The files are searched for duplicate keys, which the mapping no longer shows.
-    """
+    """The study from Snakemake's merged configuration files, later ones first, and its command line. The files are
+    searched for duplicate keys, which the mapping no longer shows."""
     paths = [Path(file) for file in files]
     for path in paths:
         read_file(path)
@@ -310,9 +308,7 @@ def _document(raw: Any) -> Document:
 
 def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
     """A file's content in which the names of disc tables, relative to the folder, are replaced by the discs.
-
-    Recomputation thus depends on a table's content and not on its name. Raises `ParameterError`.
-    """
+    Recomputation thus depends on a table's content and not on its name. Raises `ParameterError`."""
     if not isinstance(raw, Mapping):
         return raw
     if not path:  # names along an axis of discs are tables too
@@ -371,10 +367,8 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
-    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results.
-
-    The same files with further ones laid over them, or without these, are the same study in other detail.
-    """
+    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results. The
+    same files with further ones laid over them, or without these, are the same study in other detail."""
     former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
     shorter = min(len(files), len(former))
     exist = all(Path(file).is_file() for file in former)

@@ -134,10 +134,8 @@ class Meter:
         return MethodResult(*events, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
-        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size).
-
-        If it is requested, they extend the range of w (m): between two it is the cubic with its values and rates there.
-        """
+        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size). If
+        it is requested, they extend the range of w (m): between two it is the cubic with its values and rates there."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
         if not self.problem.watched:

@@ -106,9 +106,7 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `base.ENDS`.
-
-    Parameters at run time: N - k u_0, Omega and, in slip, its direction.
-    """
+    Parameters at run time: N - k u_0, Omega and, in slip, its direction."""
     import heyoka as hy
 
     p, n, l, s = physics.p, physics.n, physics.l, physics.shape

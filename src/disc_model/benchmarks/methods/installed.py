@@ -254,11 +254,9 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
 
 
 def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
-    """The same engine without the disc's modes if the disc deflects by less than the tolerance.
-
-    The modes change the answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring.
-    They are never excited and then follow statically, however fast they are.
-    """
+    """The same engine without the disc's modes if the disc deflects by less than the tolerance. The modes change the
+    answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring. They are never excited
+    and then follow statically, however fast they are."""
     physics = Physics(problem.parameters)
     give = problem.parameters.k * float(np.sum(physics.shape**2 / physics.stiffness))
     start = problem.start

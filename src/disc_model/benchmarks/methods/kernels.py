@@ -60,11 +60,9 @@ class Physics:
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
     def distance(self, state: State, other: State) -> float:
-        """Energy norm of the difference of two states divided by that of ``other``; dimensionless.
-
-        The norm includes displacement and velocity of every mode and of the in-plane motion, weighted as in the energy.
-        If either state is separated, it includes those of the slider's height too.
-        """
+        """Energy norm of the difference of two states divided by that of ``other``; dimensionless. The norm includes
+        displacement and velocity of every mode and of the in-plane motion, weighted as in the energy. If either state
+        is separated, it includes those of the slider's height too."""
         right = self.pack(other)
         return float(np.sqrt(self._energy(self.pack(state) - right) / self._energy(right)))
 
@@ -267,10 +265,8 @@ def _leave(modes, c, y):
 
 @_kernel
 def switch(modes, c, phase, cause, y, kinds):
-    """Carry out an event in place; ``cause`` is the index of its function in `switch_values`.
-
-    Returns (phase, direction, number of events written to ``kinds``); -1 events if the state is not finite.
-    """
+    """Carry out an event in place; ``cause`` is the index of its function in `switch_values`. Returns (phase,
+    direction, number of events written to ``kinds``); -1 events if the state is not finite."""
     n = modes.shape[1]
     if not abs(np.sum(y)) < np.inf:
         return phase, 0, -1
@@ -310,8 +306,7 @@ def switch(modes, c, phase, cause, y, kinds):
 @_kernel
 def _dip(before, current, after):
     """Place of the minimum, in the last of two equal steps, of the parabola through three values; 0 unless it is below
-    half of both ends there.
-    """
+    half of both ends there."""
     bend, rise = after - 2.0 * current + before, 0.5 * (after - before)
     s = -rise / bend if bend > 0.0 else 0.0
     return s if 0.0 < s < 1.0 and current + 0.5 * s * rise < 0.5 * min(current, after) else 0.0

@@ -65,10 +65,8 @@ class Ramps(Quantity):
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
-    """One run: up from the lowest speed, a dwell at the highest, down again, and a dwell at the lowest.
-
-    Returns values of the columns, as far as they are known, and the part of the run that failed, if any.
-    """
+    """One run: up from the lowest speed, a dwell at the highest, down again, and a dwell at the lowest. Returns values
+    of the columns, as far as they are known, and the part of the run that failed, if any."""
     from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
 

@@ -169,10 +169,8 @@ class Sensitivity(Quantity):
         return {SAMPLE: tuple(tuple(range(*block)) for block in pairwise(ends))}
 
     def faults(self, grid: Any) -> Iterator[Fault]:
-        """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values.
-
-        Each rule is reported where it is broken first.
-        """
+        """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values. Each
+        rule is reported where it is broken first."""
         path, numbers = ("options", "distributions"), _numbers(grid)
         varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
         faults = []
