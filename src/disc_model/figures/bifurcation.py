@@ -72,7 +72,14 @@ class Bifurcation(Plot):
                 ax.plot(idle, np.full(idle.size, 0.02), marker, label=label, **at_edge)
         axes[-1].set_xlabel(xlabel)
         ax.set_ylabel(ylabel)
-        _period(axes[1], along[moving], study["period_events"].values[moving])
+        at, period = along[moving], study["period_events"].values[moving]
+        repeats = period > 0
+        axes[1].plot(at[repeats], period[repeats], ".", color=BLACK, markersize=3)
+        axes[1].set(yscale="log", ylim=(0.4, None), ylabel="Period\n(events)")  # room for crosses below period 1
+        axes[1].yaxis.set_major_formatter("{x:g}")
+        drawing.mark_failed(axes[1], at[~repeats], name="not shown to repeat")
+        if not repeats.all():
+            drawing.legend_above(axes[1])
         if "lyapunov" in overlays:
             _exponents(axes[2], overlays["lyapunov"], self.x)
         drawing.letters(axes)
@@ -83,17 +90,6 @@ class Bifurcation(Plot):
             if isinstance(handle, Line2D):
                 handle.set_markersize(6)
         return figure
-
-
-def _period(ax: Axes, along: np.ndarray, period: np.ndarray) -> None:
-    """Draw the number of events after which the motion repeats; crosses at the foot where it is unknown."""
-    repeats = period > 0
-    ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=3)
-    ax.set(yscale="log", ylim=(0.4, None), ylabel="Period\n(events)")  # room for crosses below period 1
-    ax.yaxis.set_major_formatter("{x:g}")
-    drawing.mark_failed(ax, along[~repeats], name="not shown to repeat")
-    if not repeats.all():
-        drawing.legend_above(ax)
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:

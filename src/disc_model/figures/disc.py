@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.errors import Fault, ParameterError
 from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, Axes, FigureBase, Normalize, QuadMesh
 from disc_model.parameters import Parameters
 
@@ -172,10 +171,3 @@ def film(figure: FigureBase, motion: Motion, time: Array, force: Array) -> Any:
         return [disc, circle, trace]
 
     return FuncAnimation(figure, draw, frames=motion.time.size, blit=False)  # type: ignore[arg-type]
-
-
-def needs_shapes(p: Parameters) -> None:
-    """Raise `ParameterError` if only the amplitudes of a disc are known, so that it cannot be drawn."""
-    if p.n_diameters < 0 and p.disc is None:
-        raise ParameterError(Fault(("n_diameters",), str(p.n_diameters), "must be >= 0: a rigid disc has no modes"))
-    radial_range(p)

@@ -165,8 +165,16 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Art
     set_scales(axes, study, plot)
     if drawing.normalizations(study)[0] != "as_published":
         return []
+    ax = axes[0]
+    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.outline(2.4, BLACK)}
     for name, mark in plot.marks.items():
-        _paper_mark(axes[0], plot, name, mark)
+        # a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle
+        point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
+        shape = PAPER_MARKERS[mark.paper_outcome]
+        ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+        across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
+        offset, look = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), {"path_effects": drawing.halo(2.0)}
+        drawing.say(ax, name, point, offset, fontsize=7, zorder=5, annotation_clip=False, **look)
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": drawing.outline(2.4, BLACK)}
@@ -175,17 +183,6 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Art
         for name, marker in PAPER_MARKERS.items()
         if name in outcomes
     ]
-
-
-def _paper_mark(ax: Axes, plot: RegionMap, name: str, mark: Mark) -> None:
-    """Draw a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle."""
-    point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
-    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.outline(2.4, BLACK)}
-    shape = PAPER_MARKERS[mark.paper_outcome]
-    ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
-    across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
-    offset = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5)
-    drawing.say(ax, name, point, offset, fontsize=7, zorder=5, annotation_clip=False, path_effects=drawing.halo(2.0))
 
 
 def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> None:

@@ -350,7 +350,9 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     """
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
     raise_faults(foreign_case(p) + violations(counts))
-    disc.needs_shapes(p)
+    drawable = p.n_diameters >= 0 or p.disc is not None
+    raise_faults(violations((drawable, "n_diameters", p.n_diameters, "must be >= 0: a rigid disc has no modes")))
+    disc.radial_range(p)
     count = min(most, len(disc.mode_arrays(p).omega))
     columns = min(count, 5)
     rows = -(-count // columns)

@@ -17,12 +17,6 @@ COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "matters", "not
 COLUMNS += ["rule", "figures", "data", "counts"]
 
 
-def section_of(place: str) -> str:
-    """Part of the paper, as the summary counts by it."""
-    part = re.sub(r"^(Sec\. 2)\.\d.*", r"\1", place.partition(",")[0])
-    return "Conclusions" if part.startswith("Conclusion") else part
-
-
 def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     """Judge all rows: a table with `COLUMNS`.
 
@@ -33,7 +27,8 @@ def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
         computed
     """
     table = judge(ROWS, {"": cases})
-    table["section"] = [section_of(row.place) for row in ROWS]
+    parts = [re.sub(r"^(Sec\. 2)\.\d.*", r"\1", row.place.partition(",")[0]) for row in ROWS]
+    table["section"] = ["Conclusions" if part.startswith("Conclusion") else part for part in parts]
     table["figures"], table["data"] = pd.Series(map(_figures, ROWS)), pd.Series(map(_data, ROWS))
     late = ["after the fact" if row.after_the_fact else "" for row in ROWS]
     table["counts"] = ["error in print" if row.print_error else word for row, word in zip(ROWS, late, strict=True)]

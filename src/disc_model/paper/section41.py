@@ -139,7 +139,11 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
     rows = [f"{case.place}: {case.motion}" for case in shown]
     near = [f"{case.place}: {case.late_motion()}" for case in stiffer]
-    other = [f"{case.place}: {_separations(case)}" for case in begun if not case.sticks]
+    other = []
+    for case in (case for case in begun if not case.sticks):
+        motion = measures.classify_intervals(tuple(case.intervals("separation")))
+        repeats = measures.counted(motion.period, "separation") if motion.period else str(motion)
+        other.append(f"{case.place}: {repeats}")
     return Answer(
         graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
         f"{'; '.join(rows)}.",
@@ -149,12 +153,6 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
         if other
         else "",
     )
-
-
-def _separations(case: CaseView) -> str:
-    """Number of separations after which the motion repeats, in words."""
-    motion = measures.classify_intervals(tuple(case.intervals("separation")))
-    return measures.counted(motion.period, "separation") if motion.period else str(motion)
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:

@@ -82,7 +82,8 @@ def follow(*cases: CaseView, within: float) -> Answer:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in lines]
-        away += [_from_natural(case, line) / case.drive for line in lines]
+        natural = natural_frequencies(case)
+        away += [float(np.min(np.abs(natural - line.frequency))) / case.drive for line in lines]
         stated = f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s"
         rows.append(f"{stated}, f_s = {rate:.2f} Hz: {listed((line.frequency for line in lines), '.1f')} Hz")
     combined = [each <= within for each in off]
@@ -235,11 +236,6 @@ def natural_frequencies(case: CaseView) -> measures.Array:
 def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
     """Distance of a line from the nearest n f_s + m f_Omega, Hz."""
     return abs(spectra.identify(line.frequency, rate, case.drive).deviation)
-
-
-def _from_natural(case: CaseView, line: spectra.Line) -> float:
-    """Distance of a line from the nearest natural frequency with the slider attached, Hz."""
-    return float(np.min(np.abs(natural_frequencies(case) - line.frequency)))
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them

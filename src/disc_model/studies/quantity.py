@@ -28,9 +28,14 @@ from disc_model.simulation.case import Start
 from disc_model.units import Count, Finite, Positive, Strict, Tolerance, must, number
 
 if TYPE_CHECKING:
-    import xarray as xr
+    from xarray import Dataset
 
+    from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
+    from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment
+    from disc_model.stability.cycle import FloquetResult
+else:  # names for annotations
+    Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
@@ -297,7 +302,7 @@ class Quantity(Ruled):
         """The state in which the motions of a point begin."""
         raise NotImplementedError
 
-    def summarise(self, cell: xr.Dataset) -> Row:
+    def summarise(self, cell: Dataset) -> Row:
         """Values of the summary by column, for a merged dataset that has only the dimension `over` left. A rule of the
         grid may leave out some of its points, or all."""
         raise NotImplementedError

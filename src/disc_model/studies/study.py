@@ -175,20 +175,17 @@ class Study:
             if isinstance(plot, Plot):
                 figures[self.name, name] = grids[plot.study or self.name].entry_of(name, plot)
             elif isinstance(plot, CasePlot):
-                figures[self.name, name] = self._entry_of(name, plot)
+                parameters = [self.specs[case].parameters for case in plot.cases]
+                values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
+                modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in parameters}))
+                title, inputs = plot.title or name, {case: case for case in plot.cases}
+                caption = f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
+                section = plot.section or plot.case
+                figures[self.name, name] = FigureEntry(plot, inputs, "Figures", section, title, caption)
         for grid in grids.values():
-            for name, plot in grid.plots.items():
-                figures.setdefault((grid.name, name), grid.entry_of(name, plot))
+            for name, grid_plot in grid.plots.items():
+                figures.setdefault((grid.name, name), grid.entry_of(name, grid_plot))
         return figures
-
-    def _entry_of(self, name: str, plot: CasePlot) -> FigureEntry:
-        """A figure of cases; its caption has their parameters."""
-        parameters = [self.specs[case].parameters for case in plot.cases]
-        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
-        modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in parameters}))
-        title, inputs = plot.title or name, {case: case for case in plot.cases}
-        caption = f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
-        return FigureEntry(plot, inputs, "Figures", plot.section or plot.case, title, caption)
 
     @property
     def doubts(self) -> Iterator[str]:

@@ -193,8 +193,12 @@ class Response(CasePlot):
                 drawing.show_thickness(axes["a"], case, "y")
             if self.printed is not None:
                 drawing.mark_printed(axes["a"], self.printed)
-            if marked is not None:
-                _mark(axes["a"], *marked)
+            if marked is not None:  # a line where it is too narrow to be seen
+                middle = (marked[0] + marked[1]) / 2
+                axes["a"].axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
+                if marked[1] - marked[0] < 0.02 * axes["a"].get_xlim()[1]:
+                    axes["a"].axvline(middle, color=BLACK, linewidth=0.8, zorder=0)
+                    drawing.say_above(axes["a"], middle, "(b)")
             drawing.letter(axes["a"], "a")
         for letter, (name, start) in zip(letters, self.zooms, strict=True):
             ax = axes[letter]
@@ -206,14 +210,6 @@ class Response(CasePlot):
                 ax.set_ylabel(label if letter == "c" else "")
                 drawing.letter(ax, letter)
         return figure
-
-
-def _mark(ax: Axes, start: float, stop: float) -> None:
-    """Shade the stretch of (b), with a line where it is too narrow to be seen."""
-    ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0, zorder=0)
-    if stop - start < 0.02 * ax.get_xlim()[1]:
-        ax.axvline((start + stop) / 2, color=BLACK, linewidth=0.8, zorder=0)
-        drawing.say_above(ax, (start + stop) / 2, "(b)")
 
 
 def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:

@@ -10,19 +10,16 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
 
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity, listed, with_ends
+from disc_model.studies import quantity
+from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, State, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
-    from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
@@ -33,7 +30,7 @@ _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("a
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
     ends = ("", ", lower end of its confidence interval", ", upper end of it")
-    return with_ends(what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends))
+    return quantity.with_ends(what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends))
 
 
 class AttractorBasins(Start, Quantity):
@@ -53,7 +50,7 @@ class AttractorBasins(Start, Quantity):
 
     tol: Tolerance = 1e-10
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
-    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
+    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
@@ -101,7 +98,7 @@ class AttractorBasins(Start, Quantity):
 
     @property
     def seconds(self) -> float:
-        return SIMULATED * len(self.energies) * self.n_starts * self.horizon / 6
+        return quantity.SIMULATED * len(self.energies) * self.n_starts * self.horizon / 6
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
@@ -124,7 +121,7 @@ class AttractorBasins(Start, Quantity):
         values |= _shares("basin_fraction_by_energy", results, self.confidence)
         values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
-        values |= with_ends("separating_fraction", shown)
+        values |= quantity.with_ends("separating_fraction", shown)
         values |= sample.critical_energy() | _described(starts)
         message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
         return values, message
@@ -192,7 +189,7 @@ def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: f
         [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
         for row in results
     ]
-    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
+    return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
 
 
 def _described(starts: Counter[Attractor]) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -12,12 +12,8 @@ from disc_model.analysis.classify import ANSWER, Settling, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start
-from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity
+from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity, Result, State
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
-
-if TYPE_CHECKING:
-    from disc_model.simulation.result import Result
-    from disc_model.simulation.states import State
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 

@@ -7,7 +7,7 @@ cycle near the static start, is continued in both directions, unless a known bra
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -16,12 +16,8 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
-from disc_model.studies.quantity import DIRECTION, STATUS, Coordinate, Free, Point, Quantity, Range, listed
+from disc_model.studies.quantity import STATUS, Coordinate, FloquetResult, Free, Point, Quantity, Range, State, listed
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
-    from disc_model.stability.cycle import FloquetResult
 
 _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
 
@@ -77,7 +73,7 @@ class Branches(Quantity):
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
     }
     COORDINATES: ClassVar = {
-        "direction": DIRECTION,
+        "direction": quantity.DIRECTION,
         "sweep_value": Coordinate("", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values),
         "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
         "branch_point": Coordinate("1", "number of the point along the branch", lambda o: range(2 * o.max_points)),

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +22,8 @@ from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import CYCLE, Coordinate, Point, Quantity, listed
+from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 KINDS = ("none", "disc", "slider")
 _EACH = ("mode",)
@@ -119,7 +116,7 @@ class Campbell(Quantity):
         }
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
-    def summarise(self, cell: xr.Dataset) -> dict[str, Any]:
+    def summarise(self, cell: Dataset) -> dict[str, Any]:
         """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
@@ -130,7 +127,7 @@ class Campbell(Quantity):
         return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
 
 
-def crossings(cell: xr.Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
+def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
     growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
     speeds = cell["Omega"].values
@@ -160,7 +157,7 @@ def crossings(cell: xr.Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
                 }
 
 
-def frequency_of(mode: xr.Dataset) -> Array:
+def frequency_of(mode: Dataset) -> Array:
     """Frequency of a mode at all speeds, Hz, as the module's docstring describes."""
     sliding = mode["sliding_frequency"].values
     more = mode["cycle_frequency"].values - sliding

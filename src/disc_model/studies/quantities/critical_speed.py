@@ -10,17 +10,14 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, Point, Range, listed
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, OutcomeResult, Point, Range, listed
 from disc_model.units import Count, Seconds, Speed, Unit
-
-if TYPE_CHECKING:
-    from disc_model.stability.attractor.outcome import OutcomeResult
 
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
-from disc_model.studies.quantity import CYCLE, Point, Quantity
+from disc_model.studies.quantity import CYCLE, Point, Quantity, State
 from disc_model.units import CycleTolerance
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
 
 CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 

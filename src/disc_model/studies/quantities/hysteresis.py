@@ -72,17 +72,11 @@ class Hysteresis(Quantity):
                 if name in values:
                     values[name][index] = number
         done = values["sweep_status"] == STATUSES.index("ok")
-        values |= _ends(np.array(speeds), values["separation_rate"] > 0, done) | {"status": status}
-        return values, message
-
-
-def _ends(speeds: np.ndarray, separates: np.ndarray, done: np.ndarray) -> dict[str, float]:
-    """Speeds at which separation begins on the way up and ends on the way down, if the sweep reached them."""
-    ends: dict[str, float] = {}
-    if separates[0].any():
-        ends["onset_speed"] = float(speeds[separates[0].argmax()])
-    if separates[1, -1]:
-        quiet = np.flatnonzero(~separates[1])
-        if not quiet.size or done[1, quiet[-1]]:
-            ends["offset_speed"] = float(speeds[quiet[-1] + 1 if quiet.size else 0])
-    return ends
+        rising, falling = values["separation_rate"] > 0
+        if rising.any():
+            values["onset_speed"] = speeds[rising.argmax()]
+        if falling[-1]:
+            quiet = np.flatnonzero(~falling)
+            if not quiet.size or done[1, quiet[-1]]:
+                values["offset_speed"] = speeds[quiet[-1] + 1 if quiet.size else 0]
+        return values | {"status": status}, message

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -10,11 +10,8 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
 
 CONVERGED = ("unknown", "no", "yes")
 _EACH = ("exponent_number",)

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import COME_TO, SIMULATED, STATUS, EarlyEnd, Point
+from disc_model.studies import quantity
+from disc_model.studies.quantity import STATUS, EarlyEnd, OutcomeResult, Point, Result, Segment, State
 from disc_model.units import Seconds
-
-if TYPE_CHECKING:
-    from disc_model.simulation.result import Result
-    from disc_model.simulation.states import State
-    from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 
 FEWEST = 4  # least number of checks of a motion that give a rate
 
@@ -40,7 +36,7 @@ class HorizonOutcome(Start, EarlyEnd):
     )
 
     motions: ClassVar = 4
-    motion: ClassVar = COME_TO
+    motion: ClassVar = quantity.COME_TO
     COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
@@ -62,7 +58,7 @@ class HorizonOutcome(Start, EarlyEnd):
 
     @property
     def seconds(self) -> float:
-        return SIMULATED * self.horizon / 2
+        return quantity.SIMULATED * self.horizon / 2
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one point; if it separates, its late stretch lies ``after_separation`` later."""

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, listed
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, listed
 from disc_model.units import Seconds, Speed, Tolerance, Unit
-
-if TYPE_CHECKING:
-    from disc_model.simulation.result import Result
-    from disc_model.simulation.states import State
 
 _DIMS = ("rate",)
 

@@ -6,22 +6,14 @@ A batch is a tile of the plane; `disc_model.studies.refinement` computes it.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING, Annotated, ClassVar, TypeVar
+from typing import Annotated, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, Row
+from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, Row, State
 from disc_model.units import Count, Seconds, Tolerance
 
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
-
-Array = NDArray[np.float64]
-T = TypeVar("T")
-Place = tuple[int, int]
 METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
 JOINED = ("no", "yes")
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")

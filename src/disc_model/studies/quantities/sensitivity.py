@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise, product
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +24,8 @@ from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Blocks, Coordinate, Point, Quantity, Row, Ruled, Rules, tried, with_ends
+from disc_model.studies.quantity import STATUS, Blocks, Coordinate, Dataset, Point, Quantity, Row, Ruled, Rules, tried
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from disc_model.stability.cycle import FloquetResult
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
@@ -106,7 +101,7 @@ FAILED = "failed"
 
 
 def _with_interval(name: str, words: str) -> dict[str, Variable]:
-    return with_ends(name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end")))
+    return quantity.with_ends(name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end")))
 
 
 class Sensitivity(Quantity):
@@ -228,7 +223,7 @@ class Sensitivity(Quantity):
             messages.append(message)
         return values, "; ".join(dict.fromkeys(filter(None, messages)))
 
-    def summarise(self, cell: xr.Dataset) -> dict[str, Any]:
+    def summarise(self, cell: Dataset) -> dict[str, Any]:
         """Summarise over the samples that no rule of the grid leaves out."""
         cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
         if not cell.sizes["sample"]:
@@ -242,7 +237,7 @@ class Sensitivity(Quantity):
         for name, words, hit in (("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))):
             known = words[words != FAILED]
             chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
-            values |= with_ends(f"probability_{name}", chance)
+            values |= quantity.with_ends(f"probability_{name}", chance)
         return values
 
 
@@ -308,17 +303,12 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
     from disc_model.stability.cycle import floquet
 
     cycle = floquet(p, tol=tol)
-    word = cycle_word(cycle)
-    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == "failed" else ""
-
-
-def cycle_word(cycle: FloquetResult) -> str:
-    """The class of a cycle in `SAMPLE_CYCLES`."""
+    word = cycle.status.value if cycle.status.value in SAMPLE_CYCLES else "failed"
     if cycle.status is CycleStatus.OK:
-        return "stable" if cycle.stable else "unstable"
-    if cycle.status is CycleStatus.NO_STICK_SLIP:
-        return "steady_sliding" if cycle.sliding.stable else "unstable_sliding"
-    return cycle.status.value if cycle.status.value in SAMPLE_CYCLES else "failed"
+        word = "stable" if cycle.stable else "unstable"
+    elif cycle.status is CycleStatus.NO_STICK_SLIP:
+        word = "steady_sliding" if cycle.sliding.stable else "unstable_sliding"
+    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == "failed" else ""
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
