@@ -197,9 +197,6 @@ def describe(name: str) -> dict[str, Any]:
     """Description of a scene for a dataset's attributes."""
     case, right = problem(name), answer(name)
     return {
-        "parameters": case.parameters.canonical_json,
-        "span": case.span,
-        "events": len(right.kinds),
-        "separations": right.kinds.count("separation"),
-        "reference_error": right.error,
-    }
+        "parameters": case.parameters.canonical_json, "span": case.span, "events": len(right.kinds),
+        "separations": right.kinds.count("separation"), "reference_error": right.error,
+    }  # fmt: skip

@@ -43,12 +43,11 @@ def contact_study(
         p = Parameters(**cases[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
         modes, compliance = real_modes(diameters, circles), contact_compliance(p)
         yield _separating(p, horizon) | {
-            "modes": float(modes),
-            "contact_compliance": compliance,
+            "modes": float(modes), "contact_compliance": compliance,
             "lowest_coupled": float(coupled_frequencies(p, compliance)[0]),
             "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
             "growth_rate": float(floquet(p).growth_rate) if modes <= MOST_GROWTH else math.nan,
-        }
+        }  # fmt: skip
 
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
     axes = {"case": [*cases], "contact": [*CONTACTS], "model": sizes}
@@ -86,10 +85,8 @@ def _late(p: Parameters, start: State, tol: float) -> dict[str, float]:
         return {}
     seen = run.samples["late"]
     return {
-        "tol_late": tol,
-        "cost_separating": cost,
-        "separations": run.statistics["separations"] / length,
+        "tol_late": tol, "cost_separating": cost, "separations": run.statistics["separations"] / length,
         "separated_share": run.statistics["time_separation"] / length,
         "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
         "force_max_separating": float(seen["P_max"].max()),
-    }
+    }  # fmt: skip

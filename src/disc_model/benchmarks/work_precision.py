@@ -76,18 +76,12 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
             if run_on.outcome is RunStatus.FINISHED:
                 further = (run_on.seconds - result.seconds) / (FURTHER * problem.span)
         yield {
-            "seconds": result.seconds,
-            "cost": result.seconds / problem.span,
-            "marginal_cost": further,
-            "glue": result.glue / max(result.seconds, 1e-9),
-            "event_error": errors.event_time,
-            "state_error": errors.state,
-            "verdict": errors.verdict,
-            "work": result.work,
-            "events": len(result.kinds),
-            "separations": result.separations,
+            "seconds": result.seconds, "cost": result.seconds / problem.span, "marginal_cost": further,
+            "glue": result.glue / max(result.seconds, 1e-9), "event_error": errors.event_time,
+            "state_error": errors.state, "verdict": errors.verdict, "work": result.work,
+            "events": len(result.kinds), "separations": result.separations,
             "whole_call": _whole_call() if (scene, solver, value) == (JUDGED[0], "series", DEFAULT) else math.nan,
-        }
+        }  # fmt: skip
 
     def summarise(groups: Any) -> pd.DataFrame:
         seconds = groups["seconds"]

@@ -29,7 +29,6 @@ class Bifurcation(Plot):
 
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
-
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
@@ -132,7 +131,6 @@ class Branches(Plot):
     """
 
     quantities = ("branches",)
-
     kind: Literal["branches"] = "branches"
     paper_cases: dict[str, Finite] = Field({})
 
@@ -219,7 +217,6 @@ class LateRange(Plot):
 
     quantities = ("outcome",)
     named_above = True
-
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002

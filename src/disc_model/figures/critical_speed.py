@@ -36,7 +36,6 @@ class CriticalSpeed(Plot):
         "curves": CURVES,
         "basins": Role("basins", ("Omega",)),
     }
-
     kind: Literal["critical_speed"] = "critical_speed"
     paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
@@ -212,7 +211,6 @@ class RampedSpeeds(Plot):
 
     quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
-
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:

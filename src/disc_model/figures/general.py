@@ -293,7 +293,6 @@ class CurvePlot(General):
     """
 
     room = 12
-
     kind: Literal["curve"] = "curve"
     limits: tuple[Finite, Finite] | None = None
 

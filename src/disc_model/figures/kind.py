@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
+from itertools import chain
 from pkgutil import iter_modules
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
@@ -307,9 +308,11 @@ class CasePlot(Kind):
 
     case : name of the case, of the first one if there are several
     shows : keys that name the windows that the figure shows of each case, with the rule for them
+    further : keys that name further cases
     """
 
     shows: ClassVar[tuple[tuple[str, Rule], ...]] = ()
+    further: ClassVar[tuple[str, ...]] = ()
 
     case: str
 
@@ -325,14 +328,11 @@ class CasePlot(Kind):
                 yield from (Need(key, case, name, [rule]) for name in ([named] if isinstance(named, str) else named))
 
     @property
-    def others(self) -> tuple[str, ...]:
-        """Further cases that the figure shows."""
-        return ()
-
-    @property
     def cases(self) -> tuple[str, ...]:
         """All cases that the figure shows."""
-        return (self.case, *self.others)
+        named = [getattr(self, key) for key in self.further]
+        further = chain.from_iterable([names] if isinstance(names, str) else names for names in named)
+        return (self.case, *filter(None, further))
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
         """Draw it as any figure; the reason instead, if a case does not hold what it needs."""

@@ -32,7 +32,6 @@ class Campbell(Plot):
 
     quantities = ("campbell",)
     needs = ("Omega",)
-
     kind: Literal["campbell"] = "campbell"
     normalization: Literal["as_published", "orthonormal"] | None = None
 
@@ -267,7 +266,6 @@ class SlidingModes(Plot):
     """
 
     quantities = ("sliding",)
-
     kind: Literal["sliding_modes"] = "sliding_modes"
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
@@ -302,7 +300,6 @@ class RootLocus(Plot):
     """Eigenvalues of steady sliding in the plane of growth rate and frequency, coloured along the parameter."""
 
     quantities = ("sliding",)
-
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -346,7 +343,6 @@ class SlidingOutcome(Plot):
     quantities = ("regions", "outcome")
     several = True
     named_above = True
-
     kind: Literal["sliding_outcome"] = "sliding_outcome"
     x: str
     y: str

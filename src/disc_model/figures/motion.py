@@ -80,7 +80,6 @@ class History(CasePlot):
     """
 
     shows = (("window", _as_either),)
-
     kind: Literal["history"] = "history"
     window: str
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
@@ -132,7 +131,6 @@ class Portrait(CasePlot):
     """One variable over another, coloured by phase."""
 
     shows = (("window", as_samples),)
-
     kind: Literal["portrait"] = "portrait"
     window: str
     x: Sampled = "psi"
@@ -216,13 +214,10 @@ class PoincareSections(CasePlot):
     last : number of points that are shown at most, the last ones
     """
 
+    further = ("below",)
     kind: Literal["poincare"] = "poincare"
     below: tuple[str, ...] = ()
     last: Annotated[int, Field(ge=1)] | None = None
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return self.below
 
     def needs(self) -> Iterator[Need]:
         for case in self.cases:
@@ -279,7 +274,6 @@ class Spectrum(CasePlot):
     """
 
     shows = (("window", as_samples),)
-
     kind: Literal["spectrum"] = "spectrum"
     window: str
     variable: Sampled = "w_point"

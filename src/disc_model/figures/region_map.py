@@ -36,7 +36,6 @@ class RegionMap(Plot):
     several = True
     named_above = True
     roles: ClassVar[Roles] = {"curves": CURVES}
-
     kind: Literal["region_map"] = "region_map"
     x: str
     y: str

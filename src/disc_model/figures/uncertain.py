@@ -32,7 +32,6 @@ class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
     quantities = ("basins",)
-
     kind: Literal["basins"] = "basins"
     x: str
 
@@ -114,7 +113,6 @@ class Sensitivity(Plot):
 
     quantities = ("sensitivity",)
     several = True
-
     kind: Literal["sensitivity"] = "sensitivity"
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:

@@ -76,12 +76,9 @@ def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0
 
 # ---- What results rest on
 VARIED: dict[str, tuple[float, dict[str, int]]] = {
-    "as computed": (1e-10, {}),
-    "tolerance 1e-8": (1e-8, {}),
-    "tolerance 1e-12": (1e-12, {}),
-    "8 nodal diameters": (1e-10, {"n_diameters": 8}),
-    "one nodal circle": (1e-10, {"n_circles": 1}),
-}
+    "as computed": (1e-10, {}), "tolerance 1e-8": (1e-8, {}), "tolerance 1e-12": (1e-12, {}),
+    "8 nodal diameters": (1e-10, {"n_diameters": 8}), "one nodal circle": (1e-10, {"n_circles": 1}),
+}  # fmt: skip
 """Tolerance and numbers of modes of further runs."""
 RECORD, SETTLE = 60.0, 150.0
 """Length of the record from which a motion is classified, s: four of the longest periods; time to settle before it, s,

@@ -251,6 +251,7 @@ class Quantity(Ruled):
     motion : description of the motions, which begin at `state_at`
     tiled : whether it needs a whole tile of a plane at once
     over : the required dimension over which a merged study is summarised
+    cost : processor time of a point, s, by the options
     """
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
@@ -262,11 +263,12 @@ class Quantity(Ruled):
     motion: ClassVar[str] = ""
     tiled: ClassVar[bool] = False
     over: ClassVar[str] = ""
+    cost: ClassVar[Callable[[Any], float]]
 
     @property
     def seconds(self) -> float:
         """Approximate processor time of a point, s, measured at points of the paper's study."""
-        raise NotImplementedError
+        return type(self).cost(self)
 
     @property
     def batch_size(self) -> int:

@@ -211,11 +211,10 @@ class Tile:
         if isinstance(result, Exception):
             return failed(result)
         row: dict[str, Any] = {
-            "status": "ok",
-            "other_cycles": others,
+            "status": "ok", "other_cycles": others,
             "branch_continues_first": self._joined(index, (index[0] + 1, index[1])),
             "branch_continues_second": self._joined(index, (index[0], index[1] + 1)),
-        }
+        }  # fmt: skip
         if result is None:
             row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
         else:

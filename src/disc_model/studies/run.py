@@ -63,12 +63,10 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"})
     coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
     attrs = {
-        "Conventions": CONVENTIONS,
-        "specification": text,
-        "source_hash": source_hash(__name__, type(quantity).__module__),
-        "git_commit": git_commit(),
+        "Conventions": CONVENTIONS, "specification": text,
+        "source_hash": source_hash(__name__, type(quantity).__module__), "git_commit": git_commit(),
         "versions": json_attribute(versions()),
-    }
+    }  # fmt: skip
     return xr.Dataset(variables, coords | coords_of_quantity, attrs)
 
 

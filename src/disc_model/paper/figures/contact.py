@@ -54,7 +54,6 @@ class ContactForce(CasePlot):
     """(a) Range of the contact force over the run, (b) the contact force in a window of samples."""
 
     shows = (("history", as_ranges), ("zoom", as_samples))
-
     kind: Literal["paper.contact_force"] = "paper.contact_force"
     history: str = "history"
     zoom: str = "zoom"
@@ -93,7 +92,6 @@ class OneSeparation(CasePlot):
     """
 
     shows = (("zoom", as_samples),)
-
     kind: Literal["paper.one_separation"] = "paper.one_separation"
     zoom: str = "zoom"
 
@@ -124,7 +122,6 @@ class LightSlider(CasePlot):
     """Displacements from static equilibrium in a part of a window, with the losses of contact."""
 
     shows = (("zoom", as_samples),)
-
     kind: Literal["paper.light_slider"] = "paper.light_slider"
     zoom: str = "zoom"
 
@@ -156,14 +153,10 @@ class WithAndWithout(CasePlot):
     """
 
     shows = (("history", as_ranges),)
-
+    further = ("ignored",)
     kind: Literal["paper.with_and_without"] = "paper.with_and_without"
     ignored: str
     history: str = "history"
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return (self.ignored,)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(COLUMN, 2.4)
@@ -188,16 +181,12 @@ class Histories(CasePlot):
     """
 
     shows = (("history", as_ranges),)
-
+    further = ("beside",)
     kind: Literal["paper.histories"] = "paper.histories"
     beside: tuple[str, ...] = ()
     history: str = "history"
     until: Annotated[Positive, Unit("s")] | None = None
     printed: Annotated[Positive, Unit("s")] | None = None
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return self.beside
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         variables = ("P", "w_point")
@@ -324,7 +313,6 @@ class Scales(Plot):
         f"map_{name}": Role("regions", (other, name), required=True)
         for name, other in (("D_star", "Omega"), ("c_p", "N"), ("k_p", "Omega"), ("m", "Omega"))
     }
-
     kind: Literal["paper.scales"] = "paper.scales"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:

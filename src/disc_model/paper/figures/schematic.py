@@ -51,16 +51,12 @@ class Composite(CasePlot):
     """
 
     shows = (("history", as_ranges),)
-
+    further = ("ignored",)
     kind: Literal["paper.composite"] = "paper.composite"
     ignored: str
     history: str = "history"
     force: tuple[str, Finite]
     until: Annotated[Positive, Unit("s")]
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return (self.ignored,)
 
     def needs(self) -> Iterator[Need]:
         yield from super().needs()

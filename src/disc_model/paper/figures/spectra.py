@@ -45,16 +45,12 @@ class FourStretches(CasePlot):
     """
 
     shows = (("history", as_ranges), ("spectra", as_spectrum))
-
+    further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
     history: str = "history"
     spectra: Annotated[tuple[str, ...], Field(min_length=1)] = WINDOWS
     until: Annotated[Positive, Unit("s")] | None = None
     ignored: str = ""
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return (self.ignored,) if self.ignored else ()
 
     def needs(self) -> Iterator[Need]:
         for need in super().needs():
@@ -137,7 +133,7 @@ class Response(CasePlot):
     """
 
     shows = (("history", as_ranges), ("window", as_spectrum))
-
+    further = ("ignored",)
     kind: Literal["paper.response"] = "paper.response"
     variable: Sampled
     window: str
@@ -147,10 +143,6 @@ class Response(CasePlot):
     until: Annotated[Positive, Unit("s")] | None = None
     ignored: str = ""
     printed: Annotated[Positive, Unit("s")] | None = None
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        return (self.ignored,) if self.ignored else ()
 
     def needs(self) -> Iterator[Need]:
         yield from (need for need in super().needs() if need.case == self.case or need.key == "window")

@@ -65,7 +65,6 @@ class AttractorBasins(Start, Quantity):
             "n_starts must be 1 where an energy is 0, since no direction tells them apart",
         ),
     )
-
     COLUMNS: ClassVar = {
         "status": STATUS,
         "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
@@ -95,10 +94,7 @@ class AttractorBasins(Start, Quantity):
         # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
         "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
     }
-
-    @property
-    def seconds(self) -> float:
-        return quantity.SIMULATED * len(self.energies) * self.n_starts * self.horizon / 6
+    cost: ClassVar = lambda o: quantity.SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""

@@ -35,7 +35,6 @@ class Bifurcation(Start, Quantity):
     max_transient: Seconds = 480.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
     theta: Annotated[Finite, Unit("rad")] = 1.0
-
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -62,10 +61,7 @@ class Bifurcation(Start, Quantity):
     COORDINATES: ClassVar = {
         "sample": Coordinate("1", "number of the turn after the transient", lambda o: range(o.samples))
     }
-
-    @property
-    def seconds(self) -> float:
-        return SIMULATED * (self.transient + self.max_transient / 2)
+    cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Sample the motion from the static start or from the point's own start."""
@@ -150,16 +146,10 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     columns = {"psi": shown["psi"], "psi_velocity": p.Omega - shown["f"], "P": shown["P"], "u": shown["u"]}
     values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
     values |= _answer(answer) | {
-        "kind": motion.kind,
-        "period_events": motion.period,
-        "period_residual": motion.closure,
-        "status": "ok",
-        "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
-        "first_separation": first,
-        "separations": separations,
-        "stick_fraction": stick,
-        "transient_time": transient,
-    }
+        "kind": motion.kind, "period_events": motion.period, "period_residual": motion.closure, "status": "ok",
+        "phase": ["separation" if kind == "separation" else "stick"] * len(shown), "first_separation": first,
+        "separations": separations, "stick_fraction": stick, "transient_time": transient,
+    }  # fmt: skip
     return values, "" if reached.settled else f"not settled after {transient:g} s: {answer}"
 
 

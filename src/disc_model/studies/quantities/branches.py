@@ -53,7 +53,6 @@ class Branches(Quantity):
         (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
         (lambda o: o.sweep_from is None or o.sweep_from <= o.scan.stop, "sweep_from must be <= the scan's last value"),
     )
-
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -78,10 +77,7 @@ class Branches(Quantity):
         "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
         "branch_point": Coordinate("1", "number of the point along the branch", lambda o: range(2 * o.max_points)),
     }
-
-    @property
-    def seconds(self) -> float:
-        return quantity.WORK
+    cost: ClassVar = lambda o: quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the sweep and the branches; the point's own value of the parameter is not used."""

@@ -49,7 +49,6 @@ class Campbell(Quantity):
     min_rise: Annotated[Positive, Unit("1/s")] = 0.01
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
-
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
@@ -89,10 +88,7 @@ class Campbell(Quantity):
     SUMMARY_COORDINATES: ClassVar = {
         "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))
     }
-
-    @property
-    def seconds(self) -> float:
-        return 1.5 * CYCLE
+    cost: ClassVar = lambda o: 1.5 * CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
@@ -101,19 +97,15 @@ class Campbell(Quantity):
         campbell = frequencies(point.parameters, tol=self.tol)
         cycle = campbell.cycle
         values: dict[str, Any] = {
-            "status": cycle.status.value,
-            "growth_rate": cycle.growth_rate,
+            "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
             "rotation_frequency": point.parameters.Omega / (2 * math.pi),
             "mode_kind": np.where(campbell.modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
-            "diameters": np.maximum(campbell.modes.diameters, 0),
-            "forward_wave_fraction": campbell.modes.forward,
-            "sliding_frequency": campbell.modes.frequency,
-            "sliding_growth_rate": campbell.modes.growth_rate,
-            "cycle_frequency": campbell.cycle_frequency,
-            "cycle_growth_rate": campbell.cycle_growth_rate,
+            "diameters": np.maximum(campbell.modes.diameters, 0), "forward_wave_fraction": campbell.modes.forward,
+            "sliding_frequency": campbell.modes.frequency, "sliding_growth_rate": campbell.modes.growth_rate,
+            "cycle_frequency": campbell.cycle_frequency, "cycle_growth_rate": campbell.cycle_growth_rate,
             "mac": campbell.mac,
-        }
+        }  # fmt: skip
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
@@ -150,11 +142,9 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
                 yield {
                     "Omega": float(speeds[index] + part * (speeds[index + 1] - speeds[index])),
                     "frequency": float(frequency[index] + part * (frequency[index + 1] - frequency[index])),
-                    "mode": int(mode),
-                    "line": line,
-                    "multiple": multiple,
+                    "mode": int(mode), "line": line, "multiple": multiple,
                     **effect_of(detuning, int(index), growth, leading, options),
-                }
+                }  # fmt: skip
 
 
 def frequency_of(mode: Dataset) -> Array:

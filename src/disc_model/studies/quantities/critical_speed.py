@@ -77,10 +77,7 @@ class CriticalSpeed(EarlyEnd):
         ),
         "scan_Omega": Coordinate("rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values),
     }
-
-    @property
-    def seconds(self) -> float:
-        return SIMULATED * self.scan.intervals * self.horizons[-1] / 9
+    cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Scan and bisect the speed; the point's own Omega is not used."""
@@ -144,8 +141,6 @@ def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], f
     first = next((i for i in sorted(known) if not known[i] > horizon), None)
     lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
     return {
-        "critical_speed": lowest,
-        "n_crossings": len(changes),
-        "crossing": [speed(b) for b in changes],
+        "critical_speed": lowest, "n_crossings": len(changes), "crossing": [speed(b) for b in changes],
         "crossing_kind": ["begins" if known[b] <= horizon else "ends" for b in changes],
-    }
+    }  # fmt: skip

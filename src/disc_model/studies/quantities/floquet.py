@@ -16,7 +16,6 @@ class Floquet(Quantity):
     """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
 
     tol: CycleTolerance = 1e-12
-
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     COLUMNS: ClassVar = {
@@ -28,10 +27,7 @@ class Floquet(Quantity):
         "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
     }
-
-    @property
-    def seconds(self) -> float:
-        return CYCLE
+    cost: ClassVar = lambda o: CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the cycle of this point, without a neighbour's cycle as initial guess."""
@@ -40,14 +36,10 @@ class Floquet(Quantity):
         cycle = floquet(point.parameters, tol=self.tol)
         leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
         values = {
-            "status": cycle.status.value,
-            "growth_rate": cycle.growth_rate,
-            "period": cycle.period,
-            "stick_fraction": cycle.stick_fraction,
-            "multiplier_re": leading.real,
-            "multiplier_im": leading.imag,
+            "status": cycle.status.value, "growth_rate": cycle.growth_rate, "period": cycle.period,
+            "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,
             "sliding_growth_rate": cycle.sliding.growth_rate,
-        }
+        }  # fmt: skip
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def state_at(self, point: Point) -> State:

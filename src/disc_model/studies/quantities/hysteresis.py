@@ -31,7 +31,6 @@ class Hysteresis(Quantity):
     evaluation_time: Seconds = 5.0
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
-
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -50,10 +49,7 @@ class Hysteresis(Quantity):
         "direction": DIRECTION,
         "sweep_Omega": Coordinate("rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values),
     }
-
-    @property
-    def seconds(self) -> float:
-        return SIMULATED * 2 * self.scan.intervals * self.dwell
+    cost: ClassVar = lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Sweep the speed up and down; the point's own Omega is not used."""

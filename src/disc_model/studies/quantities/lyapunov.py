@@ -31,7 +31,6 @@ class Lyapunov(Start, Quantity):
     duration: Seconds
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
     interval: Seconds = 0.05
-
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -50,10 +49,7 @@ class Lyapunov(Start, Quantity):
     COORDINATES: ClassVar = {
         "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))
     }
-
-    @property
-    def seconds(self) -> float:
-        return SIMULATED * (self.transient + 20 * self.exponents * self.duration)
+    cost: ClassVar = lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the exponents after the transient."""
@@ -68,14 +64,10 @@ class Lyapunov(Start, Quantity):
         result = lyapunov_exponents(point.parameters, self.duration, initial_state=start, leave_out_trivial=True, **how)
         known = np.isfinite(result.exponents)
         values = {
-            "status": result.status.value,
-            "exponent": result.exponents,
-            "exponent_error": result.errors,
-            "converged": np.where(known, 1 + result.converged, 0),
-            "trivial_exponent": result.trivial_exponent,
-            "averaging_time": result.duration,
-            "separations": result.separations,
-        }
+            "status": result.status.value, "exponent": result.exponents, "exponent_error": result.errors,
+            "converged": np.where(known, 1 + result.converged, 0), "trivial_exponent": result.trivial_exponent,
+            "averaging_time": result.duration, "separations": result.separations,
+        }  # fmt: skip
         return values, "" if result.status.complete else result.status.advice
 
     def state_at(self, point: Point) -> State:

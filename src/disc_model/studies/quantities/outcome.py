@@ -34,7 +34,6 @@ class HorizonOutcome(Start, EarlyEnd):
             "evaluation_time must be <= after_separation and <= horizon",
         ),
     )
-
     motions: ClassVar = 4
     motion: ClassVar = quantity.COME_TO
     COLUMNS: ClassVar = {
@@ -55,22 +54,17 @@ class HorizonOutcome(Start, EarlyEnd):
         "separation_fraction": Variable("1", "share of the late stretch spent separated"),
         "separation_rate": Variable("s-1", "separations per second over the late stretch"),
     }
-
-    @property
-    def seconds(self) -> float:
-        return quantity.SIMULATED * self.horizon / 2
+    cost: ClassVar = lambda o: quantity.SIMULATED * o.horizon / 2
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute one point; if it separates, its late stretch lies ``after_separation`` later."""
         reached, result, late = _late(point, self)
         last = reached if result is None else result
         values: dict[str, Any] = {
-            "status": "ok" if last.status.complete else last.status.value,
-            "outcome": reached.word,
-            "first_separation": reached.first_separation,
-            "time_reached": reached.time,
+            "status": "ok" if last.status.complete else last.status.value, "outcome": reached.word,
+            "first_separation": reached.first_separation, "time_reached": reached.time,
             "cycle_distance": reached.distance,
-        }
+        }  # fmt: skip
         if reached.changes:
             values["return_map_residual"] = reached.changes[-1]
         t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])

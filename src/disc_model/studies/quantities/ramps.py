@@ -29,7 +29,6 @@ class Ramps(Quantity):
     dwell: Seconds = 60.0
 
     _rules = ((lambda o: o.low < o.high, "low must be < high"), (lambda o: o.rates.start > 0, "rates must be > 0"))
-
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -43,10 +42,7 @@ class Ramps(Quantity):
         ),
     }
     COORDINATES: ClassVar = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
-
-    @property
-    def seconds(self) -> float:
-        return SIMULATED * sum(2 * ((self.high - self.low) / rate + self.dwell) for rate in self.rates.values)
+    cost: ClassVar = lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Simulate one run for each rate; the point's own Omega is not used."""

@@ -29,7 +29,6 @@ class Regions(Quantity):
     tol: Tolerance = 1e-8
     horizon: Seconds
     initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
-
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
@@ -56,10 +55,7 @@ class Regions(Quantity):
         ),
         "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
     }
-
-    @property
-    def seconds(self) -> float:
-        return WORK
+    cost: ClassVar = lambda o: WORK
 
     def state_at(self, point: Point) -> State:
         """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""

@@ -133,7 +133,6 @@ class Sensitivity(Quantity):
         return super()._units(data) | {"distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes}
 
     _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
-
     over: ClassVar = SAMPLE
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -150,10 +149,7 @@ class Sensitivity(Quantity):
         **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
     }
-
-    @property
-    def seconds(self) -> float:
-        return quantity.CYCLE + quantity.SIMULATED * self.horizon / 4 * (self.simulated_samples > 0)
+    cost: ClassVar = lambda o: quantity.CYCLE + quantity.SIMULATED * o.horizon / 4 * (o.simulated_samples > 0)
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:

@@ -25,7 +25,6 @@ class Sliding(Quantity):
     parameter: Free = "Omega"
     scan: Annotated[Range, Unit(of="parameter")]
     modes: Annotated[Count, Field(ge=1, le=2000)] = 24
-
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -43,10 +42,7 @@ class Sliding(Quantity):
         "value": Coordinate("", "{0.parameter}", lambda o: o.scan.values),
         "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)),
     }
-
-    @property
-    def seconds(self) -> float:
-        return 3e-3 * (self.scan.intervals + 1)
+    cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Follow the modes along the scan; the point's own value of the parameter is not used."""

@@ -43,7 +43,6 @@ class StabilityCurves(Quantity):
         (lambda o: o.x != o.y, "x and y must differ"),
         (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
     )
-
     scans: ClassVar = ("x", "y")
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -70,10 +69,7 @@ class StabilityCurves(Quantity):
         "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
         "curve_point": Coordinate("1", "number of the point along the curve", lambda o: range(2 * o.max_points)),
     }
-
-    @property
-    def seconds(self) -> float:
-        return WORK
+    cost: ClassVar = lambda o: WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the curves of the plane; the point's own values of its two parameters are not used."""
