@@ -47,11 +47,9 @@ def counted(number: int, noun: str) -> str:
 
 
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, which is above all that it draws.
-
-    It is imported by its name, so that no result depends on how it is drawn.  Raises ModuleNotFoundError without
-    matplotlib; the message names the extra that brings it.
-    """
+    """Draw by a function of `disc_model.figures.results`, which is above all that it draws. It is imported by its name,
+    so that no result depends on how it is drawn. Raises ModuleNotFoundError without matplotlib; the message names the
+    extra that brings it."""
     try:
         return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
     except ModuleNotFoundError as error:

@@ -19,10 +19,8 @@ class DiscModelError(Exception):
 
 
 def script(main: Callable[..., None]) -> Callable[..., None]:
-    """Call the main function of a script with the command's arguments, unless the script is only imported.
-
-    An error of this package, or Ctrl-C, ends the script with a message and without a traceback.
-    """
+    """Call the main function of a script with the command's arguments, unless the script is only imported. An error of
+    this package, or Ctrl-C, ends the script with a message and without a traceback."""
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
         try:

@@ -157,10 +157,8 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one.
-
-    The parameters' own number of modes is then meaningless. Raises `ParameterError`.
-    """
+    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one. The
+    parameters' own number of modes is then meaningless. Raises `ParameterError`."""
     rest, request = asked_modes(values)
     return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
 
@@ -182,11 +180,9 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest 
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error of the coupled frequencies of ``p`` within the band, with ``rich`` as the reference.
-
-    The band reaches up to `BAND` times the disc's lowest frequency.  A frequency of ``rich`` that is missing in ``p``
-    counts as an error of 1.
-    """
+    """Largest relative error of the coupled frequencies of ``p`` within the band, with ``rich`` as the reference. The
+    band reaches up to `BAND` times the disc's lowest frequency. A frequency of ``rich`` that is missing in ``p`` counts
+    as an error of 1."""
     mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
     return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
 
@@ -264,10 +260,8 @@ def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
 
 
 def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
-    """The requested choice: by a quantity of the motion, the first candidate with which larger models agree.
-
-    Raises `DiscModelError` if there is none.
-    """
+    """The requested choice: by a quantity of the motion, the first candidate with which larger models agree. Raises
+    `DiscModelError` if there is none."""
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
     values: dict[tuple[int, ...], float] = {}

@@ -68,8 +68,7 @@ def code_hash(path: Path) -> str:
 @functools.cache
 def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]], frozenset[str]]:
     """Hash of a Python source without comments, docstrings and layout; levels, modules and names of its imports; and
-    its texts that may name files.
-    """
+    its texts that may name files."""
     tree = ast.parse(path.read_bytes(), str(path))
     imports, constants = set(), (node.value for node in ast.walk(tree) if isinstance(node, ast.Constant))
     texts = frozenset(text for text in constants if isinstance(text, str) and re.fullmatch(r"\w[\w./-]*", text))

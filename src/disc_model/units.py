@@ -62,10 +62,8 @@ def _units() -> Any:
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
     """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
-
     Results have 15 digits, so that equal decimal numbers in different units are equal. A text with a unit of another
-    kind is a fault at its `path`.
-    """
+    kind is a fault at its `path`."""
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
         named = {name: part for name, part in value.items() if name in units}
@@ -89,11 +87,8 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
 
 
 def number(value: Any) -> Any:
-    """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else.
-
-    Strings are accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python
-    treats it so.
-    """
+    """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else. Strings are
+    accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python treats it so."""
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -202,11 +197,9 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
 
 
 class Strict(BaseModel):
-    """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI.
-
-    The constructor and `model_validate` raise a single `ParameterError` that lists all faults, those of parts included.
-    Rules between values are checked where each value by itself is right.
-    """
+    """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI. The
+    constructor and `model_validate` raise a single `ParameterError` that lists all faults, those of parts included.
+    Rules between values are checked where each value by itself is right."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 

@@ -159,10 +159,8 @@ def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> fl
 
 
 def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
-    """Whether stick, which takes the share of time `before` a separation, is absent `after` it.
-
-    `bound` is the share of time that counts as none: a single stick among thousands of cycles does not matter.
-    """
+    """Whether stick, which takes the share of time `before` a separation, is absent `after` it. `bound` is the share of
+    time that counts as none: a single stick among thousands of cycles does not matter."""
     return before > bound >= after
 
 
@@ -249,9 +247,7 @@ SAME = 0.01  # share of the range, along every axis, within which two points cou
 
 class Stages(NamedTuple):
     """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one of them.
-
-    The first separation divides early from later; without one, the time from which the motion has settled does.
-    """
+    The first separation divides early from later; without one, the time from which the motion has settled does."""
 
     early: Mask
     later: Mask

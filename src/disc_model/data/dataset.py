@@ -116,11 +116,9 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
 
 
 def _write(tree: xr.DataTree, name: str) -> None:
-    """Write a new file of a tree.
-
-    All groups are defined before an array is written. `DataTree.to_netcdf` writes each array as soon as it is defined,
-    and for each one the library goes through all of the file's metadata: eight times the time for 70 cases.
-    """
+    """Write a new file of a tree. All groups are defined before an array is written. `DataTree.to_netcdf` writes each
+    array as soon as it is defined, and for each one the library goes through all of the file's metadata: eight times
+    the time for 70 cases."""
     arrays: list[tuple[Any, Any]] = []
     collector = SimpleNamespace(add=lambda source, target: arrays.append((source, target)))
     with Dataset(name, "w") as root:
@@ -199,9 +197,7 @@ Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the nam
 
 def save_tables(tables: Tables, described: str, path: str | Path) -> None:
     """Write tables and a text that describes them, as ".csv" or ".mat", atomically; `Result.save` says in which form.
-
-    Raises `ParameterError` if the suffix is another one, or MATLAB does not allow a table's name, and `WriteError`.
-    """
+    Raises `ParameterError` if the suffix is another one, or MATLAB does not allow a table's name, and `WriteError`."""
     file = regular_file(path)
     if file.suffix == ".csv":
         columns = json.dumps({name: [*table] for name, table in tables.items()})
@@ -223,10 +219,8 @@ def save_tables(tables: Tables, described: str, path: str | Path) -> None:
 
 
 def load_tables(path: str | Path) -> tuple[str, Tables]:
-    """The text and the tables that `save_tables` has written; of netCDF the attribute `result` and the groups.
-
-    The text is empty if the file holds none. Raises `UnreadableFile`, and `MissingFile`.
-    """
+    """The text and the tables that `save_tables` has written; of netCDF the attribute `result` and the groups. The text
+    is empty if the file holds none. Raises `UnreadableFile`, and `MissingFile`."""
     file = regular_file(path)
     if not file.exists():
         raise MissingFile(f"{path}: there is no such file")

@@ -138,10 +138,8 @@ def _pieces(mesh: MeshQuad) -> int:
 def _harmonic(
     basis: Any, l: int, material: tuple[float, float, float], held: Any, measured: NDArray[np.intp], highest: float
 ) -> tuple[list[float], list[list[float]]]:
-    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of some unknowns.
-
-    The sign of a mode makes the first of these unknowns positive.
-    """
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of some unknowns. The
+    sign of a mode makes the first of these unknowns positive."""
     from scipy.sparse.linalg import eigsh
 
     stiffness, mass = _matrices(basis, l, *material)

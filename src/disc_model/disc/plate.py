@@ -110,10 +110,8 @@ def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
 
 
 def tangential_amplitudes(p: Parameters) -> Array:
-    """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape (n_modes,).
-
-    At a height z of ``friction_offset`` above the middle plane they are -(z/r_0) l psi; 0 in that plane.
-    """
+    """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape (n_modes,). At a height z of
+    ``friction_offset`` above the middle plane they are -(z/r_0) l psi; 0 in that plane."""
     if p.disc is not None and p.friction_offset == SURFACE:
         return np.array(p.disc.tangential)
     modes, height = mode_arrays(p), p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
@@ -121,10 +119,8 @@ def tangential_amplitudes(p: Parameters) -> Array:
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
-    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`.
-
-    For a table they are splines through its shapes and amplitudes.  Raises ParameterError if it has no shapes.
-    """
+    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`. For
+    a table they are splines through its shapes and amplitudes. Raises ParameterError if it has no shapes."""
     if p.disc is not None:
         from scipy.interpolate import make_interp_spline  # few callers need it
 
@@ -211,9 +207,7 @@ def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slic
 
 def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array]:
     """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode times its frequency.
-
-    On a compliant contact the last row is the slider's.
-    """
+    On a compliant contact the last row is the slider's."""
     inverse_squares, shapes = _inverse_squares(p, compliance)
     return 1 / np.sqrt(inverse_squares), shapes
 
@@ -437,10 +431,8 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
 
 def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
     """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken out of its columns.
-
-    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable lambda x.
-    The true column is exp(logarithm) times the one returned.
-    """
+    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable lambda x. The
+    true column is exp(logarithm) times the one returned."""
     value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
     exponents = np.max(logs, axis=1)
@@ -456,10 +448,8 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
 
 
 def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
-    """J, Y, I, K of order l and their derivatives at `x` (..., n), both times exp of the third: (4, ..., n) each.
-
-    The larger of value and derivative is 1 in magnitude.
-    """
+    """J, Y, I, K of order l and their derivatives at `x` (..., n), both times exp of the third: (4, ..., n) each. The
+    larger of value and derivative is 1 in magnitude."""
     value, exponent = _bessel(l, x)
     following, exponent_next = _bessel(l + 1, x)
     sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape((4,) + (1,) * x.ndim)
@@ -469,10 +459,8 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 
 
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
-    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x).
-
-    Y and K are infinite where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius.
-    """
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x). Y and K are infinite
+    where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius."""
     from scipy import special  # takes 0.2 s, and merges and figures do without
 
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])

@@ -34,10 +34,8 @@ TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
 
 @helper
 def transverse_energy(model, state, phase):
-    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J.
-
-    In rigid contact u, u' are those of the disc's point.
-    """
+    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J. In rigid contact u, u' are
+    those of the disc's point."""
     u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     energy = 0.0
     if phase != layout.SEPARATION:

@@ -144,10 +144,8 @@ def _pairs_at(model, s, order, x, state):
 
 @inlined
 def state_at(model, s, order, x, phase, state):
-    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's.
-
-    The order is even.
-    """
+    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's. The order is
+    even."""
     set_powers(s.powers, x, order)
     psi, f = dot(s.psi, 0, s.powers, order), dot(s.f, 0, s.powers, order)
     _pairs_at(model, s, order, x, state)

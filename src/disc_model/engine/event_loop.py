@@ -171,11 +171,9 @@ def _advance_clock(model, state, order, x_end, dt):
 
 @inlined
 def follow(model, s, state, probe, limits, buffers, t):
-    """Advance ``state`` until a reason to return: see the exit codes in ``transitions``.
-
-    The motion is recorded in ``buffers``; or ``t`` is a tuple of one `Tangent`, which takes counts and small changes,
-    and ``limits`` are `IntegrationLimits`. The compiler drops the branches of the other use. ``probe`` is a work state.
-    """
+    """Advance ``state`` until a reason to return: see the exit codes in ``transitions``. The motion is recorded in
+    ``buffers``; or ``t`` is a tuple of one `Tangent`, which takes counts and small changes, and ``limits`` are
+    `IntegrationLimits`. The compiler drops the branches of the other use. ``probe`` is a work state."""
     x, start, releases, pause, order = state.x, state.x[layout.TIME], 0, 0, limits.order
     if len(t) == 0:
         pause = buffers.counters[STEPS] + limits.pause_after
@@ -325,17 +323,13 @@ _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0,
 
 def integrate(model, s, state, t, course):
     """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
-
     At the last release the columns are projected onto the section (their event time is t.tau, the state still in
-    stick). An integration that ends at ``t_max`` is not projected.  ``t.log`` is incremented.
-    """
+    stick). An integration that ends at ``t_max`` is not projected. ``t.log`` is incremented."""
     return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)
 
 
 def section_map(model, s, state, t, course, section, start):
-    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it.
-
-    A point of the section is given by its modal coordinates; f is 0 and psi follows from the release condition.
-    ``t.parameters`` may hold changes of parameters in the columns from n on.  Returns the exit code; ``t.log`` is set.
-    """
+    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it. A point of the
+    section is given by its modal coordinates; f is 0 and psi follows from the release condition. ``t.parameters`` may
+    hold changes of parameters in the columns from n on. Returns the exit code; ``t.log`` is set."""
     return _flight(model, s, state, t, course, section, start, True)

@@ -13,10 +13,8 @@ TINY = 1e-100  # the complex step: its square is far below rounding, but not zer
 
 
 class Instant(NamedTuple):
-    """Arguments of the laws, with respect to which they are differentiated.
-
-    The first eight are parameters of the model, the others belong to a state.  ``compliance`` is 0 in rigid contact.
-    """
+    """Arguments of the laws, with respect to which they are differentiated. The first eight are parameters of the
+    model, the others belong to a state. ``compliance`` is 0 in rigid contact."""
 
     N: float
     k: float
@@ -111,9 +109,7 @@ def slip_rates(model, i, friction, force):
 @inlined
 def stick_loads(model, i, V):
     """Tangential load (pull) and normal load (press) of stick under V: friction holds while abs(pull) <= mu_s press.
-
-    Under the normal force both are in units of 1 / (1 + (B / r_0)^2), a common factor.
-    """
+    Under the normal force both are in units of 1 / (1 + (B / r_0)^2), a common factor."""
     pull, press = model.r_0 * inplane_force_per_radius(i), V
     if model.normal:
         press = press + inplane_force_per_radius(i) * i.dw_dtheta

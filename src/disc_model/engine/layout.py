@@ -180,10 +180,8 @@ def pair_lanes(n_pairs):
 
 
 def disc_size(width, n_single, compliant):
-    """Length of ``EngineState.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes.
-
-    On a compliant contact u, u' are stored behind them, for the closed form of stick.
-    """
+    """Length of ``EngineState.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes. On a compliant
+    contact u, u' are stored behind them, for the closed form of stick."""
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 

@@ -58,10 +58,8 @@ def dot(c, first, powers, n):
 
 @inlined
 def surely_positive(c, low, n, powers):
-    """True if c_0 + sum of the negative terms at the interval's end is positive: then there is no root.
-
-    Coefficients beyond n have to be zero.
-    """
+    """True if c_0 + sum of the negative terms at the interval's end is positive: then there is no root. Coefficients
+    beyond n have to be zero."""
     zero = splat(0.0)
     negative = zero
     for j in range(0, n + 1 - low, WIDTH):
@@ -106,10 +104,8 @@ def _to_bernstein(d, n, work, b):
 
 @helper
 def _halve(cell, left, n, work):
-    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half.
-
-    The right half's coefficients are those of the left half of the reversed cell; work: shape of a cell.
-    """
+    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half. The right
+    half's coefficients are those of the left half of the reversed cell; work: shape of a cell."""
     for j in range(0, n + 1, WIDTH):
         store(left, j, mul(_raised(cell, n, j), load(_HALVES, j)))
     for j in range(n + 1):
@@ -229,10 +225,8 @@ def _search(c, low, n, x_end, powers, work):
 
 @helper
 def _leftmost(d, n, work):
-    """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none.
-
-    work[2:] is a stack of cells, leftmost on top: coefficients in whole blocks of lanes, left end, width.
-    """
+    """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none. work[2:] is a
+    stack of cells, leftmost on top: coefficients in whole blocks of lanes, left end, width."""
     top, start = 2, work.shape[1] - 2
     work[top, start], work[top, start + 1] = 0.0, 1.0
     while top >= 2:

@@ -111,10 +111,8 @@ def _change(t, row):
 
 @inlined
 def _set_derivative(model, i, t, row, entry, value):
-    """Enter a derivative, ``value`` being the law's after a complex step of an entry.
-
-    The columns' change of N contains that of -k u_0, and their change of the compliance is relative.
-    """
+    """Enter a derivative, ``value`` being the law's after a complex step of an entry. The columns' change of N contains
+    that of -k u_0, and their change of the compliance is relative."""
     derivative = value.imag / laws.TINY
     if entry == tangent.D_K:
         derivative += model.u_0 * t.gradient[row * laws.N_ENTRIES + tangent.LOAD]

@@ -150,9 +150,7 @@ def _disc_point(model, s):
 @inlined
 def _products(s, width, b, k, f_high, e_low, z_low):
     """Adds f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, to the two sums, for an odd order k; f_high is f_{k-1}.
-
-    Returns them and those of order k + 1.
-    """
+    Returns them and those of order k + 1."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
         f_low = spread(s.slider, F_SERIES + k - i)
@@ -166,10 +164,8 @@ def _products(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _products_apart(s, width, b, k, f_high, e_low, z_low):
-    """As ``_products``, with separate sums for even and odd i, whose terms do not wait for each other.
-
-    This needs too many registers where lanes do not fit into one.
-    """
+    """As ``_products``, with separate sums for even and odd i, whose terms do not wait for each other. This needs too
+    many registers where lanes do not fit into one."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
@@ -187,11 +183,8 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _inner_terms(s, width, b, k, e_last, z_last):
-    """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k.
-
-    An odd order also computes the terms of the next order, except the first and the last, which need f_k and e_k. It
-    keeps them in scratch.
-    """
+    """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k. An odd order also computes the
+    terms of the next order, except the first and the last, which need f_k and e_k. It keeps them in scratch."""
     e_low, z_low = splat(0.0), splat(0.0)
     if k % 2 == 0:
         e_low, z_low = _kept(s, _E_HIGH, width, b), _kept(s, _Z_HIGH, width, b)
@@ -463,10 +456,8 @@ def _stick_pending(model, b, e, z):
 
 @inlined
 def _stick_order(model, s, b, k, push, e, z):
-    """One block of order k in stick, from z_k, and e_k without what ``push`` gives.
-
-    Returns its pending share, e_{k+1}, z_{k+1}.
-    """
+    """One block of order k in stick, from z_k, and e_k without what ``push`` gives. Returns its pending share, e_{k+1},
+    z_{k+1}."""
     width, up = lane_count(model), splat(s.slider[UP + k])
     at, damping = k * width + b, _row(model, DAMPING, b)
     e = fma(push, _row(model, FORCES, b), e)
@@ -668,10 +659,8 @@ def weakening(model, s, k, direction):
 
 @inlined
 def compliant_slip_series(model, s, order, direction):
-    """Slip on a compliant contact.  Returns V / R, whose zero is a jammed contact; 1 under the vertical force.
-
-    Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``.
-    """
+    """Slip on a compliant contact. Returns V / R, whose zero is a jammed contact; 1 under the vertical force. Fills
+    ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``."""
     stiffness, friction = 1.0 / model.compliance, friction_coefficient(model, direction, s.slider[F_SERIES])
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
     f0, ratio, share, beta, V, impulse, braked, part = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -748,10 +737,8 @@ def compliant_stick_series(model, s, order):
 
 @inlined
 def release_series(model, s, order):
-    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``.
-
-    If only the slope pulls at a slider that may leave the disc, divided by the common factor V: mu_s +/- beta.
-    """
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``. If only the slope pulls
+    at a slider that may leave the disc, divided by the common factor V: mu_s +/- beta."""
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     spring, growth, bend = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1], 0.0
     if model.ramped:

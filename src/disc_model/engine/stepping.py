@@ -53,10 +53,8 @@ def _relative(error, scale):
 
 @inlined
 def _root(x, n):
-    """x**(1/n) of a positive number, to 0.8 % for n >= 14, which is enough for a step and faster than libm.
-
-    The bits of a number are its binary logarithm, interpolated linearly between powers of two.
-    """
+    """x**(1/n) of a positive number, to 0.8 % for n >= 14, which is enough for a step and faster than libm. The bits of
+    a number are its binary logarithm, interpolated linearly between powers of two."""
     logarithm = (np.float64(x).view(np.int64) * 2.0**-52 - 1023.0) * (1.0 / n)
     whole = math.floor(logarithm)
     part = logarithm - whole
@@ -148,10 +146,8 @@ def _sooner(s, c, known, n, x_end, cause, later):
 
 @helper
 def _touchdown(model, s, state, order, x_end, x):
-    """Place and cause of a flight's end that was found at ``x``: there, unless rounding of a gap that opens made it.
-
-    A run that was cut just after a separation knows no root there, but the gap, and its rates, are still rounding.
-    """
+    """Place and cause of a flight's end that was found at ``x``: there, unless rounding of a gap that opens made it. A
+    run that was cut just after a separation knows no root there, but the gap, and its rates, are still rounding."""
     # of the gap, and of its rates per radian of the fastest motion
     rounding, known = transitions.ROUNDING * transitions.deflection_size(model, state), 0
     while known < 3 and abs(s.switch[known]) <= rounding:

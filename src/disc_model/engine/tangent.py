@@ -144,10 +144,8 @@ def point_change(model, x, at, f, B):
 
 @inlined
 def _diametral_rates(model, s, t, block, k, phase):
-    """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final.
-
-    Returns their share of d(u'') and dB of order k + 1 (lanes).
-    """
+    """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final. Returns their
+    share of d(u'') and dB of order k + 1 (lanes)."""
     width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * t.rows * WIDTH
     f_row, q = slider_row(model, F), block * t.inputs * WIDTH
     here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
@@ -329,10 +327,8 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
 
 @inlined
 def _friction_in_stick(model, s, t, block, k, pull, V):
-    """Change of T of order k in stick (lanes), from those of F (``pull``) and V: see ``series._stick_friction``.
-
-    Under the normal force ``t.force`` holds the changes of R.
-    """
+    """Change of T of order k in stick (lanes), from those of F (``pull``) and V: see ``series._stick_friction``. Under
+    the normal force ``t.force`` holds the changes of R."""
     T = mul(splat(model.r_0), pull)
     if model.normal:
         beta, at = t.base_dw_dtheta[0] / model.r_0, (block * len(t.base_dw_dtheta) + k) * WIDTH

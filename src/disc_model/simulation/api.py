@@ -370,11 +370,9 @@ def _message(status: Status, state: layout.EngineState, model: layout.Model) -> 
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
-    """The initial state of a motion of case `p`, at time 0; None is the static start.
-
-    Raises `SimulationError` if the preceding motion ends early, `ParameterError` if its parameters break a rule, or its
-    disc has another number of modes.
-    """
+    """The initial state of a motion of case `p`, at time 0; None is the static start. Raises `SimulationError` if the
+    preceding motion ends early, `ParameterError` if its parameters break a rule, or its disc has another number of
+    modes."""
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
     if start.prerun is not None:

@@ -166,10 +166,8 @@ def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]
 
 
 def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
-    """The windows with absolute times, for a run from ``start`` to ``t_end``.
-
-    Raises `ParameterError` if one begins at the end of the run or later.
-    """
+    """The windows with absolute times, for a run from ``start`` to ``t_end``. Raises `ParameterError` if one begins at
+    the end of the run or later."""
     faults: list[str] = []
     resolved: dict[str, Window | Poincare] = {}
     for name, window in windows.items():

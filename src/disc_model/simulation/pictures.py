@@ -30,11 +30,9 @@ FINE = 4000  # samples of the last cycles
 
 
 class Pictures:
-    """What a `disc_model.Result` can draw.
-
-    Where no window is named, the run is simulated once more, with the samples that the picture needs, which takes as
-    long as the run itself.  All return matplotlib axes, in a new figure or those given as `ax`.
-    """
+    """What a `disc_model.Result` can draw. Where no window is named, the run is simulated once more, with the samples
+    that the picture needs, which takes as long as the run itself. All return matplotlib axes, in a new figure or those
+    given as `ax`."""
 
     def plot(
         self,

@@ -105,10 +105,8 @@ class Collector:
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
-    """Columns of all parts, concatenated; they are filled part by part, because a part fits into the cache.
-
-    Each part is removed from the list, so that memory never holds more than one part twice.
-    """
+    """Columns of all parts, concatenated; they are filled part by part, because a part fits into the cache. Each part
+    is removed from the list, so that memory never holds more than one part twice."""
     columns = {name: np.empty(sum(map(len, parts))) for name in names}
     start = 0
     parts.reverse()

@@ -188,11 +188,9 @@ def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0
 
 
 def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case, transferred to case `p` at time 0.
-
-    Modal coordinates are kept.  If the modal amplitudes differ, the slider keeps its distance from the disc, which is
-    zero in rigid contact.  A state with another number of modes is passed on, and `simulate` refuses it.
-    """
+    """A state of another case, transferred to case `p` at time 0. Modal coordinates are kept. If the modal amplitudes
+    differ, the slider keeps its distance from the disc, which is zero in rigid contact. A state with another number of
+    modes is passed on, and `simulate` refuses it."""
     psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
@@ -269,10 +267,8 @@ def engine_case(p: Parameters) -> EngineCase:
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace for one run, at the static start; the run gives it back to `EngineCase.idle` at its end.
-
-    Workspaces are reused, because making one takes as long as 30 steps.
-    """
+    """A workspace for one run, at the static start; the run gives it back to `EngineCase.idle` at its end. Workspaces
+    are reused, because making one takes as long as 30 steps."""
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
@@ -337,11 +333,9 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here.
-
-    A slider that touches the disc with zero relative velocity is put into contact, and the engine then determines
-    whether it stays there.  Returns whether that is so.
-    """
+    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here. A slider
+    that touches the disc with zero relative velocity is put into contact, and the engine then determines whether it
+    stays there. Returns whether that is so."""
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
     f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])

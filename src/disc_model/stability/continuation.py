@@ -483,10 +483,8 @@ def continue_cycle(
 
 
 def changed_event(cycle: Result, other: Result) -> str:
-    """The event that appears or disappears between a cycle and a motion just beyond the end of its branch.
-
-    Up to this event, which grazes between the two, their events are the same.
-    """
+    """The event that appears or disappears between a cycle and a motion just beyond the end of its branch. Up to this
+    event, which grazes between the two, their events are the same."""
     names = {"stick_to_slip": "release", "slip_to_stick": "stop", "slip_reversal": "slip reversal"}
     same = 0.01 * cycle.t_end / len(cycle.events)  # far more than the small difference of parameters changes times by
     events = (zip(run.events["kind"].to_list(), run.events["time"].to_list(), strict=True) for run in (cycle, other))
@@ -529,10 +527,8 @@ CLOSED = "the curve is closed"
 
 
 def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float, complex]:
-    """Value of a test function that vanishes on the curve, and the multiplier nearest to `former`, which gives it.
-
-    For a neutral curve it is the logarithm of the multiplier's modulus, for a fold the real multiplier less one.
-    """
+    """Value of a test function that vanishes on the curve, and the multiplier nearest to `former`, which gives it. For
+    a neutral curve it is the logarithm of the multiplier's modulus, for a fold the real multiplier less one."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     if kind == "fold":
         values = values[values.imag == 0]

@@ -191,9 +191,7 @@ def find_cycle(
     p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
 ) -> FloquetResult:
     """The cycle that Newton's method finds from `guess`, a point of the section; the static equilibrium by default.
-
-    Near the next release after a state the cycle has `releases` releases, and may lose contact.
-    """
+    Near the next release after a state the cycle has `releases` releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -218,11 +216,9 @@ def find_cycle(
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
-    """The cycle that Newton's method finds from the static equilibrium.
-
-    If it finds none, the motion from there is simulated for some returns. Cycles of up to three releases are then
-    sought from the end of that motion; without one, the status is the kind of the motion.
-    """
+    """The cycle that Newton's method finds from the static equilibrium. If it finds none, the motion from there is
+    simulated for some returns. Cycles of up to three releases are then sought from the end of that motion; without one,
+    the status is the kind of the motion."""
     p, tol, x = map_.parameters, map_.tol, map_.static
     solution = newton(map_, x)
     if solution is not None:

@@ -70,10 +70,8 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
     """Frequency (Hz), number of diameters and whether the slider takes part, for every mode of disc and slider at rest.
-
     A coupled mode has the diameters of the disc's mode with most of its energy; the uncoupled mode of a pair keeps its
-    own.  A compliant contact adds one mode, in which the slider moves against the disc.
-    """
+    own. A compliant contact adds one mode, in which the slider moves against the disc."""
     modes = mode_arrays(p)
     frequencies, shapes = coupled_shapes(p, contact_compliance(p))
     coupled = [

@@ -50,10 +50,8 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter on a stiff system.
-
     That function takes the time unit for one radian of the fastest oscillation. Strong dampers, a light slider on
-    springs and a fast drive are faster still, and do not show in the steps of a steady motion.
-    """
+    springs and a fast drive are faster still, and do not show in the steps of a steady motion."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     stiffness = max(model.unit**-2, max(model.k, model.k_p) / model.m)
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega

@@ -322,8 +322,7 @@ HALVINGS = 6
 
 class FollowedModes(NamedTuple):
     """Steady sliding of a case and its modes by frequency; their numbers, and their likeness (MAC) to the modes of the
-    case before that have them, nan for new ones, both (n,).
-    """
+    case before that have them, nan for new ones, both (n,)."""
 
     sliding: SteadySliding
     modes: SlidingModes

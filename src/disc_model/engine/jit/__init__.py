@@ -81,10 +81,8 @@ def helper(function: Callable[..., Any], forceinline: bool = False) -> Callable[
 
 
 def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a function into its callers.
-
-    This is for small helpers of hot loops, where a call would cost more than the helper's own work.
-    """
+    """Compile a function into its callers. This is for small helpers of hot loops, where a call would cost more than
+    the helper's own work."""
     return helper(function, forceinline=True)
 
 
@@ -122,11 +120,8 @@ def _names(function: FunctionType) -> frozenset[str]:
 
 
 def compiled_for(function: Callable[..., Any], arguments: tuple[object, ...]) -> Callable[..., Any]:
-    """The machine code of a kernel for arguments of these types, which are not checked at calls.
-
-    A kernel itself checks the types of all arrays in its arguments at every call, which takes ten times as long as
-    passing them.
-    """
+    """The machine code of a kernel for arguments of these types, which are not checked at calls. A kernel itself checks
+    the types of all arrays in its arguments at every call, which takes ten times as long as passing them."""
     if not hasattr(function, "compile"):  # where compilation is switched off
         return function
     code: Callable[..., Any] = function.compile(tuple(numba.typeof(argument) for argument in arguments))

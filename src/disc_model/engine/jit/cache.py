@@ -105,10 +105,8 @@ def stored_helpers(codegen: Any) -> dict[str, bytes]:
 
 @contextmanager
 def lock(name: str) -> Iterator[None]:
-    """Let other processes wait that come to a lock of the same name.
-
-    Where files cannot be locked, as on some network file systems, none waits.
-    """
+    """Let other processes wait that come to a lock of the same name. Where files cannot be locked, as on some network
+    file systems, none waits."""
     with ExitStack() as stack:
         with suppress(ImportError, OSError):
             import fcntl

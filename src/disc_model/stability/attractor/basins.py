@@ -106,10 +106,8 @@ class Basins:
         return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
 
     def _difference(self, first: Segment, second: Segment) -> float:
-        """Largest relative difference of ranges, shares of the phases and separations per second.
-
-        Differences of shares below `SAME`, and of less than two separations in a leg, are relative to these limits.
-        """
+        """Largest relative difference of ranges, shares of the phases and separations per second. Differences of shares
+        below `SAME`, and of less than two separations in a leg, are relative to these limits."""
         ranges = [max(segment.range, self.smallest) for segment in (first, second)]
         compared = [(*ranges, self.smallest), (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG)]
         compared.append((first.stick_fraction, second.stick_fraction, thresholds.SAME))

@@ -225,9 +225,7 @@ def extrapolate_departure(
     near: NearCycle, room: int, furthest: float = thresholds.AMPLITUDES[0]
 ) -> tuple[float, Array] | None:
     """Time over which multipliers represent a motion's departure, at most `room` periods, and the distance at its end.
-
-    The time is in s, the distance that from the cycle, on the section. None if multipliers do not represent it.
-    """
+    The time is in s, the distance that from the cycle, on the section. None if multipliers do not represent it."""
     period = near.cycle.period
     powers = [near.jacobian]
     most = math.log(1e100) / max(math.log(abs(near.cycle.multipliers[0])), 1e-300)
@@ -252,10 +250,8 @@ def extrapolate_departure(
 
 
 def _excess_rate(near: NearCycle, distance: Array) -> float | None:
-    """Relative excess of a departing motion's growth rate over the leading multiplier's; None for another motion.
-
-    The phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders.
-    """
+    """Relative excess of a departing motion's growth rate over the leading multiplier's; None for another motion. The
+    phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders."""
     leading_left, right = near.leading, _left_vector(near.jacobian.T)
     right = right / (leading_left @ right)
     real = near.cycle.multipliers[0].imag == 0

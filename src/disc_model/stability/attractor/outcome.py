@@ -385,10 +385,8 @@ def growing(changes: Sequence[float]) -> bool:
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
-    """Simulate from a state (None: the static start) for a duration (s), and describe the last segment of it.
-
-    The segment is None if the simulation ended early.
-    """
+    """Simulate from a state (None: the static start) for a duration (s), and describe the last segment of it. The
+    segment is None if the simulation ended early."""
     begin = 0.0 if state is None else state.time
     stop = begin + duration
     if stop - late > begin:
@@ -444,11 +442,9 @@ class Arrival(NamedTuple):
 
 
 def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
-    """What a motion has come to at the end of its successive legs, recorded with their events.
-
-    Rest, eigenvalues of steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs
-    decides, by the angles at releases and at losses of contact.
-    """
+    """What a motion has come to at the end of its successive legs, recorded with their events. Rest, eigenvalues of
+    steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs decides, by the angles
+    at releases and at losses of contact."""
     leg = legs[-1]
     if (calm := find_calm(p, leg, tol)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
@@ -462,10 +458,8 @@ def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
 
 
 def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCycle | None:
-    """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact.
-
-    Periods of up to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases.
-    """
+    """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact. Periods of up
+    to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
     last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
     releases = int((last["kind"] == "stick_to_slip").sum())
     if not releases or not may_stick_and_slip(p) or case_faults(p, "a cycle"):
@@ -525,11 +519,9 @@ class Regularity(NamedTuple):
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
-    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent.
-
-    The exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is
-    negative, all neighbouring motions converge to one cycle, even if its period is too long to be observed.
-    """
+    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent. The
+    exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is negative,
+    all neighbouring motions converge to one cycle, even if its period is too long to be observed."""
     run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())
