@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes
-from disc_model.engine import saltation, tangent, transitions
+from disc_model.data.variables import PHASES
+from disc_model.engine import layout, saltation, tangent, transitions
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
@@ -176,6 +177,12 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     log = engine.tangent.log
     assert [i for i in range(tangent.RELEASES, tangent.STICKS + 1) if log[i]] == [counted] * (counted is not None)
     assert log[tangent.RELEASES : tangent.STICKS + 1].sum() == (counted is not None)
+    first, spent = PHASES.index(SWITCHES[switch][0]), np.zeros(len(PHASES))
+    spent[first] = switched = float(run.events[0]["time"])
+    spent[int(engine.state.x[layout.PHASE])] += float(span) - switched
+    times = log[tangent.DURATION : tangent.RELEASES]
+    np.testing.assert_allclose(times, [float(span), *spent], rtol=0, atol=1e-9 * float(span))
+    assert log[tangent.N_STEPS] >= len(kinds)
     if not p.contact_compliance and kinds[-1] != "separation":
         sizes[2:4] = np.inf  # u and u' are the disc's
     got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
