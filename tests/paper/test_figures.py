@@ -1,6 +1,5 @@
 """The paper's figures, as config/paper.yaml describes them."""
 
-import functools
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +12,10 @@ from disc_model.figures.drawing import COLUMN, PAGE
 from disc_model.figures.kind import CasePlot
 from disc_model.paper.figures.contact import motion_of
 from disc_model.studies.study import load_study
-from tests.damages import DAMAGES, EACH_DAMAGE, damaged
+from tests.damages import DAMAGES, damaged
 from tests.figures.reading import assert_fit_for_print
 from tests.figures.test_cases import RECORDED, said_in, simulated
-from tests.paper import made_up
+from tests.paper import evidence
 
 STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
 FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}
@@ -27,13 +26,7 @@ MOVED = {
     "fig28": {"zooms": (("spectrum_d", 56.5), ("spectrum_d", 57.0))},
     "composite": {"force": ("spectrum_d", 57.0)},
 }
-"""Closer looks at times that the made-up case has."""
-
-
-@functools.cache
-def holding_less(damage: str) -> xr.DataTree:
-    """The made-up case, damaged."""
-    return damaged(simulated(True), DAMAGES[damage])
+"""Closer looks at times that the case has."""
 
 
 def drawn(name: str, case: xr.DataTree) -> Figure:
@@ -52,15 +45,16 @@ def test_figures_are_fit_for_print(name: str, separates: bool) -> None:
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("damage", EACH_DAMAGE)
+@pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
     """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
-    figure = drawn(name, holding_less(damage))
+    figure = drawn(name, damaged(simulated(True), DAMAGES[damage]))
     figure.draw_without_rendering()
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
-        assert len(reasons) == len([ax for ax in figure.axes if not ax.has_data()])
+        assert reasons
+        assert all(ax.texts for ax in figure.axes if not ax.has_data())
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
         known = {"failed"} if damage == "failed" else {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
@@ -101,7 +95,7 @@ def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
     """In the maps as told all nine separate with both; then two do with the published scale only."""
     plot = STUDY.figures["figB2"]
     changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
-    for lost, maps in ((0, made_up.scans()), (2, made_up.scans(**changes))):
+    for lost, maps in ((0, evidence.scans()), (2, evidence.scans(**changes))):
         figure = plot.render({"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}})
         assert_fit_for_print(figure)
         assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"

@@ -15,7 +15,8 @@ from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Finding
 from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, evidence_of, judge_models, page_of
 from disc_model.studies.study import load_study
-from tests.paper.made_up import grid, kept_events, logistic
+from tests.analysis.test_classify import logistic
+from tests.paper.evidence import grid, kept_events
 
 BY_TITLE = {row.id: row for row in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"
@@ -164,7 +165,7 @@ def case(
 BONDED = case(3, 3, 3, 3, first=0)
 REPEATING = np.tile([0.01, 0.012, 0.011], 2000)
 DRIFTING = 0.01 * (1 + 0.1 * np.sin(2.399963 * np.arange(6000)))
-CHAOTIC = 0.01 * (1 + 0.3 * logistic(6000))
+CHAOTIC = 0.01 * (0.7 + 0.6 * logistic(4.0, 8000))
 SMALLER, STICK, PERIODIC = "Smaller vibration", "Stick vanishes", "Not periodic afterwards"
 
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model.paper import SCANS, SURVIVAL_GRIDS, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
@@ -18,6 +17,7 @@ from disc_model.paper.survival import CONCLUSIONS
 from disc_model.simulation.api import run_case
 from disc_model.studies.merge import merge_cases
 from disc_model.studies.study import load_study, parse_study
+from tests.paper import evidence
 
 ROOT = Path(__file__).parents[2]
 STUDY = load_study(ROOT / "config" / "paper.yaml")
@@ -43,9 +43,10 @@ def test_rows_quote_say_why_and_show() -> None:
         assert not re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}"), f"{row.id}: a code of ours"
 
 
-def test_the_table_of_impacts_has_what_follows_them_or_why_not(told: xr.DataTree) -> None:
-    cases = {name: CaseView(name, node) for name, node in told.children.items()}
-    table = impact_law(cases | {"P03res": cases["F11"]})
+@pytest.mark.compiled
+def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
+    cases = evidence.cases({"P03res": "F11"})
+    table = impact_law(cases)
     case = cases["P03l8"]
     row = table.set_index("modes").loc["8 nodal diameters"]
     assert row["rate_Hz"] == pytest.approx(case.rate_of("separation"), rel=1e-12)
