@@ -53,7 +53,6 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
     figure.draw_without_rendering()
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
     if damage in ("failed", "nothing recorded"):
-        assert reasons
         assert all(ax.texts for ax in figure.axes if not ax.has_data())
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
         known = {"failed"} if damage == "failed" else {*lacks}
