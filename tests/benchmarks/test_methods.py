@@ -12,7 +12,9 @@ from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
 from disc_model.benchmarks.work_precision import fitted_order
+from disc_model.errors import ParameterError
 from tests import needs
+from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively
 
 SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
@@ -78,6 +80,16 @@ def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lift
     for quantity in ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"):
         size = max(np.max(np.abs(end[quantity])), 1e-12)
         np.testing.assert_allclose(getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size)
+
+
+@pytest.mark.parametrize("name", [*SHORT, "LSODA", "Radau", "regularised"])
+@pytest.mark.parametrize("law", ALL_LAWS)
+def test_rivals_refuse_other_laws_of_contact(name, law):
+    """They used to answer for the paper's law, as if the parameters had been left out."""
+    motion = Problem(P.replace(**ALL_LAWS[law]), lively("slip", 1, P), 1e-4)
+    changed = ".*".join(f"{parameter}=.*: must be" for parameter in ALL_LAWS[law])
+    with pytest.raises(ParameterError, match=f"{changed} .*, because only the engine"):
+        METHODS[name].solve(motion, 1e-3)
 
 
 def test_the_regularised_model_is_of_order_two_thirds_in_eps_and_stiff_in_proportion_to_its_sharpness():

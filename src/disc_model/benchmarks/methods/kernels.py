@@ -18,16 +18,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.plate import modal_damping, mode_arrays
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, as_text, raise_faults
+from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
+OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")
+"""Parameters that change the law of contact, which is the paper's in all methods but the engine."""
 
 
 class Physics:
-    """Constants of a case, in SI units; `kernels` has the equations."""
+    """Constants of a case, in SI units; `kernels` has the equations. Raises `ParameterError` for another law."""
 
     def __init__(self, p: Parameters) -> None:
+        rule = "must be {}, because only the engine has other laws of contact than the paper's"
+        changed = [name for name in OTHER_LAWS if getattr(p, name) != DEFAULTS[name]]
+        raise_faults([Fault.of((name,), getattr(p, name), rule.format(as_text(DEFAULTS[name]))) for name in changed])
         modes = mode_arrays(p)
         self.p = p
         self.n = n = len(modes.omega)
