@@ -97,8 +97,8 @@ def main() -> None:
     results, docs = Path("results"), Path("docs")
     axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
     axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
-    first_study = re.search(r"```yaml\n(.*?)```", (docs / "studies.md").read_text(encoding="utf-8"), re.DOTALL)
-    axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study[1])))
+    first_study = (docs / "studies.md").read_text(encoding="utf-8").split("```yaml\n")[1].split("```")[0]
+    axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study)))
     axes.figure.savefig(docs / "gallery" / "my_growth.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
