@@ -7,12 +7,7 @@ from hypothesis.internal.conjecture import providers
 
 # The quick suite draws the same values in every clone. `make test-long` searches at random, by a seed that it prints.
 settings.register_profile(
-    "quick",
-    max_examples=100,
-    derandomize=True,
-    database=None,
-    deadline=None,
-    suppress_health_check=list(HealthCheck),
+    "quick", max_examples=100, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck)
 )
 settings.register_profile("long", settings.get_profile("quick"), max_examples=3000, derandomize=False)
 settings.load_profile("quick")

@@ -5,10 +5,8 @@ from typing import Any
 
 import pytest
 
-from disc_model import ParameterError, Status
-from disc_model.data.variables import CycleStatus
+from disc_model import ParameterError
 from disc_model.errors import DiscModelError, Fault, StatusBase, script
-from disc_model.stability.sliding import SlidingStatus
 from disc_model.studies.study import StudyError
 from disc_model.units import Checked, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
@@ -46,20 +44,6 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     for error in (ParameterError(fault, "k=nan: must be finite"), StudyError("a: b", "c: d", source="x.yaml")):
         again = pickle.loads(pickle.dumps(error))
         assert (str(again), again.faults) == (str(error), error.faults)
-
-
-# ---- statuses
-
-ALL = [status for kind in (Status, CycleStatus, SlidingStatus) for status in kind]
-
-
-@pytest.mark.parametrize("status", ALL, ids=repr)
-def test_each_word_has_a_sentence(status: StatusBase) -> None:
-    assert status == status.value == str(status)
-    assert type(status)(status.value) is status
-    assert pickle.loads(pickle.dumps(status)) is status
-    assert status.advice[0].isupper()
-    assert status.advice.endswith(".")
 
 
 def test_a_status_without_a_sentence_is_refused() -> None:

@@ -53,13 +53,6 @@ def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Mea
     assert choice == choose_modes(RESIDUAL.replace(n_diameters=12), quantity="growth")
 
 
-def test_diameters_that_agree_among_themselves_do_not_do(measured: Measured) -> None:
-    """With rigid contact diameters settle, and the next circle moves everything."""
-    measured(lambda d, c: 1.0 + c)
-    with pytest.raises(DiscModelError, match=r"^n_diameters: undecided: growth still changes by 0\.33 of itself"):
-        choose_modes(P, 0.1, quantity="growth")
-
-
 def one_case(**text: Any) -> CaseSpec:
     parameters = {"N": 385, "n_diameters": "auto", **text}
     cases = {"A": {"title": "A", "t_end": 0.01, "parameters": parameters}}

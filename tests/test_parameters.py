@@ -90,10 +90,3 @@ def test_a_ratio_stands_for_its_first_one_and_stays() -> None:
     ):
         with pytest.raises(ParameterError, match=rule):
             Parameters(N=1, Omega=2, **wrong)
-
-
-def test_kinds_of_contact_are_known_by_the_words_of_identities_as_well() -> None:
-    p = Parameters(N=1, Omega=2, contact="bonded")
-    assert p.contact == "bilateral"
-    assert p.canonical["contact"] == "bonded"
-    assert p == Parameters(N=1, Omega=2, contact="bilateral") == Parameters.model_validate_json(p.canonical_json)

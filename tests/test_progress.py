@@ -39,21 +39,15 @@ def test_only_a_long_simulation_is_shown(
     assert bool(stderr.getvalue()) == shown
 
 
-@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
-@EVERYWHERE
+@pytest.mark.compiled
 @pytest.mark.parametrize("report", [True, False])
-def test_compilation_is_said_in_one_line(
-    kind: type[io.StringIO], monkeypatch: pytest.MonkeyPatch, report: bool
-) -> None:
-    stderr = kind()
-    monkeypatch.setattr(sys, "stderr", stderr)
+def test_compilation_is_said_in_one_line(capsys: pytest.CaptureFixture[str], monkeypatch, report: bool) -> None:
     monkeypatch.setattr(cache.LINES, "shown", set())
-    inner = numba.njit(lambda x: x + 1)
-    outer = numba.njit(lambda x: inner(x) + 1)
+    add = numba.njit(lambda x: x + 1)
     with cache.compiling(report):
-        outer(1)
-        outer(2.0)
-    assert stderr.getvalue() == f"{cache.COMPILING}\n" * report
+        add(1)
+        add(2.0)
+    assert capsys.readouterr().err == f"{cache.COMPILING}\n" * report
 
 
 def test_a_wait_for_another_process_is_said_and_its_helpers_are_read(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:

@@ -12,11 +12,7 @@ P = Parameters(N=385.0, Omega=15.1)
 
 
 @pytest.mark.parametrize(
-    ("normalization", "tolerance", "size"),
-    [
-        ("as_published", 1e-4, (5, 3)),
-        ("orthonormal", 1e-2, (4, 0)),
-    ],
+    ("normalization", "tolerance", "size"), [("as_published", 1e-4, (5, 3)), ("orthonormal", 1e-2, (4, 0))]
 )
 def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, tolerance, size):
     p = P.replace(normalization=normalization)

@@ -38,16 +38,9 @@ def test_python_takes_units_everywhere() -> None:
 
 
 def grid(E: Any, h: Any, Omega: Any, **options: Any) -> dict[str, Any]:
-    axes = {"Omega": Omega, "h": h, "start": ["static", "k"]}
-    starts = {"k": {"perturbation": {"u": options.pop("u")}}}
-    return {
-        "study": "s",
-        "quantity": "outcome",
-        "options": options,
-        "base": {"N": 200, "E": E},
-        "axes": axes,
-        "starts": starts,
-    }
+    raw = {"study": "s", "quantity": "outcome", "base": {"N": 200, "E": E}}
+    raw |= {"starts": {"k": {"perturbation": {"u": options.pop("u")}}}, "options": options}
+    return raw | {"axes": {"Omega": Omega, "h": h, "start": ["static", "k"]}}
 
 
 def test_spelling_with_units_runs_nothing_anew() -> None:

@@ -140,13 +140,6 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(path: Path) -> None:
     assert os.listdir(path.parent) == ["case.nc"]
 
 
-def test_no_folder_is_made(path: Path) -> None:
-    """A slip in the name of a folder ended in a new one."""
-    with pytest.raises(WriteError, match=r"new/case\.nc: must be in a folder that exists"):
-        save(load(path), path.parent / "new" / "case.nc")
-    assert os.listdir(path.parent) == ["case.nc"]
-
-
 def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:
     other, intact = path.with_name("other file.nc"), path.with_name("intact.nc")
     intact.write_bytes(path.read_bytes())

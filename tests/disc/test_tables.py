@@ -71,28 +71,6 @@ def test_a_plate_given_by_its_modes_moves_as_the_plate(change: dict[str, object]
         assert growth[1] == pytest.approx(growth[0], abs=1e-9)
 
 
-TABLES = {
-    "one pair": {"diameters": [3], "omega": [2770.0], "amplitude": [2.1]},
-    "no axisymmetric mode": {"diameters": [1, 2], "omega": [1515.0, 1820.0], "amplitude": [2.2, 2.1]},
-    "one axisymmetric mode": {"diameters": [0], "omega": [1490.0], "amplitude": [1.5]},
-    "two circles": {**THREE, "diameters": [0, 0, 2], "circles": [0, 1, 0], "damping_ratio": [1e-3, 2e-3, 0.0]},
-    "60 modes": {
-        "diameters": [i % 20 for i in range(60)],
-        "omega": [1500.0 + 400.0 * i for i in range(60)],
-        "amplitude": [2.0] * 60,
-    },
-}
-
-
-@pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
-def test_tables_of_many_kinds_are_computed(table: dict[str, list[float]]) -> None:
-    p = P.replace(disc=dm.Disc(**table))
-    run = dm.simulate(p, 0.02, execution=dm.Execution(audit_every_step=True)).raise_for_status()
-    assert run.statistics["energy_residual"] < 1e-10  # as for the plate
-    assert dm.plate_modes(p)["omega"].tolist() == table["omega"]
-    assert dm.Parameters.model_validate_json(p.canonical_json) == p
-
-
 def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
     """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the deflection."""
     plate, r, theta = P.replace(normalization="orthonormal"), np.linspace(P.a, P.b, 41), np.linspace(0, 6, 13)
@@ -159,19 +137,6 @@ def test_no_table_ends_in_a_foreign_error(tmp_path: Path) -> None:
             dm.simulate(p, 1e-3)
             dm.coupled_natural_frequencies(p)
     assert discs > 10
-
-
-OWN = "study: own\nbase: {{disc: {}, Omega: 15}}\nquantity: floquet\naxes: {{N: [300, 385]}}\n"
-
-
-def test_a_study_names_a_table_beside_it(tmp_path: Path) -> None:
-    """What the table holds, and not its name, decides which batches there are."""
-    for name in ("a.csv", "b.csv"):
-        (tmp_path / name).write_text(disc_table(P))
-    batches = [list(grid_in(tmp_path, OWN.format(name)).batches) for name in ("a.csv", "b.csv")]
-    assert batches[0] == batches[1]
-    (tmp_path / "b.csv").write_text(disc_table(P.replace(h=0.0021)))
-    assert list(grid_in(tmp_path, OWN.format("b.csv")).batches) != batches[0]
 
 
 def test_discs_are_an_axis(tmp_path: Path) -> None:

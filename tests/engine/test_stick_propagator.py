@@ -89,8 +89,7 @@ def test_the_gain_of_a_mode_is_its_swing_of_the_contact_force(compliance: float)
 
 
 @pytest.mark.parametrize(
-    "variant",
-    [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS],
+    "variant", [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS]
 )
 @pytest.mark.parametrize("seed", range(2))
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 from matplotlib import pyplot
 from PIL import Image
 
@@ -65,11 +64,6 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
         assert film.n_frames == 3
 
 
-def test_a_window_that_is_not_there_is_named() -> None:
-    with pytest.raises(dm.ParameterError, match=r"window='lat': was not recorded"):
-        run().plot_spectrum("lat")
-
-
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     from disc_model.stability.continuation import continue_cycle
 
@@ -100,14 +94,6 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
     for shown, text in ((critical, "to 0.3"), (curves, "135.42 Hz"), (exponents, "exponent 2")):
         assert text in shown._repr_html_()
-
-
-def test_words_of_a_second_dimension_give_a_line_each() -> None:
-    grid = {"direction": ["up", "down"], "Omega": [10.0, 12.0]}
-    rates = xr.Dataset({"separation_rate": (("direction", "Omega"), [[0.0, 1.0], [2.0, 3.0]])}, grid)
-    axes = dm.plot_sweep(rates)
-    assert [line.get_ydata().tolist() for line in axes.lines] == [[0, 1], [2, 3]]
-    assert [text.get_text() for text in axes.figure.legends[0].texts] == ["up", "down"]
 
 
 def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:

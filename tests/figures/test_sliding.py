@@ -7,7 +7,6 @@ import xarray as xr
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.kind import kind_of
 from disc_model.figures.modes import AGREEMENTS, agreement, common_points
-from disc_model.studies.study import StudyError, parse_study
 from tests.studies.conftest import SMALL, computed
 
 SCAN = {"start": 0, "stop": 0.4, "count": 5}
@@ -56,11 +55,3 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     growing = float((sliding["largest_growth_rate"] > 0).mean())
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert f"{AGREEMENTS['unstable_separates'].label} ({growing:.0%})" in texts
-
-
-def test_the_comparison_needs_steady_sliding() -> None:
-    axes = {"N": [1, 2], "Omega": [1, 2]}
-    figure = {"kind": "sliding_outcome", "x": "Omega", "y": "N"}
-    raw = {"study": "plane", "quantity": "outcome", "options": {"horizon": 10}, "axes": axes, "figures": {"f": figure}}
-    with pytest.raises(StudyError, match=r"overlays\.sliding: is required"):
-        parse_study(raw)

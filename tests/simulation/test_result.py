@@ -1,7 +1,6 @@
 """Results and states: constants that runs share, and what is handed on: files, a line of text, another time."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -61,16 +60,6 @@ def test_a_tree_is_what_netcdf_holds(tmp_path: Path) -> None:
         ParameterError, match=r"name='lat': no such window, did you mean late\? \(known: late, bins, turns\)"
     ):
         result["lat"]
-
-
-NO_GROUP = (".", "..", "a\nb", "x" * 300, " a", "a ", "\x00", "\ud800", "a/b", "events", "N", 3)
-
-
-@pytest.mark.parametrize("name", NO_GROUP, ids=repr)
-def test_names_that_no_group_can_have_are_refused(name: Any) -> None:
-    """They ended in errors of libraries, some of them when the file was half written."""
-    with pytest.raises(ParameterError, match=r"^windows\..*: the name of a window must be at most 60 printable"):
-        simulate(P, 0.01, {name: Window(rate=1000)})
 
 
 def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Path) -> None:

@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.stability.continuation import (
-    BORDER,
-    CorrectorFailed,
-    CycleProblem,
-    continue_border,
-    continue_cycle,
-)
+from disc_model.stability.continuation import BORDER, CorrectorFailed, CycleProblem, continue_border, continue_cycle
 from disc_model.stability.curves import neutral_curves
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
 

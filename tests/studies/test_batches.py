@@ -28,14 +28,6 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
     assert all(len(name) == 12 for name in grid.batches)
 
 
-def test_spelling_order_and_the_sign_of_zero_do_not_matter() -> None:
-    axes = {"Omega": ["20.0", 1.5e1, 10], "N": [300, 100, 200.0]}
-    other = parse_grid(study(axes=axes, title="called otherwise"))
-    assert other.batches == parse_grid(study()).batches
-    one, other = (parse_grid(study(axes={"N": [1], "Omega": [zero]})) for zero in (0.0, -0.0))
-    assert one.batches == other.batches
-
-
 def test_changes_change_only_the_batches_they_touch() -> None:
     before = set(parse_grid(study()).batches)
     axes = study()["axes"]

@@ -48,7 +48,3 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     for some, grid in ((batches[1:], study.grid), ([*batches, batches[0]], study.grid), (batches, fewer.grid)):
         with pytest.raises(MergeError, match=r"not the \d points of the grid"):
             merge_batches(some, grid, {})
-    extra = ("sample", [0.0, 1.0])
-    odd = [batch.assign(extra=extra).assign_coords(sample=[i, i + 1]) for i, batch in enumerate(batches)]
-    with pytest.raises(MergeError, match="do not fit together"):
-        merge_batches(odd, study.grid, {})

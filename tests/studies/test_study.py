@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from disc_model import Parameters
-from disc_model.simulation.case import CaseSpec, Window
+from disc_model.simulation.case import Window
 from disc_model.studies.study import Study, StudyError, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
@@ -79,13 +79,6 @@ def test_cases_inherit_and_override() -> None:
     assert a.events == (8.0, 10.0)
     assert b.events == (0.0, 1.0), "the last 2 s of a run of 1 s are all of it"
     assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
-
-
-def test_specification_survives_its_text() -> None:
-    study = with_case(record={"poincare": {"theta": 0.5}}, ramps=[{"parameter": "N", "to": "5", "start": 2, "end": 8}])
-    assert [ramp.to for ramp in study.specs["A"].ramps] == [5.0]
-    for spec in study.specs.values():
-        assert CaseSpec.from_canonical(spec.canonical) == spec
 
 
 # ---- files

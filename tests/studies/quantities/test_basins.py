@@ -1,19 +1,17 @@
 """Shares of what many starts come to, and the critical energy of separation."""
 
-from types import SimpleNamespace
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
 from disc_model.data.variables import Outcome
-from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.attractor import basins as attractors
 from disc_model.stability.attractor.outcome import Attractor, OutcomeResult
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
-from disc_model.studies.quantity import STATUSES, Point
+from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import stretch
 from tests.studies.conftest import compute
 
@@ -73,17 +71,3 @@ def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: N
     low, high = table["critical_energy_lower"][0], table["critical_energy"][0]
     assert low <= 0.02 < high <= low * 1.01
     assert np.isnan(found(energies=[0.01], n_starts=3).arrays["critical_energy"][0])
-
-
-def test_starts_that_fail_are_counted_and_said(made: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = OutcomeResult(None, 3.0, failed=SimpleNamespace(status=Status.PARADOX, message="paradox: at t = 3 s"))
-    monkeypatch.setattr(Made, "classes", {1: lost, 2: OutcomeResult(Outcome.UNDECIDED, 200.0)})
-    table = found(energies=[0.1], n_starts=4)
-    classes = list(basins.CLASSES)
-    assert STATUSES[table.arrays["status"][0]] == "ok"
-    assert table.arrays["basin_fraction"][0, classes.index("failed")] == 0.25
-    assert table.arrays["basin_fraction"][0, classes.index("undecided")] == 0.25
-    assert table.messages == ["1 of 4 starts failed, such as paradox: at t = 3 s"]
-    assert (table.arrays["attractor_index"][0, 0] > 0).tolist() == [True, False, False, True]
-    monkeypatch.setattr(Made, "classes", dict.fromkeys(range(4), lost))
-    assert STATUSES[found(energies=[0.1], n_starts=4).arrays["status"][0]] == "paradox"
