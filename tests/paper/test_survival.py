@@ -12,7 +12,7 @@ from disc_model import Parameters, residual_flexibility
 from disc_model.data.variables import STATUSES
 from disc_model.paper import SURVIVAL_GRIDS
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Finding
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer
 from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, evidence_of, judge_models, page_of
 from disc_model.studies.study import load_study
 from tests.analysis.test_classify import logistic
@@ -24,7 +24,7 @@ NAN = float("nan")
 POINTS = {"N": [50.0, 385.0], "Omega": [10.0, 20.0, 30.0]}
 
 
-def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Finding:
+def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Answer:
     studies = {f"survival_{name}": xr.DataTree(study) for name, study in grids.items()}
     views = {name: CaseView(name, node) for name, node in studies.items()}
     return BY_TITLE[title].judge({case.name: case for case in cases} | views)

@@ -30,7 +30,6 @@ STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a cas
 STEADY = 3e-4
 """1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.classify`."""
 LOW, HIGH = 20.0, 700.0  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
-EARLY = (1.0, 1.0 + STRETCH)  # the first 20 s without the first second, s
 
 
 class Absent(Missing):
@@ -125,14 +124,9 @@ class CaseView:
         return f"periodic, repeats after {after} ({length:.6g} s) to within {motion.closure:.0e} s"
 
     @property
-    def sticks(self) -> bool:
-        """Whether it spends a thousandth of the time sticking, within the stored events."""
-        return self.stick > 1e-3
-
-    @property
     def early(self) -> Range:
         """Range of the contact force over the first 20 s, without the first second, N."""
-        return self.range_of("P", *EARLY)
+        return self.range_of("P", 1.0, 1.0 + STRETCH)
 
     @property
     def late(self) -> Range:
@@ -275,7 +269,7 @@ class CaseView:
         samples = self.samples(window).sel(time=slice(start, stop))
         if samples.sizes["time"] < 100:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
-        return Signal(self.name, window, start, stop, samples["time"].values, samples[name].values)
+        return Signal(self.name, window, samples["time"].values, samples[name].values)
 
     def slope(self, name: str, start: float, stop: float) -> float:
         """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
@@ -290,28 +284,17 @@ class CaseView:
 
 @dataclass(frozen=True)
 class Signal:
-    """Samples of a case between two times, s; `filled` and `high` are comparable for stretches of equal length only."""
+    """Samples of a case between two times, s; fractions are comparable for stretches of equal length only."""
 
     case: str
     window: str
-    start: float
-    stop: float
     time: Array
     values: Array
-
-    @property
-    def width(self) -> float:
-        return float(np.ptp(self.values))
 
     @cached_property
     def filled(self) -> float:
         """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it, lines do not."""
         return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
-
-    @cached_property
-    def high(self) -> float:
-        """Ratio of the power above `HIGH` to that above `LOW`."""
-        return self.power_above(HIGH)
 
     def power_above(self, frequency: float) -> float:
         """Ratio of the power above a frequency in Hz to that above `LOW`; raises `Missing` without any line."""
@@ -442,29 +425,16 @@ def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> s
 
 
 @cache
-def _search_of(p: Parameters) -> FloquetResult:
-    """The search for a cycle near the static start, made once also where there is none."""
+def cycle_of(p: Parameters) -> FloquetResult:
+    """The search for a stick-slip cycle near the static start, made once also where there is none."""
     from disc_model.stability.cycle import floquet
 
     return floquet(p)
 
 
-def cycle_of(p: Parameters) -> FloquetResult:
-    """The stick-slip cycle near the static start, stable or not, computed once; raises `Missing` without one."""
-    from disc_model.data.variables import CycleStatus
-
-    search = _search_of(p)
-    if search.status is not CycleStatus.OK:
-        raise Missing(f"no stick-slip cycle: {search.message}")
-    return search
-
-
 def growth_or_nan(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of the cycle, 1/s; nan if there is none."""
-    try:
-        return cycle_of(p).growth_rate
-    except Missing:
-        return math.nan
+    """Largest growth rate of small disturbances of the cycle, stable or not, 1/s; nan if there is none."""
+    return cycle_of(p).growth_rate
 
 
 @cache

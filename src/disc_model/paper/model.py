@@ -5,8 +5,8 @@ The row is data, in a YAML file; see `Row` for its keys.  It names its check, a 
 
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass
 from functools import cache
+from itertools import product
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal
@@ -53,22 +53,13 @@ class Answer:
 
     def __init__(self, verdict: bool | np.bool_ | str, here: str, *notes: str) -> None:
         self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
-        self.here, self.notes = here, [note for note in notes if note]
+        self.here, self.notes = here, " ".join(filter(None, notes))
 
 
 def graded(holds: Iterable[bool | np.bool_]) -> str:
     """The verdict on a statement by what becomes of its parts."""
     each = [bool(part) for part in holds]
     return TRUE if all(each) else PART if any(each) else FALSE
-
-
-@dataclass(frozen=True)
-class Finding:
-    """A verdict, what was computed, and what should be known besides."""
-
-    verdict: str
-    here: str = ""
-    notes: str = ""
 
 
 Names = Literal[True] | tuple[str, ...]
@@ -113,18 +104,18 @@ class Row(BaseModel):
         """How it is judged, in words."""
         return fill(self.judged, **self.given)
 
-    def judge(self, cases: Mapping[str, CaseView]) -> Finding:
+    def judge(self, cases: Mapping[str, CaseView]) -> Answer:
         """Judge it by these cases and grid studies; evidence that is missing or does not decide is named."""
         if self.check is None:
-            return Finding(self.verdict, self.here, self.note)
+            return Answer(self.verdict, self.here, self.note)
         try:
             return self._judge(self.check, cases)
         except Absent as absent:
-            return Finding(FALSE, f"{absent}.")
+            return Answer(FALSE, f"{absent}.")
         except Missing as missing:
-            return Finding(NOT_COMPUTED, f"{missing}.")
+            return Answer(NOT_COMPUTED, f"{missing}.")
 
-    def _judge(self, check: Callable[..., Answer], cases: Mapping[str, CaseView]) -> Finding:
+    def _judge(self, check: Callable[..., Answer], cases: Mapping[str, CaseView]) -> Answer:
         needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
         if self.every:
             needed = {name: case for name, case in cases.items() if not case.is_grid}
@@ -140,8 +131,7 @@ class Row(BaseModel):
         wanted = (*self.scans, *self.beside)
         studies = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
         answer = check(*needed.values(), *studies, **self.given)
-        notes = [*answer.notes, self.note, "Settled by the test." if steady else ""]
-        return Finding(answer.verdict, answer.here, " ".join(filter(None, notes)))
+        return Answer(answer.verdict, answer.here, answer.notes, self.note, "Settled by the test." * bool(steady))
 
 
 def rows_of(module: ModuleType) -> tuple[Row, ...]:
@@ -161,10 +151,9 @@ def rows_of(module: ModuleType) -> tuple[Row, ...]:
 
 
 def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
-    """Judge rows under models, each with its own cases: a row for every statement and model, see `Finding`."""
-    return pd.DataFrame(
-        {"id": row.id, "model": model, **asdict(row.judge(cases))} for model, cases in models.items() for row in rows
-    )
+    """Judge rows under models, each with its own cases: a row for every statement and model, see `Answer`."""
+    pairs = product(models, rows)
+    return pd.DataFrame({"id": row.id, "model": name, **vars(row.judge(models[name]))} for name, row in pairs)
 
 
 # ---- Checks of the evidence

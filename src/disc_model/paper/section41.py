@@ -140,7 +140,7 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     rows = [f"{case.place}: {case.motion}" for case in shown]
     near = [f"{case.place}: {case.late_motion()}" for case in stiffer]
     other = []
-    for case in (case for case in begun if not case.sticks):
+    for case in (case for case in begun if case.stick <= 1e-3):
         motion = measures.classify_intervals(tuple(case.intervals("separation")))
         repeats = measures.counted(motion.period, "separation") if motion.period else str(motion)
         other.append(f"{case.place}: {repeats}")

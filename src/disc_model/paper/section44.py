@@ -129,7 +129,7 @@ def higher(
     first = case["first_separation"]
     spans = ((low, first), (first, high))
     (before, after), (ignored, control) = (
-        [each.signal(window, *span).high for span in spans] for each in (case, bonded)
+        [each.signal(window, *span).power_above(HIGH) for span in spans] for each in (case, bonded)
     )
     grows, grows_in_control = after > max(factor * before, floor), control > max(factor * ignored, floor)
     return Answer(
