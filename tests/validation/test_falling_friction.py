@@ -8,19 +8,22 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.engine import transitions
 from disc_model.stability.return_map import ReturnMap
-from tests.contact_laws import FALLING
+from tests.contact_laws import COUPLE, COUPLED, FALLING
 from tests.references import stored, taylor
 from tests.references.growth import couple, steady_eigenvalues
 
 P = Parameters(N=385, Omega=15.1, n_diameters=1)
 EACH_LAW = [pytest.param(name, marks=() if name == "vertical_falling" else pytest.mark.slow) for name in FALLING]
+BONDED = {"bilateral_coupled": COUPLE | {"contact": "bilateral"}}
+QUICK = ("vertical_coupled", "bilateral_coupled")  # whose kernels the quick tests compile in any case
+COUPLES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in COUPLED | BONDED]
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("law", EACH_LAW)
+@pytest.mark.parametrize("law", [*EACH_LAW, *COUPLES])
 def test_events_are_those_of_the_reference_and_the_energy_balances(law):
     """Of a violent piece with separations and impacts, and of slip and stick from rest."""
-    p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, **FALLING[law])
+    p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, **(FALLING | COUPLED | BONDED)[law])
     q, audit = taylor.problem_of(p), Execution(audit_every_step=True)
     violent = stored.rounded(taylor.violent_start(1.3))
     for start, own, span in ((violent, stored.engine_state(violent, p), 0.012), (q.equilibrium(), None, 0.05)):

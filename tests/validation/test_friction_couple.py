@@ -7,13 +7,11 @@ from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping
 from tests.contact_laws import LAWS
-from tests.references import stored, taylor
+from tests.references import taylor
 from tests.references.fixed_step import first_separation
 from tests.references.growth import couple, steady_eigenvalues
 
 EACH_LAW = {"default": {}} | LAWS
-HAS_KERNELS = {"default": {}, "bilateral": {"contact": "bilateral"}}
-"""Laws for which the quick tests compile kernels in any case."""
 
 
 def eigenvalues(p):
@@ -70,18 +68,3 @@ def test_first_separations_are_those_of_fixed_steps(N, Omega):
     p = Parameters(N=N, Omega=Omega, **ORTHONORMAL)
     wanted = first_separation(taylor.problem_of(p), 80)[0]
     assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(wanted, rel=1e-3)
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("law", [*HAS_KERNELS, *(pytest.param(law, marks=pytest.mark.slow) for law in LAWS)])
-def test_events_are_those_of_the_reference(law):
-    """Of a violent piece with separations and impacts, and of slip and stick from rest."""
-    p = Parameters(N=385, Omega=15.1, friction_offset=0.02, c=0.3, c_p=0.2, **(HAS_KERNELS | LAWS)[law])
-    q = taylor.problem_of(p)
-    violent = stored.rounded(taylor.violent_start(1.3))
-    for start, own, span in ((violent, stored.engine_state(violent, p), 0.012), (q.equilibrium(), None, 0.05)):
-        run = taylor.Reference(q, start).run(span)
-        events = simulate(p, span, tol=1e-15, initial_state=own).events
-        assert list(events["kind"]) == [event["kind"] for event in run.events]
-        assert len(events) >= 3
-        np.testing.assert_allclose(events["time"], [float(event["time"]) for event in run.events], rtol=0, atol=1e-13)
