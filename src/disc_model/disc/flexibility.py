@@ -161,6 +161,11 @@ def _shear(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
     return w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
 
 
+def _power(n: Array, r: float) -> Array:
+    """Derivatives 0 to 3 of r^n over r^n: (4, ...)."""
+    return np.stack([np.ones_like(n), n / r, n * (n - 1) / r**2, n * (n - 1) * (n - 2) / r**3])
+
+
 def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
     """Harmonics l >= 2 (n,): those of the unbounded plate plus the effect of the edges."""
     n = l.astype(float)
@@ -168,9 +173,7 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     # r^n over its value at the edge where it is largest: 1 for the first two, inner for the others
     largest = np.array([1.0, 1.0, inner, inner])[:, None]
     clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
-    # derivatives 0 to 3 of r^n over r^n
-    falling = np.ones_like(powers), powers, powers * (powers - 1), powers * (powers - 1) * (powers - 2)
-    at_inner, at_outer = (np.stack([part / r**i for i, part in enumerate(falling)]) for r in (inner, 1.0))
+    at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
     moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
     matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged,
