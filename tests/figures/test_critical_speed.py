@@ -31,8 +31,8 @@ def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
 
 def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[..., Figure]) -> None:
     figure = chart()
-    named = {"cycle loses stability", "stable cycle ends (fold)", "onset of separation within 900 s"}
-    named |= {"end of separation", "paper", "2 $f_s$ = 135.42 Hz"}
+    named = {"cycle loses stability", "stable cycle ends (fold)", "separation begins, within 900 s"}
+    named |= {"paper", "2 $f_s$ = 135.42 Hz"}
     assert set(labels(figure)) == named | {"continuation failed: 2"}
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}

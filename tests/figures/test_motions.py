@@ -122,9 +122,8 @@ def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: 
     both = draw("critical_speed", lost, {"hysteresis": with_failed(sweep, N=400)})
     assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
     shown = lines(both.axes[0]) | lines(both.axes[1])
-    for label in ("onset of separation within 1000 s", "static start, within 1000 s"):
-        loads = np.asarray(shown[label].get_ydata())
-        assert set(loads[np.isfinite(loads)]) == {400}
+    loads = np.asarray(shown["separation begins, within 1000 s"].get_ydata())
+    assert set(loads[np.isfinite(loads)]) == {400}
     for label in ("sweep up: separation begins", "sweep down: separation ends"):
         assert np.isfinite(shown[label].get_xdata()).tolist() == [True, False]
     # nothing is known of any

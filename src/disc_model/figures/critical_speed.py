@@ -1,6 +1,7 @@
 """Charts over speed and preload: onset and end of separation, loss of stability of the cycle, sweeps and ramps."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import chain, pairwise
 from typing import Any, ClassVar, Literal
 
@@ -13,16 +14,16 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing, maps
 from disc_model.figures.drawing import BLACK, COLUMN, END, ONSET, ORANGE, PAGE, PAPER, Artist, Axes, Figure, panels
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
-from disc_model.figures.maps import LOAD, OUTCOME_LOOKS, SPEED, crossings, curves_of, draw_curves, parted, patches, span
+from disc_model.figures.maps import LOAD, OUTCOME_LOOKS, SPEED, Curve, crossings, curves_of, draw_curves, patches, span
 from disc_model.units import Finite
 
 Array = NDArray[np.float64]
 
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
-LOOKS = (("white", "o"), (drawing.SKY, "s"), (drawing.GREEN, "^"), (drawing.PURPLE, "D"), (drawing.BLUE, "v"))
-"""Colour and marker of each horizon, the longest first."""
-EDGES: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5}
-"""What all these marks have in common: black edges, to be seen on any area."""
+CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
+EDGE: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5, "zorder": 1.9}
+ONSETS = EDGE | {"color": "white", "marker": "o", "path_effects": drawing.outline(1.3, BLACK)}
+"""Look of onsets of separation: with black edges, to be seen on any area, below the curves."""
 
 
 class CriticalSpeed(Plot):
@@ -40,7 +41,7 @@ class CriticalSpeed(Plot):
     paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) where separation begins and ends from the static start over a map, and (b) a sweep of the speed."""
+        """Draw (a) where separation begins from the static start, over a map, and (b) sweeps of the speed."""
         lost = drawing.failed(study).values
         sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
         scan = span(study["scan_Omega"].values)
@@ -57,17 +58,17 @@ class CriticalSpeed(Plot):
         handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
         if "curves" in overlays:
             curves = curves_of(overlays["curves"])
-            shown = curves if cycle is None else parted(curves, cycle)[0]
+            shown = curves if cycle is None else _named(maps.parted(curves, cycle)[0], cycle)
             handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
-        horizons = sorted(study["horizon"].values)[::-1]
-        _starts(axes[0], study, horizons)
+        horizon = float(study["horizon"].max())
+        _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
         if self.paper_points:
             load, speed = np.transpose([*self.paper_points.values()])
             edge: dict[str, Any] = {"markeredgecolor": BLACK, "markeredgewidth": 0.6}
             axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
         titles = ["from the static start"]
         if sweep is not None:
-            titles.append(_sweep(axes[1], sweep, study, horizons[0]))
+            titles.append(_sweep(axes[1], sweep, study, horizon))
             if "basins" in overlays:
                 _measured(axes[1], overlays["basins"])
             elif cycle is not None:
@@ -84,17 +85,16 @@ class CriticalSpeed(Plot):
 # ---- Crossings of a scan
 
 
-def speeds_of(study: xr.Dataset, horizon: float, kind: str) -> list[Array]:
-    """Speeds at which separation within a horizon "begins" or "ends" as the speed rises, for each load, rad/s. Onsets
-    include the lowest speed of the scan if it separates already."""
+def speeds_of(study: xr.Dataset, horizon: float) -> list[Array]:
+    """Speeds at which separation within a horizon begins as the speed rises, for each load, rad/s.
+
+    They include the lowest speed of the scan if it separates already.
+    """
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
-    mask = (flag_names(of_horizon["crossing_kind"]) == kind) & np.isfinite(of_horizon["crossing"].values)
-    speeds_of_loads = [speeds[row] for speeds, row in zip(of_horizon["crossing"].values, mask, strict=True)]
-    if kind == "begins":
-        lowest = of_horizon["critical_speed"].values[:, None]
-        lows = [low[np.isfinite(low)] for low in lowest]
-        speeds_of_loads = [*map(np.union1d, speeds_of_loads, lows)]
-    return speeds_of_loads
+    begins = flag_names(of_horizon["crossing_kind"]) == "begins"
+    speeds = np.where(begins, of_horizon["crossing"].values, np.nan)
+    rows = np.column_stack([of_horizon["critical_speed"].values, speeds])
+    return [np.unique(row[np.isfinite(row)]) for row in rows]
 
 
 def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
@@ -112,7 +112,7 @@ def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
-    loads, speeds = study["N"].values, speeds_of(study, horizon, "begins")
+    loads, speeds = study["N"].values, speeds_of(study, horizon)
     # a greater change with the load, in rad/s per N, leads to another range of speeds
     links = [(i, a, b) for i, a, b in branches(speeds) if abs(a - b) < 0.2 * (loads[i + 1] - loads[i])]
     # a gap after each pair
@@ -121,44 +121,46 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
 
 
-def _starts(ax: Axes, study: xr.Dataset, horizons: Sequence[float]) -> None:
-    """Draw the longest horizon as a line, shorter ones where their speed differs, and where separation ends again."""
-    edges = EDGES | {"path_effects": drawing.outline(1.3, BLACK)}
-    loads, longest = study["N"].values, speeds_of(study, horizons[0], "begins")
-    for i, (horizon, (color, marker)) in enumerate(zip(horizons, LOOKS, strict=False)):
-        look = edges | {"color": color, "marker": marker, "zorder": 1.9 - 0.1 * i}  # below the curves
-        if i == 0:
-            _onsets(ax, study, horizon, label=f"onset of separation within {horizon:g} s", **look)
-        elif later := [
-            (speed, load)
-            for load, speeds, known in zip(loads, speeds_of(study, horizon, "begins"), longest, strict=True)
-            for speed in speeds
-            if not np.isclose(known, speed).any()
-        ]:
-            ax.plot(*np.transpose(later), linestyle="", label=f"at another speed within {horizon:g} s", **look)
-    ends = speeds_of(study, horizons[0], "ends")
-    if sum(map(len, ends)):
-        at = np.repeat(loads, [row.size for row in ends])
-        ax.plot(np.concatenate(ends), at, "x", color=BLACK, markersize=3, label="end of separation")
-
-
 # ---- The map behind, and the panel beside
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend."""
-    from matplotlib.patches import Patch
+    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend.
 
+    cycle : over N and Omega, of the quantity `regions` or `floquet`
+    """
     if "outcome" in cycle:
-        words, horizon = maps.outcome_cells(ax, cycle["outcome"]), stated_in(cycle, "options")["horizon"]
-        return [*patches(maps.CELL_LOOKS, words), Patch(alpha=0, label=f"areas: within {horizon:g} s")]
+        words = flag_names(cycle["outcome"])
+        words = np.where(words == "other_cycle", "growing", words)
+        horizon = stated_in(cycle, "options")["horizon"]
+        looks = {
+            "growing": CONTACT,
+            "separation": OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s"),
+            "undecided": OUTCOME_LOOKS["undecided"],
+        }
+        maps.fill(ax, maps.edges_of(cycle["outcome"]), words, looks)
+        return [*patches(looks, words)]
     stable = np.where(cycle["growth_rate"].values < 0, "quiet", "")
     maps.fill(ax, maps.edges_of(cycle["growth_rate"]), stable, {"quiet": STABLE})
     return [*patches({"quiet": STABLE}, stable)]
 
 
+def _named(curves: Sequence[Curve], cycle: xr.Dataset) -> list[Curve]:
+    """The curves of a map, without the names of those that pass no cell with separation."""
+    if "outcome" not in cycle:
+        return [*curves]
+    apart = flag_names(cycle["outcome"]) == "separation"
+    sides = [(name, np.diff(cycle[name].values).max()) for name in ("N", "Omega")]
+
+    def passes(curve: Curve) -> bool:
+        near = [np.abs(cycle[name].values - getattr(curve, name)[:, None]) <= width for name, width in sides]
+        return bool(np.einsum("ki,kj,ij->", *near, apart))
+
+    return [curve if passes(curve) else replace(curve, label="") for curve in curves]
+
+
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
-    """Draw onset and end of separation as the speed rises and falls in steps; description of the sweep."""
+    """Draw onset and end of separation as the speed rises and falls in steps, and the onsets of (a); its title."""
     N, lost = sweep["N"].values, drawing.failed(sweep).values
     look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
     for name, color, marker, text in (
@@ -167,8 +169,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
     ):
         speeds = np.where(lost, np.nan, sweep[name].values)
         ax.plot(speeds, N, color=color, marker=marker, label=text, **look)
-    dashed: dict[str, Any] = {"color": BLACK, "marker": "s", "markersize": 2, "linestyle": (0, (2, 1.5))}
-    _onsets(ax, study, horizon, label=f"static start, within {horizon:g} s", **dashed)
+    _onsets(ax, study, horizon, label="_nolegend_", **ONSETS)
     drawing.mark_failed(ax, N[lost], on="y")
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
     options = stated_in(sweep, "options")
