@@ -42,9 +42,9 @@ class World:
             return {name: BY_NAME[name].judge(cases).verdict for name in self.rows}
 
 
-def mirrored(p: Parameters) -> Any:
+def mirrored(p: Parameters, search: Callable[[Parameters], Any] = measures.cycle_of) -> Any:
     """The cycle of a case, stable instead of unstable."""
-    cycle = measures._search_of(p)
+    cycle = search(p)
     return SimpleNamespace(growth_rate=-cycle.growth_rate, stick_fraction=1.0, multipliers=(-1.1 + 0j,))
 
 
