@@ -101,14 +101,10 @@ BESIDE = (-0.1, -0.2, 0.1, -0.1, -0.05, NAN)
         (ONSET, onset("qssqgs", -0.1, -0.2, 0.1, -0.1, 0.05, NAN), FALSE),  # one from a stable cycle
         (ONSET, onset("qqqqgg", -0.1, -0.2, 0.1, -0.1, 0.05, 0.1), NOT_COMPUTED),  # nothing separates
         (ONSET, onset("qqsqss", *BESIDE, fold=20.2), FALSE),  # the cycle continues
-        (ONSET, onset("qqsqss", *BESIDE, fold=20.05), TRUE),  # just below the fold
-        (ONSET, onset("qqsqgx", *BESIDE), NOT_COMPUTED),
         (FOLD, at_fold(curves("fold", 14.9, 15.2), 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
         (FOLD, at_fold(curves("fold", 15.0, 15.34), 15.1), FALSE),  # at 15.17
-        (FOLD, at_fold(curves("fold", 14.9, 15.2, border="no"), 15.1), FALSE),
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1), NOT_COMPUTED),  # one of them may be the fold
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1, rate=0.1), FALSE),  # the cycle goes on, unstable
-        (FOLD, at_fold(curves("fold", 14.9, 15.2)), NOT_COMPUTED),
         (CRITICAL, critical(30.0, 20.0, 12.0, NAN), TRUE),
         (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), PART),  # at the end of the scan it falls again
         (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FALSE),  # no more than speeds are known to
@@ -118,9 +114,7 @@ BESIDE = (-0.1, -0.2, 0.1, -0.1, -0.05, NAN)
         (NORMAL, damping("c", GROWING, GROWING + np.array([[0.0, -0.1, 0.01], [-0.1, -0.1, 0.0]])), FALSE),
         (IN_PLANE, damping("c_p", MANY, MANY - 0.05), FALSE),
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, 0.05)), TRUE),  # a stable cycle grows
-        (IN_PLANE, damping("c_p", MANY, raised(0, 0, 0.05)), FALSE),  # at a small preload only
         (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_cycle"), TRUE),
-        (IN_PLANE, damping("c_p", MANY, raised(1, 0, NAN), "no_stick_slip"), FALSE),  # it slides: no instability
         (IN_PLANE, damping("c_p", MANY[:, :3], MANY[:, :3] - 0.05), NOT_COMPUTED),  # few cycles say nothing
     ],
 )
@@ -175,11 +169,8 @@ SMALLER, STICK, PERIODIC = "Smaller vibration", "Stick vanishes", "Not periodic 
         (SMALLER, (case(9, 1, 1, 1.05), BONDED), TRUE),  # what is early does not count
         (SMALLER, (case(1, 1, 1, 1.3), BONDED), NOT_COMPUTED),  # it still grows
         (SMALLER, (case(1, 1, 4, 4), BONDED), FALSE),
-        (SMALLER, (case(1, 1, 1, 1),), NOT_COMPUTED),  # nothing to compare with
         (SMALLER, (case(1, 1, 1, 1), case(1, 1, 1, 3, first=0, status="paradox")), TRUE),  # it grew until the end
-        (SMALLER, (case(1, 1, 1, 1), case(1, 1, 1, 3, first=0, status="failed")), NOT_COMPUTED),
         (STICK, (case(stick=5e-4),), TRUE),
-        (STICK, (case(stick=5e-4), case(N=300, stick=0.01)), TRUE),
         (STICK, (case(stick=5e-4, before=5e-4),), FALSE),  # it never stuck
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=DRIFTING)), TRUE),
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=REPEATING)), FALSE),
