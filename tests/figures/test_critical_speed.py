@@ -5,13 +5,14 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
 from disc_model.figures.maps import Curve
-from tests.figures.reading import draw, labels
-from tests.studies.conftest import SCAN, computed
+from tests.figures.reading import draw, labels, lines
+from tests.studies.conftest import SCAN, computed, growth_over
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
@@ -44,3 +45,25 @@ def test_a_line_does_not_jump_to_another_branch() -> None:
     links = [(0, 17.6, 19.5), (1, 11.5, 12.7), (1, 19.5, 21.3)]
     # 13.8 is as near to 12.7 as to 14.9, which is nearer to 15.9
     assert branches(speeds) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
+
+
+def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Figure], sweep: xr.Dataset) -> None:
+    """By multipliers and a sweep, which ends at 13 rad/s; or, once many starts were followed, by what these came to."""
+    growth = growth_over([200, 300, 400], np.linspace(12, 15, 7))
+    beside = chart(hysteresis=sweep, cycle=growth).axes[1]
+    (mesh,) = (shown for shown in beside.collections if isinstance(shown, QuadMesh))
+    rate = growth["growth_rate"].squeeze().values
+    np.testing.assert_array_equal(mesh.get_array() == 1, (rate < 0) & (growth["Omega"].values >= 13))
+    classes = {"Omega": [12.0, 13, 14, 15], "attractor_class": ["quiet"]}
+    quiet = (("Omega", "attractor_class"), [[0.2], [0.1], [0.1], [0.0]])
+    shares = {"basin_fraction_low": quiet, "separating_fraction_low": ("Omega", [0.0, 0.1, 0.2, 0.3])}
+    basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
+    (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
+    assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
+
+
+def test_shorter_horizons_are_marked_where_their_speed_differs(speeds: xr.Dataset) -> None:
+    (ax,) = draw("critical_speed", speeds).axes
+    onset, later = (lines(ax)[name] for name in ("onset of separation within 1000 s", "at another speed within 900 s"))
+    assert set(later.get_ydata()) == {200}
+    assert min(later.get_xdata()) > np.nanmin(onset.get_xdata())

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import CycleStatus, Outcome, flag_names
+from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.attractor.outcome import OutcomeResult
@@ -90,6 +91,17 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert sampled == [[187.5, 12.03125]]
     # only the tile in which the mark lies is another batch
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
+
+
+@pytest.mark.compiled
+def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
+    """At rest, in steady sliding, and a case that cannot be computed."""
+    p = Parameters(N=50, Omega=15, c_p=0.5)
+    (rows,) = Regions(horizon=20).compute_tile([[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], [])
+    (rest, _), (slides, _), (wrong, message) = rows
+    assert (rest["outcome"], rest["cycle"]) == ("at_rest", "at_rest")
+    assert (slides["outcome"], slides["cycle"]) == ("steady_sliding", "steady_sliding")
+    assert (wrong["status"], message) == ("failed", "ParameterError: N=-1: must be >= 0")
 
 
 @pytest.mark.slow
