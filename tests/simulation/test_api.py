@@ -1,7 +1,5 @@
 """How simulations end, and what they take."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
@@ -19,30 +17,6 @@ def test_steps_run_out():
     assert result.statistics["steps"] == 3
     with pytest.raises(StepLimit, match="raise max_steps"):
         result.raise_for_status()
-
-
-NUMBERS = [np.float32, np.float16, np.longdouble, Fraction]
-
-
-@pytest.mark.parametrize(
-    "given",
-    [
-        *({"t_end": number(0.0625)} for number in NUMBERS),
-        *({"tol": number(2.0**-30)} for number in NUMBERS if number is not np.float16),
-        *({"max_steps": whole(100)} for whole in (np.int8, np.uint64)),
-    ],
-    ids=str,
-)
-def test_no_call_decides_how_later_ones_are_computed(given):
-    """The engine was compiled for the types of the first call, and given others after it."""
-
-    def run(t_end=0.0625, tol=1e-10, **how):
-        return simulate(P, t_end, tol=tol, execution=Execution(**how))
-
-    plain = {name: (int if name == "max_steps" else float)(value) for name, value in given.items()}
-    usual, expected = run(), run(**plain)
-    same(run(**given), expected)
-    same(run(), usual)
 
 
 def test_a_run_stops_at_its_first_separation():

@@ -1,12 +1,8 @@
 """Simulations in several threads: the engine releases Python's lock, and runs share nothing that they change."""
 
-import time
 from concurrent.futures import ThreadPoolExecutor
 
-import pytest
-
 from disc_model import Parameters, Result, simulate
-from disc_model.simulation import api
 
 P = Parameters(N=385, Omega=15.1)
 
@@ -25,18 +21,3 @@ def test_runs_in_threads_equal_runs_in_turn() -> None:
         together = list(threads.map(run, cases))
     assert together == list(map(run, cases))
     assert any(rows for rows, _ in together)
-
-
-@pytest.mark.compiled
-def test_other_threads_go_on_while_the_engine_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With Python's lock held, this thread would stand still for the whole run, which is made one call here."""
-    monkeypatch.setattr(api, "STEPS_PER_PAUSE", 10**9)
-    sliding = Parameters(N=66, Omega=25, c_p=0.5)  # with hardly any events, whose buffers would make it pause
-    assert simulate(sliding, 10.0).statistics["events"] < 10
-    times = [time.perf_counter()]
-    with ThreadPoolExecutor(1) as threads:
-        run = threads.submit(simulate, sliding, 2000.0)
-        while not run.done():
-            time.sleep(1e-3)
-            times.append(time.perf_counter())
-    assert len(times) > 20

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from disc_model import Parameters
+from disc_model import ParameterError, Parameters
 from disc_model.stability.continuation import BORDER, CorrectorFailed, CycleProblem, continue_border, continue_cycle
 from disc_model.stability.curves import neutral_curves
 from tests.stability.toy_map import PERIOD, cycle_at, fold_at, growth_at, outside, toy
@@ -63,6 +63,17 @@ def test_the_neutral_curve_is_the_ellipse():
     assert len(part) == 7
     assert part.values[3] == pytest.approx(curve.values[0])
     assert (part.values[2] - part.values[3]) @ (part.values[4] - part.values[3]) < 0
+
+
+def test_what_cannot_be_followed_is_told(monkeypatch):
+    def lost(*_, **__):
+        raise ParameterError("no cycle")
+
+    monkeypatch.setattr("disc_model.stability.curves.continue_border", lost)
+    found = neutral_curves(P, BOX, points=9)
+    assert (len(found), {failure.split()[0] for failure in found.failures}) == (0, {"fold", "neutral"})
+    assert all(" near Omega=" in failure and failure.endswith(": no cycle") for failure in found.failures)
+    assert repr(found).startswith("NeutralCurves(0 curves over Omega from 3 to 18 and N from 150 to 450, ")
 
 
 def test_all_curves_of_a_plane_are_found_once():

@@ -36,18 +36,3 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
             code = study.wait(300)
             log.seek(0)
             assert (code, list(locks.glob("*"))) == (130, []), log.read()
-
-
-def test_the_lock_of_a_killed_run_is_told_with_the_option_that_removes_it(tmp_path: Path) -> None:
-    shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
-    command = [PROGRAM, "study", "mine.yaml"]
-    locks = tmp_path / ".snakemake" / "locks"
-    run = subprocess.Popen(command, cwd=tmp_path, start_new_session=True)
-    while not list(locks.glob("*.lock")):
-        assert run.poll() is None
-        time.sleep(0.05)
-    os.killpg(run.pid, signal.SIGKILL)
-    run.wait()
-    assert "--unlock" in processes.run(*command, cwd=tmp_path, fails=True, timeout=300).stderr
-    processes.run(*command, "--unlock", cwd=tmp_path, timeout=300)
-    assert not list(locks.glob("*"))
