@@ -79,6 +79,8 @@ def test_a_ratio_stands_for_its_first_one_and_stays() -> None:
     p = Parameters(N=1, Omega=2, mu_s="0.5", mu_k_over_mu_s=0.6)
     assert p.mu_k == 0.3
     assert p.replace(mu_s=0.4).mu_k == 0.24
+    assert eval(repr(p)) == p
+    assert repr(p) == "Parameters(N=1.0, Omega=2.0, mu_s=0.5, mu_k_over_mu_s=0.6)"
     assert p.replace(mu_s=0.4, mu_k=0.1).replace(mu_s=0.2).mu_k == 0.1, "forgotten once its first one is given"
     assert p.replace(mu_k_over_mu_s=0.5).mu_k == p.replace(N=3).replace(mu_k_over_mu_s=0.5).mu_k == 0.25
     assert Parameters(N=1, Omega=2, b="240 mm", r_0_over_b=0.5).r_0 == 0.12

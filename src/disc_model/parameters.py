@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import operator
-from collections.abc import Callable, Iterable, Mapping, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
 from contextlib import suppress
 from importlib import import_module
 from itertools import pairwise
@@ -554,6 +554,10 @@ class Parameters(Checked):
         """The values by name, with the ratios by which the case was given instead of the numbers that follow them."""
         follow = {RATIOS[name][0] for name in self._ratios}
         return {name: value for name, value in dict(self).items() if name not in follow} | self._ratios
+
+    def __repr_args__(self) -> Iterator[tuple[str, Any]]:
+        """What is given, and not as in Table 1; `repr` and `print` show it."""
+        return ((name, value) for name, value in self.stated.items() if DEFAULTS.get(name, ...) != value)
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
