@@ -58,16 +58,39 @@ def test_every_example_is_in_a_block_that_is_run(page):
     assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
 
 
+#: What the sentences of each notebook say of the output above them.
+SAID = {
+    "first_run": (
+        "set(run.events['kind'].iloc[-40:]) == {'stick_to_slip', 'slip_to_stick', 'separation', 'reattachment'}",
+        "abs((run.events['kind'].iloc[-1000:] == 'separation').sum() - 2 * (run.events['kind'].iloc[-1000:] == "
+        "'stick_to_slip').sum()) <= 2",  # twice in each cycle, which sticks once
+        "axes[0, 1].get_xlim()[1] == 60 and run['late']['P'].attrs['units'] == 'N'",
+        "dm.floquet(case.replace(Omega=15)).stable",
+        "(growth['growth_rate'] > 0).any() and (growth['growth_rate'] < 0).any()",
+        "set(growth['status'].values) == {'ok', 'no_cycle'}",
+    ),
+    "brake_disc": (
+        "len(disc.omega) == 7 and max(disc.omega) < math.tau * 3000",
+        "dm.steady_sliding(case).stable",
+        "0 < (growth['growth_rate'] > 0).mean() < 0.5 and growth['growth_rate'].values[-1] > 0",
+        "plane['growth_rate'].dims == ('Omega', 'N')",
+        "run.status == 'ok' and 'first separation' in run._repr_html_()",
+    ),
+}
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem)
-def test_notebooks_run(page, tmp_path, monkeypatch):
+def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    cells = re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    text = page.read_text(encoding="utf-8")
+    assert text.count("\n") <= 90, "a screen and a half"
+    cells = re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", text, re.M | re.S)
     names = {}
     for cell in cells:
         exec(compile(cell, page.name, "exec"), names)
     pyplot.close("all")
-    assert len(cells) > 3
+    assert [fact for fact in SAID[page.stem] if not eval(fact, names)] == []
 
 
 def test_everything_public_is_in_the_reference_and_shows_its_use():
