@@ -1,18 +1,13 @@
 """What each answer costs: questions that methods are compared by, their correct answers, and replies to them.
 
-``first_separation``
-    N = 385 N, Omega = 15.1 rad/s: when contact is lost for the first time after the static start
-``separation_rate``, ``disc_range``, ``period``
-    N = 300 N, Omega = 20 rad/s, long after contact was first lost: separations per second, how far the disc moves under
-    the slider, and after how many releases from stick the motion repeats
-``onset``
-    N = 385 N: lowest speed from which the static start leads to a separation within `ONSET_HORIZON` s; by
-    continuation of the cycle, the fold in which the quiet cycle ends
-``growth_rate``
-    N = 200 N, Omega = 20 rad/s: how fast a small deviation from the stick-slip cycle grows
-``region``
-    `SIDE` x `SIDE` cells of speed and preload: share of the cells for which it is said wrongly whether the static
-    start leads to a separation within `REGION_HORIZON` s
+``first_separation``: N = 385 N, Omega = 15.1 rad/s, when contact is lost for the first time after the static start
+``separation_rate``, ``disc_range``, ``period``: N = 300 N, Omega = 20 rad/s, long after contact was first lost:
+separations per second, how far the disc moves under the slider, after how many releases from stick the motion repeats
+``onset``: N = 385 N, lowest speed from which the static start leads to a separation within `ONSET_HORIZON` s; by
+continuation of the cycle, the fold in which the quiet cycle ends
+``growth_rate``: N = 200 N, Omega = 20 rad/s, how fast a small deviation from the stick-slip cycle grows
+``region``: `SIDE` x `SIDE` cells of speed and preload, share of the cells for which it is said wrongly whether the
+static start leads to a separation within `REGION_HORIZON` s
 
 ``data/answers.json`` has correct answers with their errors, by ``tests/references/make_answer_references.py``, which
 shares no code with the engine. Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate

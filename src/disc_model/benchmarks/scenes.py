@@ -1,14 +1,10 @@
 """The benchmark's scenes: four motions with known correct answers, and the errors of a method's answer.
 
-``stick_slip``
-    N = 385 N, Omega = 15.1 rad/s, the first second: stick-slip without separation, 135 switches
-``separating``
-    the same from 54.4 to 55.4 s: 398 switches, 131 separations among them
-``many_modes``
-    13 mode families (l up to 12) for 0.2 s: frequencies from 1492 to 33711 rad/s
-``rigid``
-    E = 1e20 Pa, one diameter, 20 ms: the classical stick-slip cycle, known in closed form; frequencies up to 3.9e7
-    rad/s that nothing excites
+``stick_slip``: N = 385 N, Omega = 15.1 rad/s, the first second: stick-slip without separation, 135 switches
+``separating``: the same from 54.4 to 55.4 s: 398 switches, 131 separations among them
+``many_modes``: 13 mode families (l up to 12) for 0.2 s: frequencies from 1492 to 33711 rad/s
+``rigid``: E = 1e20 Pa, one diameter, 20 ms: the classical stick-slip cycle, known in closed form; frequencies up to
+3.9e7 rad/s that nothing excites
 
 The answers of the first three are stored in ``data/benchmark_reference.json``. The script
 ``tests/references/make_stored_references.py`` computes them in long double. That of the last is `rigid_cycle`.

@@ -23,8 +23,6 @@ RADII, ANGLES = 25, 181  # points across and around the disc at which it is draw
 class Motion(NamedTuple):
     """Motion of the disc and the slider in a stretch of time.
 
-    Attributes
-    ----------
     parameters : of the case
     time : s, shape (n,)
     amplitudes : m sqrt(kg), of each mode, cosine + i sine of the angle fixed to the disc, shape (n_modes, n)
@@ -141,11 +139,7 @@ def draw_modes(axes: Sequence[Axes], p: Parameters) -> None:
 def film(figure: FigureBase, motion: Motion, time: Array, force: Array) -> Any:
     """Make the film of a motion: the disc from above, its circle under the slider, and the contact force.
 
-    time, force : s and N, of the whole stretch
-
-    Returns
-    -------
-    matplotlib.animation.FuncAnimation
+    time, force : s and N, of the whole stretch; returns a `matplotlib.animation.FuncAnimation`
     """
     from matplotlib.animation import FuncAnimation
     from matplotlib.artist import Artist

@@ -229,8 +229,6 @@ SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 class Curve:
     """A line on a stability chart.
 
-    Attributes
-    ----------
     Omega, N : shape (n,), rad/s and N
     kind : "neutral" or "fold"
     label : text next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty

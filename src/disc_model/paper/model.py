@@ -44,8 +44,6 @@ def paper_cases() -> Mapping[str, Mapping[str, Any]]:
 class Answer:
     """Result of a check.
 
-    Parameters
-    ----------
     verdict : one of `VERDICTS`, or whether the statement is true
     here : what was computed, in words
     notes : what should be known besides; empty ones do not count
@@ -135,13 +133,7 @@ class Row(BaseModel):
 
 
 def rows_of(module: ModuleType) -> tuple[Row, ...]:
-    """The rows of the file beside a module, in its order.
-
-    Raises
-    ------
-    pydantic.ValidationError
-        With all faults of the file.
-    """
+    """The rows of the file beside a module, in its order; raises pydantic.ValidationError with all its faults."""
     file, checks = Path(str(module.__file__)).with_suffix(".yaml"), vars(module)
     texts = {f"{file.name}: {name}": {"id": name, **raw} for name, raw in read_texts(str(file)).items()}
     for text in texts.values():

@@ -45,6 +45,7 @@ def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseVie
 def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -> pd.DataFrame:
     """How many cases separate, grow and agree with the paper under both; first separations of the paper's figures."""
     known = [pair for pair in pairs if not any(math.isnan(case.growth_rate) for case in pair)]
+    judged = [verdicts[name] for name in (OLD, NEW)]
     rows = {
         f"cases that separate, of {len(pairs)}": [
             sum(case.separates for case in column) for column in zip(*pairs, strict=True)
@@ -52,11 +53,9 @@ def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -
         f"cases whose stick-slip cycle grows, of {len(known)} that have one under both": [
             sum(case.growth_rate > 0 for case in column) for column in zip(*known, strict=True)
         ],
-        f"statements that are true, of {len(verdicts)} that are judged by cases": [
-            sum(verdicts[name] == TRUE) for name in (OLD, NEW)
-        ],
-        "statements that are false": [sum(verdicts[name] == FALSE) for name in (OLD, NEW)],
-        "statements that no motion decides": [sum(verdicts[name] == NOT_COMPUTED) for name in (OLD, NEW)],
+        f"statements that are true, of {len(verdicts)} that are judged by cases": [sum(of == TRUE) for of in judged],
+        "statements that are false": [sum(of == FALSE) for of in judged],
+        "statements that no motion decides": [sum(of == NOT_COMPUTED) for of in judged],
     }
     rows |= {f"first separation, {pair[0].place}": [*map(_first, pair)] for pair in pairs if pair[0].name in SHOWN}
     return pd.DataFrame([(name, *map(str, values)) for name, values in rows.items()], columns=["", OLD, NEW])

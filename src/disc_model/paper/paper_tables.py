@@ -44,14 +44,9 @@ def table_1(p: Parameters) -> pd.DataFrame:
 
 
 def table_2(case: CaseView) -> pd.DataFrame:
-    """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s.
-
-    Returns
-    -------
-    DataFrame
-        symbol, paper_Hz, ours_Hz, level_dB (relative to the drive's line), ours_is (`UNNAMED` if no
-        combination is within `COMBINED` of the line), predicted_Hz (of the nearest combination), paper_says
-    """
+    """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s, with `COLUMNS`: level_dB
+    is relative to the drive's line, ours_is `UNNAMED` if no combination is within `COMBINED` of the line, predicted_Hz
+    of the nearest combination."""
     rate, lines = stick_slip_rate(case), table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
     return TABLE_2.assign(

@@ -107,9 +107,9 @@ def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
     """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two circles."""
     first = [case["first_separation"] for case in evidence]
     soon, all_soon = np.ptp(first[:4]) <= seconds, np.ptp(first) <= seconds  # nan if one does not separate
-    followed = (evidence[0], *evidence[3:])
     nine, *others = (
-        (case.rate_of("separation"), case.phase_share("separation"), case.phase_share("stick")) for case in followed
+        (case.rate_of("separation"), case.phase_share("separation"), case.stick)
+        for case in (evidence[0], *evidence[3:])
     )
     more, *circles = [bool(np.allclose(norm, nine, rtol=share)) for norm in others]
     names = ("nine modes", "8 nodal diameters", "one nodal circle", "two nodal circles")

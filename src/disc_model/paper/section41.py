@@ -178,9 +178,8 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         kept = at_width(course(bonded.parameters, bonded["time_reached"]), held.width)
         cycle = float(free.intervals("separation").mean())
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
-        with_, without, damped, impacts = (
-            1e3 * cycle * power for power in (held.supplied, kept.supplied, held.damped, held.impacts)
-        )
+        powers_told = held.supplied, kept.supplied, held.damped, held.impacts
+        with_, without, damped, impacts = (1e3 * cycle * power for power in powers_told)
         rows.append(
             f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "
             f"mJ, impacts take {impacts:.2f} mJ"

@@ -316,7 +316,6 @@ def stiffened(p: Parameters, name: str, *speeds: float) -> dict[float, measures.
 def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
     """The same in words."""
     _, symbol, values = STIFFENED[name]
-    rows = [
-        f"at {speed:g} rad/s {', '.join(map(rate_text, rates))}" for speed, rates in stiffened(p, name, *speeds).items()
-    ]
+    by_speed = stiffened(p, name, *speeds).items()
+    rows = [f"at {speed:g} rad/s {', '.join(map(rate_text, rates))}" for speed, rates in by_speed]
     return f"{'; '.join(rows)} per second for {name} = {', '.join(map(str, values))} {symbol}"

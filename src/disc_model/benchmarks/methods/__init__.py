@@ -59,15 +59,9 @@ class Method(BaseModel):
         return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds.
-
-        Failures on the way are not raised: the status of the result reports them.
-
-        Raises
-        ------
-        MethodUnavailable
-            If the package that the method stands for is not installed.
-        """
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds; raises
+        `MethodUnavailable` without the package that the method stands for. Failures on the way are not raised: the
+        status of the result reports them."""
         if missing := ", ".join(self.absent()):
             reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
             raise MethodUnavailable(reason)

@@ -40,8 +40,6 @@ class RunStatus(enum.StrEnum):
 class Problem:
     """An initial-value problem: start and end of the motion.
 
-    Attributes
-    ----------
     parameters : the case
     start : state in the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
     t_end : s, absolute, greater than start.time
@@ -67,8 +65,6 @@ class Problem:
 class MethodResult:
     """Result of a method.
 
-    Attributes
-    ----------
     times : s, shape (n_events,)
     kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
     final : state at t_end, or where the method stopped

@@ -324,15 +324,11 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
 
     A step is searched if an event function changes sign over it or dips within it.
 
-    Parameters
-    ----------
     y : state; overwritten by that at the end
     limits : end and step (s), greatest number of steps, whether to stop at the first separation
     track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
 
-    Returns
-    -------
-    (why, time, phase, direction, events, steps)
+    Returns (why, time, phase, direction, events, steps).
     """
     t_end, h, max_steps, stop = limits
     times, kinds, heights = track

@@ -262,14 +262,8 @@ class Instants(CasePlot):
 
 def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from windows `around0`, ..., which record the disc at r_0 and as many angles.
-
-    Modes without nodal circles are harmonics of the angle. Twice their number and one of angles determine them.
-
-    Raises
-    ------
-    Missing
-        If the case does not record that.
-    """
+    Raises `Missing` if the case does not. Modes without nodal circles are harmonics of the angle. Twice their number
+    and one of angles determine them."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
     count = sum(str(name).startswith("around") for name in case.children)
     windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(count or 1)]
