@@ -159,16 +159,8 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: Callable[[], l
     told = called()
     assert Path(told[told.index("-s") + 1]).is_file()
     assert told[-2:] == ["--configfile", str(mine)]
-    assert {
-        "-j2",
-        "--unlock",
-        "bench",
-        "results/mine/figures/growth.png",
-        "--quiet",
-        "rules",
-        "--directory",
-        folder,
-    } <= {*told}
+    figure = "results/mine/figures/growth.png"
+    assert {"-j2", "--unlock", "bench", figure, "--quiet", "rules", "--directory", folder} <= {*told}
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(

@@ -3,14 +3,13 @@
 import json
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, simulate
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, choose_when_run
+from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
 from disc_model.studies.study import parse_study
@@ -35,12 +34,6 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> Measured:
         return asked
 
     return put
-
-
-def test_every_quantity_but_frequencies_is_measured() -> None:
-    assert {*mode_choice.MEASURES, FREQUENCIES} == CHOSEN_BY.keys()
-    table = (Path(__file__).parents[1] / "docs" / "options.md").read_text(encoding="utf-8")
-    assert all(f"| `{name}`" in table for name in CHOSEN_BY)
 
 
 def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Measured) -> None:

@@ -1,10 +1,5 @@
 """The benchmark's figures."""
 
-import json
-
-import numpy as np
-import pandas as pd
-import pytest
 import xarray as xr
 
 from disc_model.benchmarks import figures
@@ -21,26 +16,9 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
     save(figure, tmp_path / "overview.png")
 
 
-@pytest.fixture
-def two_lines() -> xr.Dataset:
-    """One line with a right and a wrong setting, one without answers, and a model of which two points coincide."""
-    rows = [
-        ("RK4", "step", 1e-4, 1e-3, 0.4, figures.RIGHT),
-        ("RK4", "step", 4e-4, 5.0, 0.1, figures.WRONG),
-        ("CVODE", "tol", 1e-3, np.nan, 2.0, figures.NO_ANSWER),
-        ("rigid", "diameters", 8, 1e-2, 0.3, figures.RIGHT),
-        ("rigid", "diameters", 6, 1e-2, 0.29, figures.RIGHT),
-        ("rigid", "diameters", 1, 1.0, 0.01, figures.WRONG),
-    ]
-    table = pd.DataFrame(rows, columns=["line", "varies", "setting", "error", "seconds", "verdict"]).rename_axis("row")
-    table = table.assign(label=table["line"], answer="first_separation")
-    questions = json.dumps({"first_separation": {"enough": 0.1}})
-    return xr.Dataset.from_dataframe(table).assign_attrs(questions=questions)
-
-
-def test_a_cell_of_prices_names_its_setting_and_no_number_covers_another(two_lines: xr.Dataset) -> None:
-    texts = figures.prices(two_lines).axes[0].texts
-    assert [text.get_text() for text in texts] == ["0.4 s", "step 1e-4 s", "wrong at 1", "no answer"]
-    figure = figures.answers(two_lines)
-    assert labels(figure) == ["RK4", "rigid"]
-    assert [text.get_text() for text in figure.axes[0].texts] == ["8", "1"]
+def test_a_cell_of_prices_names_its_setting(priced: xr.Dataset) -> None:
+    texts = [text.get_text() for text in figures.prices(priced).axes[0].texts]
+    assert texts == ["2 s", "tol 1e-2", "wrong at 2", "0.4 ms", "tol 1e-6", "wrong"]
+    figure = figures.answers(priced)
+    assert labels(figure) == ["late", "series, modes, rigid contact", "series, from the cycle itself"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["8", "4"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Disc, Parameters, Poincare, Result, Window, simulate
+from disc_model import Disc, Parameters, Poincare, Window
 from disc_model.data.dataset import UnreadableFile, WriteError, load, load_inputs, save
 from disc_model.data.variables import STATUSES, flag_names
 from disc_model.simulation.api import run_case
@@ -29,31 +29,8 @@ def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)
 
 
 @pytest.fixture(scope="module")
-def result() -> Result:
-    return simulate(P, T_END, spec_of().sections)
-
-
-@pytest.fixture(scope="module")
 def tree() -> xr.DataTree:
     return run_case(spec_of())
-
-
-def test_a_result_is_laid_out_as_its_file_is(result: Result, tree: xr.DataTree) -> None:
-    mine = result.to_tree()
-    assert list(mine.children) == list(tree.children)
-    for name in ("history", "zoom", "poincare"):
-        xr.testing.assert_identical(mine[name].to_dataset(), tree[name].to_dataset())
-    xr.testing.assert_equal(mine.to_dataset(), tree.to_dataset())
-    events = mine["events"].to_dataset()
-    np.testing.assert_array_equal(events["time"], result.events["time"])
-    np.testing.assert_array_equal(flag_names(events["kind"]), result.events["kind"].astype(str))
-    np.testing.assert_array_equal(flag_names(events["phase"]), result.events["phase"].astype(str))
-    np.testing.assert_array_equal(mine["history/P_max"], result.samples["history"]["P_max"])
-    assert (mine["history"].sizes, mine["zoom"].sizes) == ({"time": 10}, {"time": 201})
-    assert [mine[name].attrs["theta"] for name in ("history", "zoom", "poincare")] == [1.0, 0.5, 2.0]
-    assert float(mine["N"]) == 385
-    assert int(mine["n_events"]) == len(result.events)
-    assert mine.attrs["parameters"] == P.canonical_json
 
 
 @pytest.mark.compiled

@@ -1,4 +1,4 @@
-"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; and what all figures of grids do."""
+"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from tests.figures.reading import crosses, draw, labels, lines
-from tests.studies.conftest import computed, growth_over, made_up_samples, with_failed
+from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
 
 __all__ = ["made"]
@@ -112,21 +112,3 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     assert list(shown["none up to the highest speed"].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     assert [text.get_text() for text in ax.texts] == ["15.10"], "the fold of another cycle, at 11 rad/s, was drawn too"
-
-
-# ---- all figures of grids
-
-
-def test_points_that_failed_are_marked_and_not_drawn(plane: xr.Dataset, speeds: xr.Dataset, sweep: xr.Dataset) -> None:
-    lost = with_failed(speeds, N=200)
-    both = draw("critical_speed", lost, {"hysteresis": with_failed(sweep, N=400)})
-    assert [crosses(ax) for ax in both.axes] == [[[200]], [[400]]]
-    shown = lines(both.axes[0]) | lines(both.axes[1])
-    loads = np.asarray(shown["separation begins, within 1000 s"].get_ydata())
-    assert set(loads[np.isfinite(loads)]) == {400}
-    for label in ("sweep up: separation begins", "sweep down: separation ends"):
-        assert np.isfinite(shown[label].get_xdata()).tolist() == [True, False]
-    # nothing is known of any
-    growth = growth_over(np.linspace(200, 400, 5), np.linspace(5, 18, 9))
-    (ax,) = draw("critical_speed", with_failed(lost, N=400), {"curves": plane, "cycle": growth}).axes
-    assert crosses(ax) == [[200, 400]]

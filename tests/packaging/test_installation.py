@@ -110,16 +110,6 @@ def test_it_works_without_the_sources(installed: Installed) -> None:
     assert (installed.work / "run.nc").stat().st_size > 0
 
 
-@pytest.mark.parametrize("start", [("disc-model",), ("python", "-I", "-m", "disc_model")], ids=["script", "module"])
-def test_the_command_line(installed: Installed, start: tuple[str, ...]) -> None:
-    picture = installed.work / f"{start[0]}.png"
-    phrase = installed.run(*start, "run", "--N", "385", "--Omega", "15.1", "--t-end", "2", "--plot", picture)
-    assert "ok" in phrase
-    assert picture.read_bytes().startswith(b"\x89PNG")
-    assert picture.stat().st_size > 10_000
-    assert "psi" in installed.run(*start, "modes", "--normalization", "orthonormal")
-
-
 def test_a_study_needs_no_clone(installed: Installed) -> None:
     installed.run("disc-model", "init", "own")
     installed.run("disc-model", "study", "own/my_study.yaml", "-n", "--directory", "own")

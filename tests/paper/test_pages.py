@@ -1,6 +1,5 @@
 """Tables and pages made of claims and cases."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -61,9 +60,7 @@ def test_the_ledger_counts_links_and_escapes(tmp_path: Path) -> None:
         write_page(tmp_path / file, "T", ("", found, table), template="paper/ledger")
     text = (tmp_path / "x.html").read_text()
     assert text.count('class="row"') == text.count('href="figures/fig01.png"') == len(ROWS)
-    assert "&lt;b&gt;" in text
-    assert "<b>" not in text
-    assert not re.search(r"src=|https?:", text), "self-contained"
+    assert ("&lt;b&gt;" in text, "<b>" in text) == (True, False)
     page = (tmp_path / "x.md").read_text()
     assert page.count("[Fig. 1](figures/fig01.png)") == page.count("why it matters: ") == len(ROWS)
 

@@ -57,9 +57,7 @@ def test_windows_that_the_run_does_not_enter_are_warned_of():
 
 
 GREEDY = {
-    "samples": (Window(rate=1e4),),
     "bins": (Window(rate=1e5, envelope=10),),
-    "a bin": (Window(rate=1e5, envelope=10**6),),
     "a step": (Window(rate=1e12, envelope=2**40),),
     "all together": (*(Window(rate=1e3),) * 9, Window(rate=2e3)),
     "sections": (Poincare(),),
@@ -75,13 +73,3 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
     p = P.replace(Omega=1e300) if what == "sections" else P
     with pytest.raises(ParameterError, match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples"):
         simulate(p, 1.0, windows)
-
-
-def test_a_window_is_counted_from_the_end_of_the_run() -> None:
-    result = simulate(P, 0.05, {"late": Window(last=0.02, rate=1000), "rest": Window(start=0.04, rate=1000)})
-    late, rest = (samples["time"] for samples in result.samples.values())
-    assert np.allclose(late, np.arange(0.03, 0.0505, 0.001))
-    assert np.allclose(rest, np.arange(0.04, 0.0505, 0.001))
-    assert result.windows["late"].stop == 0.05, "the result says what was kept"
-    with pytest.raises(ParameterError, match=r"windows.late.start=1: must be < t_end=0.05"):
-        simulate(P, 0.05, {"late": Window(start=1, rate=10)})

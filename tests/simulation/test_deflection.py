@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Window, deflection, simulate, snapshots
+from disc_model import Parameters, Window, deflection, simulate, snapshots
 
 P = Parameters(N=200, Omega=20)
 
@@ -35,9 +35,3 @@ def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:
     assert float(w.isel(r=1)[0, 90]) == pytest.approx(start.u, rel=1e-12)
     assert np.allclose(w.isel(r=0), 0, atol=1e-9 * abs(start.u))
     assert np.allclose(w.isel(r=1), w.isel(r=1, theta=slice(None, None, -1)).values, atol=1e-15)
-
-
-def test_times_before_a_state_are_refused() -> None:
-    (state,) = snapshots(P, 0.1)
-    with pytest.raises(ParameterError, match=r"times=0.05: must be >= 0.1 \(the time of the initial state\)"):
-        snapshots(P, 0.05, initial_state=state)

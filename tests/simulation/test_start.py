@@ -1,7 +1,6 @@
 """Motions that begin where another one ended, or with a kick."""
 
 import functools
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,10 +14,9 @@ from disc_model.data.variables import PHASES, flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import make_initial_state, run_case, simulate
-from disc_model.simulation.case import CaseSpec, Prerun, Start
+from disc_model.simulation.api import make_initial_state, simulate
+from disc_model.simulation.case import Prerun, Start
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
-from disc_model.studies.study import StudyError, parse_study
 from tests.contact_laws import LAWS
 from tests.studies.conftest import computed
 
@@ -175,23 +173,6 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
     assert (apart.phase, apart.f) == ("separation", 3.0)
     for state in (forward, backward, stopped):
         assert simulate(P, 0.01, initial_state=state).status.complete
-
-
-def test_a_case_of_a_study_may_start_elsewhere() -> None:
-    case = {"title": "", "parameters": {"N": 385, "Omega": 15, "n_diameters": 1}, "t_end": 0.02}
-    start = {"perturbation": {"f": 2.0}}
-    specs = parse_study({"study": "x", "cases": {"A": case, "B": case | {"start": start}}}).specs
-    assert "start" not in json.loads(specs["A"].canonical)
-    assert json.loads(specs["B"].canonical)["start"]["perturbation"] == {"f": 2.0}
-    assert CaseSpec.from_canonical(specs["B"].canonical) == specs["B"]
-    tree = run_case(specs["B"])
-    p = specs["B"].parameters
-    expected = simulate(p, 0.02, initial_state=perturb(p, static_start(p), f=2.0))
-    assert tree["events"]["time"].values.tolist() == expected.events["time"].tolist()
-    assert json.loads(tree.attrs["start"])["perturbation"] == {"f": 2.0}
-    assert "start" not in run_case(specs["A"]).attrs
-    with pytest.raises(StudyError, match=r"cases\.A\.start\.perturbation\.f = 'x': must be a number"):
-        parse_study({"study": "x", "cases": {"A": case | {"start": {"perturbation": {"f": "x"}}}}})
 
 
 def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:

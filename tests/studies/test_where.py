@@ -1,14 +1,12 @@
 """Points that a grid's own rule leaves out: not computed, recorded as excluded, drawn as empty; and axes of ratios."""
 
 import json
-from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.studies.merge import MergeError, failures, merge_batches
@@ -49,19 +47,3 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
         plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
     with pytest.raises(MergeError, match="not the 9 points of the grid"):
         merge_batches(batches, grid.grid, {})
-
-
-def test_a_ratio_varies_a_parameter_with_another() -> None:
-    axes, plane = {"mu_s": [0.4, 0.5], "mu_k_over_mu_s": [0.5, 0.9]}, {"x": "mu_s", "y": "mu_k_over_mu_s"}
-    grid = parse_grid(
-        raw(axes=axes, where="mu_k < 0.4", figures={"f": {"kind": "heat_map", "variable": "period"} | plane})
-    )
-    study = merge_batches([run_batch(text) for text in grid.batches.values()], grid.grid, grid.attrs)
-    assert "mu_k" not in grid.base
-    for s, ratio in product(*axes.values()):
-        one = study.sel(mu_s=s, mu_k_over_mu_s=ratio)
-        if ratio * s < 0.4:
-            expected = floquet(Parameters(N=200, Omega=20, n_diameters=1, mu_s=s, mu_k=ratio * s))
-            np.testing.assert_array_equal(one["growth_rate"], expected.growth_rate)
-        else:
-            assert flag_names(one["status"]) == "excluded"

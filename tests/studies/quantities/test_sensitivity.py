@@ -87,15 +87,6 @@ def test_quantiles_are_those_of_the_distributions(share: float) -> None:
         assert quantile(relative, 7.0, share) == pytest.approx(7 * one.ppf(share), rel=1e-5)
 
 
-def test_samples_are_those_of_one_sequence() -> None:
-    """More evenly spread than independent ones: as many in each eighth, also beyond the first block."""
-    points = np.array([sensitivity.unit_draw(3, 2, number) for number in range(128)])
-    for i in range(0, 128, 64):
-        counts = [np.histogram(column, bins=8, range=(0, 1))[0] for column in points[i : i + 64].T]
-        np.testing.assert_array_equal(counts, 8)
-    assert len({*map(tuple, points)}) == 128
-
-
 def made_up(**changes: Any) -> xr.Dataset:
     """A study of two points, without the engine."""
     with pytest.MonkeyPatch.context() as patch:
