@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures, normalisation, section2, section41, section44
+from disc_model.paper import measures, normalisation, precursor, section2, section41, section44
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS
@@ -84,6 +84,9 @@ WORLDS = {
     ),
     "natural frequencies where the lines are": a_disc(
         "T2e", coupled_natural_frequencies=lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])
+    ),
+    "friction that changes nothing": World(
+        functions={precursor: {"sliding_growth": lambda p: p.Omega - 1000.0}}, rows=("A98i", "A98r")
     ),
     "the stiff disc": a_disc("F29", plate_modes=lambda p: plate_modes(p.replace(E=150e9))),
 }

@@ -7,12 +7,12 @@ from typing import Any
 import pandas as pd
 
 from disc_model.data.texts import fill
-from disc_model.paper import section2, section41, section43, section44
+from disc_model.paper import precursor, section2, section41, section43, section44
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read_texts, rows_of
 
-MODULES = (section2, section41, section43, section44)
-ROWS = tuple(row for module in MODULES for row in rows_of(module))  # all rows, in the order of the paper
+MODULES = (section2, section41, section43, section44, precursor)
+ROWS = tuple(row for module in MODULES for row in rows_of(module))  # in the order of the paper
 COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "matters", "notes"]
 COLUMNS += ["rule", "figures", "data", "counts"]
 

@@ -1,6 +1,7 @@
 """Rows on Section 4.4, frequencies and how they change with time, and on the conclusions."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -119,23 +120,25 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     )
 
 
-def higher(
-    case: CaseView, bonded: CaseView, *, factor: float, floor: float, window: str, low: float, high: float
-) -> Answer:
+def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]) -> Answer:
     """Whether power above the natural frequencies rises with the first separation, and not without separation.
 
-    low, high : s, where what is compared begins before it and ends after it
+    spans : s, where what is compared begins before the separation of each pair's first case, and ends after it
     """
-    first = case["first_separation"]
-    spans = ((low, first), (first, high))
-    (before, after), (ignored, control) = (
-        [each.signal(window, *span).power_above(HIGH) for span in spans] for each in (case, bonded)
-    )
-    grows, grows_in_control = after > max(factor * before, floor), control > max(factor * ignored, floor)
+    rows, rises = [], []
+    pairs = zip(cases[::2], cases[1::2], windows.split(), spans[::2], spans[1::2], strict=True)
+    for case, bonded, window, low, high in pairs:
+        first = case["first_separation"]
+        (before, after), (ignored, control) = (
+            [each.signal(window, *span).power_above(HIGH) for span in ((low, first), (first, high))]
+            for each in (case, bonded)
+        )
+        rises.append([after > max(factor * before, floor), control > max(factor * ignored, floor)])
+        rows.append(f"{case.place}: {before:.1e} before, {after:.1e} after; without separation {control:.1e} then")
+    rise, alone = zip(*rises, strict=True)
     return Answer(
-        TRUE if grows and not grows_in_control else PART if grows else FALSE,
-        f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz: {before:.1e} before, {after:.1e} after; without "
-        f"separation {control:.1e} then.",
+        FALSE if not all(rise) else PART if any(alone) else TRUE,
+        f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz. {'. '.join(rows)}.",
     )
 
 
