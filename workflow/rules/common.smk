@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import shlex
+import subprocess
 import sys
 from functools import cache
 from importlib.util import find_spec
@@ -99,7 +100,8 @@ if CONDA or str(SOURCES) in sys.path:
     put_first("PYTHONPATH", SOURCES)
 os.environ.update(PYTHONUTF8="1")  # in any locale
 # Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
-PREFIX = f'set -euo pipefail; job() {{ python {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
+WARM = [f"{SCRIPTS}/warm.py", str(workflow.snakemake_tmp_dir / "warm")]
+PREFIX = f'set -euo pipefail; job() {{ python -IS {shlex.join(WARM)} {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
 

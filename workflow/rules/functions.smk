@@ -153,3 +153,14 @@ def refuse_unrecorded(wildcards):
             " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
     return []
+
+
+def start_warm():
+    """Start the process whose copies run jobs, with one thread as they have; it ends with this one, which holds its input."""
+    libraries = ("OMP", "GOTO", "OPENBLAS", "MKL", "VECLIB", "NUMEXPR")
+    one = {f"{name}_NUM_THREADS": "1" for name in libraries}
+    silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    command = [sys.executable, *WARM]
+    return subprocess.Popen(
+        command, stdin=subprocess.PIPE, env=os.environ | one, **silent
+    )

@@ -1,0 +1,100 @@
+"""Runs the scripts of jobs as copies of a process that has imported what they need: a second less for each.
+
+``warm.py SOCKET`` is that process, which ends with its standard input: with Snakemake, however that ends.
+``warm.py SOCKET SCRIPT ARGUMENT...`` has a copy of it run a script, or runs the script itself where there is none.
+"""
+
+import json
+import os
+import signal
+import socket
+import sys
+
+ALONE = {"measure.py"}
+"""Scripts that are timed, or whose environment must be set before their imports."""
+
+
+def serve(address):
+    """Run scripts for those who connect; each in a copy of this process, with their files, folder and environment."""
+    import importlib
+    import select
+
+    for name in (
+        "disc_model.simulation.api",  # first of those that import numba, since it sets the cache's folder
+        "disc_model.studies.run",
+        "disc_model.data.texts",
+        "disc_model.figures.kind",
+        "matplotlib.backends.backend_agg",
+        "matplotlib.backends.backend_pdf",
+    ):
+        importlib.import_module(name)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the copies, and for Snakemake
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for them
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(address)
+        listener.listen(64)
+        while 0 not in select.select([0, listener], [], [])[0]:  # its standard input has not ended
+            connection = listener.accept()[0]
+            if os.fork() == 0:
+                listener.close()
+                run(connection)
+            connection.close()
+
+
+def run(connection):
+    """Run the script that a connection asks for, answer with its exit code, and end this process."""
+    import atexit
+    import runpy
+    import traceback
+
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    files = socket.recv_fds(connection, 1, 3)[1]
+    for number, file in enumerate(files):
+        os.dup2(file, number)
+        os.close(file)
+    with connection.makefile() as request:
+        sys.argv, folder, environment = json.load(request)
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    code = 1
+    try:
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        code = 0
+    except SystemExit as ending:
+        code = ending.code if isinstance(ending.code, int) else int(ending.code is not None)
+        if isinstance(ending.code, str):
+            print(ending.code, file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    connection.sendall(b"%d" % code)
+    os._exit(code)  # taking all modules down would take a quarter of a second
+
+
+def ask(address, arguments):
+    """Have a script run, and return its exit code."""
+    with socket.socket(socket.AF_UNIX) as connection:
+        try:
+            if os.path.basename(arguments[0]) in ALONE:
+                raise OSError
+            connection.connect(address)
+        except OSError:  # not ready yet, or not on this machine
+            os.execv(sys.executable, [sys.executable, *arguments])
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        socket.send_fds(connection, [b"0"], [0, 1, 2])
+        connection.sendall(json.dumps([arguments, os.getcwd(), dict(os.environ)]).encode())
+        connection.shutdown(socket.SHUT_WR)
+        with connection.makefile() as answer:
+            code = answer.read()
+        return int(code) if code else "killed, perhaps for want of memory"  # which sys.exit writes
+
+
+if __name__ == "__main__":
+    SOCKET, *ARGUMENTS = sys.argv[1:]
+    if ARGUMENTS:
+        sys.exit(ask(SOCKET, ARGUMENTS))
+    serve(SOCKET)
