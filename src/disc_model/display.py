@@ -93,21 +93,6 @@ def simulating(progress: Progress, t_end: float, text: str = "") -> Iterator[Cal
             _shown = False
 
 
-@contextmanager
-def counting(total: int) -> Iterator[Callable[[Any], Any]]:
-    """Yield a function that returns what it receives, the results of so many calls, and displays their progress."""
-    done = 0
-    with simulating(None, total, f"computing {total} points") as tell:
-
-        def counted(result: Any) -> Any:
-            nonlocal done
-            done += 1
-            tell(done)
-            return result
-
-        yield counted
-
-
 def _open_bar(text: str, total: float, estimate: bool = True) -> Any:
     """A bar with the time that has passed and, by rich's estimate, what is left."""
     from rich.console import Console

@@ -424,6 +424,8 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     else:
         [up] = [dim for dim in dims if dim != across]
         handles = general.draw_maps(axes.figure, [axes], study, named, across, up, log)
+        if study[up].dtype.kind == "i" and axes.get_yscale() == "linear":
+            axes.locator_params(axis="y", integer=True)
     if handles:
         axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
     base = next((what for what in ("base", "parameters") if what in study.attrs), "")

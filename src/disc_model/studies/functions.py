@@ -6,7 +6,8 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
 from itertools import product
@@ -17,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
-from disc_model.display import counting
+from disc_model.display import simulating
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
@@ -359,12 +360,14 @@ def _described(name: str) -> dict[str, Any]:
 
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
     """The results of the calls, in order; the progress of long ones is shown."""
-    with counting(len(arguments)) as tell:
-        if workers == 1:
-            return [tell(call(argument)) for argument in arguments]
-        pool: Executor = ProcessPoolExecutor(workers) if processes else ThreadPoolExecutor(workers)
-        with pool:
-            return [tell(result) for result in pool.map(call, arguments)]
+    kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
+    with simulating(None, len(arguments), f"computing {len(arguments)} points") as tell:
+        results = []
+        with nullcontext() if workers == 1 else kind(workers) as pool:
+            for result in map(call, arguments) if pool is None else pool.map(call, arguments):
+                results.append(result)
+                tell(len(results))
+        return results
 
 
 def _row(
@@ -382,12 +385,8 @@ def _row(
         if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise
         return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
-    variables = _variables(result)
-    status = getattr(result, "status", "ok")
-    return {
-        "status": xr.Variable((), str(status)),
-        "message": xr.Variable((), getattr(result, "message", "")),
-    } | variables
+    words = {"status": str(getattr(result, "status", "ok")), "message": getattr(result, "message", "")}
+    return {name: xr.Variable((), word) for name, word in words.items()} | _variables(result)
 
 
 @cache
