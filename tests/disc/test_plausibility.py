@@ -23,14 +23,6 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
 
 
-def test_another_plate_without_a_normalization_is_doubted() -> None:
-    other = Parameters(**BASE, E=70e9)
-    for doubted in (other, other.replace(Omega=21), Parameters(**BASE).replace(h=0.003)):
-        assert "state normalization" in plausibility.doubts(doubted)["normalization of modes"]
-    for stated in (other.replace(normalization="as_published"), Parameters(**BASE, k=1e5)):
-        assert "normalization of modes" not in plausibility.doubts(stated)
-
-
 def test_a_study_tells_of_how_many_points() -> None:
     axes = {"h": {"start": 0.001, "stop": 0.02, "count": 20}, "Omega": [10, 20, 30]}
     raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": BASE_OF_GRID, "axes": axes}

@@ -18,7 +18,7 @@ from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import load_study
-from tests.commands import Command
+from tests.test_cli import Command
 
 P = dm.Parameters(N=385, Omega=15.1)
 THREE = {"diameters": [0, 1, 2], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]}

@@ -15,7 +15,7 @@ import xarray as xr
 from PIL import Image
 
 from disc_model.data.variables import PHASES
-from disc_model.explorer import BITS, LEVELS, PAGE_WIDTH, PICTURE_WIDTH, Picture, motion_contents, page
+from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
@@ -107,23 +107,6 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert (text == study["message"].values).all()
     spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
     assert told["fixed"] == [spring]
-
-
-def test_motions_are_right_to_half_a_step_and_failed_ones_are_left_out() -> None:
-    told = contents()[0]["motions"]
-    assert [motion["at"] for motion in told["points"]] == [[100, 5, "as_published"], [385, 20, "as_published"]]
-    assert {trace["name"]: trace["unit"] for trace in told["traces"]} == {"P": "N", "u": "m", "psi": "rad"}
-    assert told["points"][0]["phase"] == [[0, 1], [SAMPLES // 4, 2], [SAMPLES // 2, 3], [3 * SAMPLES // 4, 1]]
-    trace = told["traces"][0]
-    found = numbers(trace, "<u2").reshape(2, SAMPLES)
-    for i, motion in enumerate(told["points"]):
-        expected = force(motion["at"][0]).astype(float)
-        error = np.abs(trace["least"][i] + trace["step"][i] * found[i] - expected).max()
-        # half a step, and rounding of what is about 600
-        assert error <= np.ptp(expected) / LEVELS / 2 + 1e-12
-    lost = motions()
-    lost["status"][:] = 1
-    assert motion_contents(lost)["points"] == []
 
 
 class Reader(HTMLParser):

@@ -3,31 +3,28 @@
 import re
 from pathlib import Path
 from types import FunctionType
-from typing import Any
 
 import numpy as np
 import pytest
 
+from disc_model import Parameters
 from disc_model.paper import SCANS, SURVIVAL_GRIDS, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
-from disc_model.paper.measures import CaseView, views
+from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
 from disc_model.paper.paper_tables import impact_law
 from disc_model.paper.survival import CONCLUSIONS
-from disc_model.simulation.api import run_case
-from disc_model.studies.merge import merge_cases
-from disc_model.studies.study import load_study, parse_study
+from disc_model.studies.study import load_study
 from tests.paper import evidence
 
 ROOT = Path(__file__).parents[2]
 STUDY = load_study(ROOT / "config" / "paper.yaml")
 
 
-def cases_of(**cases: dict[str, Any]) -> dict[str, CaseView]:
-    """Views of the merged cases of a study."""
-    study = parse_study({"study": "x", "cases": {name: {"title": ""} | case for name, case in cases.items()}})
-    tree = merge_cases({name: run_case(spec) for name, spec in study.specs.items()}, study.labels)
-    return views({"cases": tree})
+def labelled(name: str, **attrs: str) -> CaseView:
+    """A case whose file says otherwise what it is."""
+    groups = evidence.groups_of(name)
+    return evidence.view(name, groups | {"": groups[""].assign_attrs(attrs)})
 
 
 def test_rows_quote_say_why_and_show() -> None:
@@ -57,11 +54,9 @@ def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
 
 @pytest.mark.compiled
 def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
-    cases = cases_of(
-        F13={"parameters": {"N": 385, "Omega": 15.1}, "t_end": 60, "record": {"events": False}},
-        F11={"parameters": {"N": 385, "Omega": 15}, "t_end": 1},
-        F16={"parameters": {"N": 60, "Omega": 15}, "t_end": 1},
-    )
+    cases = evidence.cases({"F11": {"says": {"time_reached": 1.0}}})
+    del cases["F04"]
+    cases["F16"] = labelled("F16", parameters=Parameters(N=60, Omega=15).canonical_json)
     table = check_claims(cases)
     assert [*table.columns] == COLUMNS
     assert list(table["id"]) == [row.id for row in ROWS]
@@ -77,11 +72,11 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
 
 
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
-    case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 0.01, "start": {"perturbation": {"f": 1.0}}}
+    elsewhere = labelled("F11", start='{"perturbation": {"f": 1.0}}')
     row = Row(id="x", check=lambda _: Answer(True, ""), place="", cases={"F11": 0})
     reason = "case F11 does not begin with the static start in this study."
-    assert row.judge(cases_of(F11=case)).here == reason
-    assert row.judge(cases_of(F11=case | {"start": {}})).verdict == TRUE
+    assert row.judge({"F11": elsewhere}).here == reason
+    assert row.judge({"F11": labelled("F11")}).verdict == TRUE
 
 
 def test_the_workflow_is_told_of_every_scan_and_every_check_has_a_row() -> None:

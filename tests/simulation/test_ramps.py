@@ -3,15 +3,12 @@
 Event times are held against references in tests/validation/test_ramps.py.
 """
 
-import json
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Ramp, Window, simulate
-from disc_model.data.dataset import load
 from disc_model.simulation.case import pieces, values_at
 from tests.contact_laws import LAWS
 from tests.simulation.equal import same
@@ -92,10 +89,3 @@ def test_values_at():
     with pytest.raises(ParameterError, match="name='c': must be one of Omega, N"):
         result.value_at("c", 0.0)
     assert "Omega to 20" in repr(result)
-
-
-def test_a_file_says_its_ramps(tmp_path: Path):
-    simulate(P, 0.005, ramps=BRAKE).save(tmp_path / "ramped.nc")
-    found = load(tmp_path / "ramped.nc")
-    assert json.loads(found.attrs["ramps"]) == [BRAKE.model_dump()]
-    assert "ramps" not in simulate(P, 0.005).to_tree().attrs

@@ -118,17 +118,9 @@ def drawn_start(rng, p, time):
         elif give:
             u, u_velocity = w - give * p.N * spread(rng, 0.1, 3), velocity + 0.03 * rng.normal()
         start = rest.replace(
-            phase=phase,
-            direction=direction,
-            psi=angle,
-            f=f,
-            u=u,
-            u_velocity=u_velocity,
-            a=a,
-            b=b,
-            alpha=alpha,
+            phase=phase, direction=direction, psi=angle, f=f, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
             beta=beta,
-        )
+        )  # fmt: skip
         R, T = reference(p, start).forces(phase, direction)
         # on a steeper slope slip may have no solution, or two
         steep = p.contact_force == "normal" and p.mu_s * abs(np.sum(l * psi * b)) > 0.5 * p.r_0

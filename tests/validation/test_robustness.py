@@ -37,20 +37,14 @@ def sometimes_zero(low: float, high: float) -> st.SearchStrategy[float]:
 def parameters(draw: st.DrawFn) -> Parameters:
     mu_k = draw(st.one_of(st.just(0.0), st.floats(0, 1.5)))
     return Parameters(
-        N=draw(sometimes_zero(1e-6, 1e5)),
-        Omega=draw(sometimes_zero(1e-3, 1e3)),
-        m=draw(magnitude(1e-6, 10)),
-        E=draw(st.one_of(st.just(150e9), magnitude(1e6, 1e20))),
-        k=draw(sometimes_zero(1, 1e8)),
-        k_p=draw(sometimes_zero(1, 1e8)),
-        c=draw(sometimes_zero(1e-3, 1e6)),
-        c_p=draw(sometimes_zero(1e-3, 1e6)),
-        D_star=draw(sometimes_zero(1e-8, 100)),
-        mu_k=mu_k,
+        N=draw(sometimes_zero(1e-6, 1e5)), Omega=draw(sometimes_zero(1e-3, 1e3)), m=draw(magnitude(1e-6, 10)),
+        E=draw(st.one_of(st.just(150e9), magnitude(1e6, 1e20))), k=draw(sometimes_zero(1, 1e8)),
+        k_p=draw(sometimes_zero(1, 1e8)), c=draw(sometimes_zero(1e-3, 1e6)), c_p=draw(sometimes_zero(1e-3, 1e6)),
+        D_star=draw(sometimes_zero(1e-8, 100)), mu_k=mu_k,
         mu_s=mu_k + draw(st.one_of(st.just(0.0), st.floats(0, 0.5))),
         normalization=draw(st.sampled_from(["as_published", "orthonormal"])),
         contact=draw(st.sampled_from(["unilateral", "bilateral"])),
-    )
+    )  # fmt: skip
 
 
 def run(p: Parameters, radians: float, tol: float) -> Result:

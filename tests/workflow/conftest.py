@@ -64,14 +64,9 @@ class Project:
         """Run Snakemake in the background, in a session of its own, which does what ``prepare`` says; add to a log."""
         with (self.folder / log).open("ab") as file:
             return subprocess.Popen(
-                self.command(*options),
-                cwd=self.folder,
-                env=os.environ | self.own,
-                stdout=file,
-                stderr=file,
-                start_new_session=True,
-                preexec_fn=prepare,
-            )
+                self.command(*options), cwd=self.folder, env=os.environ | self.own, stdout=file, stderr=file,
+                start_new_session=True, preexec_fn=prepare,
+            )  # fmt: skip
 
     def products(self) -> dict[str, bytes]:
         """Content of every file that the study is about; no logs."""

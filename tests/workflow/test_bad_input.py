@@ -14,16 +14,19 @@ FAULTS = [f"{SMALL}: 2 faults", "cases.X.parameters.N = -5: must be >= 0", "case
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "faults"),
+    ("file", "old", "new", "faults"),
     [
-        ("N: 200, Omega: 20}, t_end: 2}", "N: -5, Omega: 20}, t_end: 0}", FAULTS),
-        ("\ncases:", "\ncases: [", [f"{SMALL}: 1 fault", "line "]),  # Snakemake itself would end in a traceback
+        (SMALL, "N: 200, Omega: 20}, t_end: 2}", "N: -5, Omega: 20}, t_end: 0}", FAULTS),
+        # which Snakemake itself would end in a traceback
+        ("config/paper.yaml", "\ntitle: ", "\ntitle: [", ["config/paper.yaml: 1 fault", "line "]),
     ],
     ids=["values", "no YAML"],
 )
-def test_every_fault_is_shown_and_nothing_runs(project: Project, old: str, new: str, faults: list[str]) -> None:
-    project.edit(SMALL, old, new)
-    shown = project.refused("-j2")
+def test_every_fault_is_shown_and_nothing_runs(
+    project: Project, file: str, old: str, new: str, faults: list[str]
+) -> None:
+    project.edit(file, old, new)
+    shown = replace(project, config=SMALL if file == SMALL else None).refused("-j2")
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown

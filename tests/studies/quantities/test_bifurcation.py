@@ -10,9 +10,8 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate
 from disc_model.simulation.case import Start
 from disc_model.studies.quantities.bifurcation import Bifurcation
-from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantity import Point
-from tests.stability.test_attractor import SMALL, paradox
+from tests.stability.test_attractor import SMALL
 
 APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
 
@@ -89,11 +88,3 @@ def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settl
     ends = [(angles.min(), angles.max()) for angles in (psi, values["psi"])]
     # settled: the width changes by less than 5 % in 1000 s, or is below a thousandth of the angle
     assert ends[0] == pytest.approx(ends[1], abs=max(0.1 * np.ptp(values["psi"]), 1e-3 * psi.max()))
-
-
-def test_exponents_after_a_transient_that_cannot_be_simulated_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    p, start = paradox()
-    monkeypatch.setattr("disc_model.simulation.api.make_initial_state", lambda *_: start)
-    values, message = Lyapunov(transient=0.1, duration=1).compute_point(Point(p))
-    assert values == {"status": "paradox"}
-    assert "Painleve" in message
