@@ -171,8 +171,8 @@ class StudyProgress(logging.Handler):
         reasons: dict[str, list[tuple[str, list[str]]]] = {}
         for record in self.failed.values():
             logs = [Path(log) for log in record.log if Path(log).is_file()]
-            lines = [line for log in logs for line in log.read_text(errors="replace").rstrip().split("\n")[-_LAST:]]
-            ends = [*lines, *[record.rule_msg] * bool(record.rule_msg)]
+            text = "\n".join([*(log.read_text(errors="replace") for log in logs), record.rule_msg or ""])
+            ends = [line for line in text.splitlines() if line.strip()][-_LAST:]
             job = f"{record.rule_name}: {', '.join(map(str, logs or record.output))}"
             reasons.setdefault(re.sub(r"\d[\d.e+-]*", "", "".join(ends[-1:])), []).append((job, ends))
         parts = [f"failed jobs: {len(self.failed)}"]

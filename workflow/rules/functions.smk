@@ -130,7 +130,7 @@ def durations():
     jobs = {
         workflow.dag.jobid(job): duration(job) for job in workflow.dag.needrun_jobs()
     }
-    return jobs, workflow.cores or workflow.nodes
+    return jobs, workflow.cores if workflow.local_exec else workflow.nodes
 
 
 @cache
