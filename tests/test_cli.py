@@ -13,7 +13,6 @@ import pytest
 import disc_model
 from disc_model import Parameters, cli, simulate
 from disc_model.cli.case import option_name
-from disc_model.simulation import api
 from disc_model.studies.study import load_study
 from tests.processes import run
 
@@ -92,14 +91,6 @@ def test_run_agrees_with_simulate(command: Command) -> None:
 def test_module_runs_as_a_program() -> None:
     done = run(sys.executable, "-m", "disc_model", "modes", "--b", "0.05", fails=True)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "error: r_0=0.1: must be <= b=0.05\n")
-
-
-def test_an_interrupt_is_one_line(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(*_: object, **__: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(api, "simulate", interrupted)
-    assert command.run(*SHORT)[::2] == (130, "error: interrupted\n")
 
 
 def test_windows_and_ramps_are_saved_as_they_were_asked_for(command: Command, tmp_path: Path) -> None:

@@ -201,10 +201,8 @@ def test_each_model_is_judged_by_its_own_data() -> None:
         p = Parameters(N=200, Omega=20, normalization=scale, contact_force=force)
         p = p.replace(contact_compliance="residual" if give else 0.0, friction_offset="surface" if bends else 0.0)
         node = case(stick=share).node
-        groups = {
-            "/": node.to_dataset().assign_attrs(parameters=p.canonical_json),
-            "/events": node["events"].to_dataset(),
-        }
+        root = node.to_dataset().assign_attrs(parameters=p.canonical_json)
+        groups = {"/": root, "/events": node["events"].to_dataset()}
         nodes[f"case{share}{force}{give}{bends}"] = xr.DataTree.from_dict(groups)
     table = judge_models({name: CaseView(name, node) for name, node in nodes.items()})
     rows = page_of(table)[2].set_index("Conclusion").drop(columns="True if")

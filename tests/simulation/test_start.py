@@ -15,7 +15,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import make_initial_state, simulate
-from disc_model.simulation.case import Prerun, Start
+from disc_model.simulation.case import Start
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
 from tests.contact_laws import LAWS
 from tests.studies.conftest import computed
@@ -204,13 +204,3 @@ def test_on_a_compliant_contact_the_slider_keeps_its_distance_and_its_velocity_o
         assert found.u - psi @ state.a == pytest.approx(distance, abs=1e-15)
         assert found.u_velocity - psi @ rise == pytest.approx(1.0 - former.psi @ rise, rel=1e-12)
     assert transfer_state(case, state.replace(mode_amplitudes=None)).u == state.u
-
-
-def test_a_prepared_disc_has_as_many_modes() -> None:
-    start = Start(prerun=Prerun(parameters={"n_diameters": 2}, time=0.1))
-    p = Parameters(N=200, Omega=20)
-    with pytest.raises(ParameterError, match=r"start.prerun.parameters.n_diameters=2: must be that of the case, 4"):
-        make_initial_state(p, start, 1e-10)
-    other = static_start(p.replace(n_diameters=2))
-    with pytest.raises(ParameterError, match=r"initial_state.a: must be 5 finite numbers"):
-        simulate(p, 0.1, initial_state=transfer_state(p, other))

@@ -190,9 +190,3 @@ def test_a_step_that_changes_modes_much_is_halved():
         follow_modes([p.replace(m=m) for m in np.linspace(0.1, 0.01, count).tolist()])[-1] for count in (2, 120)
     )
     np.testing.assert_array_equal(wide.numbers, narrow.numbers)
-
-
-def test_no_modes_without_steady_sliding():
-    found = follow_modes([P.replace(Omega=Omega) for Omega in (0, 20, 1520, 20)])
-    assert [len(one.numbers) for one in found] == [0, 4, 0, 4]
-    np.testing.assert_allclose(found[3].mac, 1, atol=1e-9)

@@ -38,32 +38,18 @@ def drawn_case(rng):
     # as published the residual flexibility is a sum of a thousand modes, which takes seconds
     normalization = "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
     p = Parameters(
-        N=spread(rng, 20, 1000),
-        Omega=spread(rng, 2, 60),
-        c=sometimes(0.5, spread(rng, 1e-2, 10)),
+        N=spread(rng, 20, 1000), Omega=spread(rng, 2, 60), c=sometimes(0.5, spread(rng, 1e-2, 10)),
         # without kinetic friction an undamped slider comes to rest where stick is just not possible, or just possible;
         # with equal coefficients it swings back to rest where it has just begun to slip
         c_p=sometimes(0.5 if 0 < mu_k < mu_s else 1.0, spread(rng, 1e-2, 10)),
-        k=sometimes(0.8, spread(rng, 5e3, 5e5)),
-        k_p=spread(rng, 2e3, 2e5),
-        E=spread(rng, 30e9, 300e9),
-        m=spread(rng, 0.01, 1),
-        mu_k=mu_k,
-        mu_s=mu_s,
-        a=a,
-        b=b,
-        r_0=a + rng.uniform(0.3, 1) * (b - a),
-        h=spread(rng, 1e-3, 5e-3),
-        nu=rng.uniform(-0.2, 0.45),
-        rho=spread(rng, 2000, 9000),
-        n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])),
-        n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
-        normalization=normalization,
-        contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
+        k=sometimes(0.8, spread(rng, 5e3, 5e5)), k_p=spread(rng, 2e3, 2e5), E=spread(rng, 30e9, 300e9),
+        m=spread(rng, 0.01, 1), mu_k=mu_k, mu_s=mu_s, a=a, b=b, r_0=a + rng.uniform(0.3, 1) * (b - a),
+        h=spread(rng, 1e-3, 5e-3), nu=rng.uniform(-0.2, 0.45), rho=spread(rng, 2000, 9000),
+        n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])), n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
+        normalization=normalization, contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
         contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
-        contact_force=str(rng.choice(["vertical", "normal"])),
-        friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
-    )
+        contact_force=str(rng.choice(["vertical", "normal"])), friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
+    )  # fmt: skip
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
     ratio, fastest = (
         sometimes(0.8, spread(rng, 1e-5, 0.3)),
