@@ -80,7 +80,6 @@ def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> N
     quantity = quantity_of(name)
     options = quantity.model_validate(OPTIONS[name])
     assert 0 < options.seconds < 600
-    assert options.batch_size >= 1
     assert bool(quantity.motions) == bool(quantity.motion) == (quantity.state_at is not Quantity.state_at)
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
     assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)

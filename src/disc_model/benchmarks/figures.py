@@ -222,7 +222,9 @@ def _map_panels(
     shades = np.array([to_rgb(shade) for _, shade in verdicts.values()])
     for ax, dataset_of_map, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         dataset = dataset_of_map.sortby("value")
-        edges, rows = _log_edges(dataset["value"].values), np.arange(dataset.sizes["diameters"] + 1) - 0.5
+        x, rows = np.log(dataset["value"].values), np.arange(dataset.sizes["diameters"] + 1) - 0.5
+        whole = np.concatenate([[2 * x[0] - x[1]], x, [2 * x[-1] - x[-2]]])
+        edges = np.exp(0.5 * (whole[1:] + whole[:-1]))  # halfway between values in the logarithm
         ax.pcolormesh(edges, rows, shades[dataset["verdict"].values])
         ax.set(xscale="log", xlim=(edges[-1], edges[0]))
         ax.set_yticks(rows[:-1] + 0.5, [f"{int(n)}" for n in dataset["modes"].values])
@@ -230,9 +232,9 @@ def _map_panels(
         suffix = ", contact" if dataset.attrs.get("scene") == "stick_slip" else ""
         drawing.letter(ax, letter, f"{dataset.attrs['label']}{suffix}", fontsize=7)
         for style, values in _borders(dataset) if borders else ():
-            x = np.repeat(np.clip(values, edges[0], edges[-1]), 2)
+            stairs = np.repeat(np.clip(values, edges[0], edges[-1]), 2)
             for color, dashes, width in (("white", "-", 2.4), (BLACK, style, 1.4)):
-                ax.plot(x, np.repeat(rows, 2)[1:-1], color=color, linestyle=dashes, linewidth=width)  # a staircase
+                ax.plot(stairs, np.repeat(rows, 2)[1:-1], color=color, linestyle=dashes, linewidth=width)
     used = np.unique(np.concatenate([dataset["verdict"].values.ravel() for dataset in maps]))
     named = [verdict for number, verdict in enumerate(verdicts.values()) if number in used]
     shaded = [Patch(facecolor=shade, edgecolor=GREY, label=word) for word, shade in named]
@@ -261,13 +263,6 @@ def _crossing(dataset: xr.Dataset) -> np.ndarray:
         fine = np.flatnonzero(row <= shortest)
         crossings.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
     return np.array(crossings)
-
-
-def _log_edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around ascending values, halfway between them in the logarithm."""
-    x = np.log(values)
-    whole = np.concatenate([[2 * x[0] - x[1]], x, [2 * x[-1] - x[-2]]])
-    return np.asarray(np.exp(0.5 * (whole[1:] + whole[:-1])))
 
 
 # ---- How many modes

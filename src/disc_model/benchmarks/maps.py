@@ -50,11 +50,12 @@ def failure_map(
     def facts(diameters: int) -> Iterator[Row]:
         p = short_problem(scene, diameters).parameters
         top = float(mode_arrays(p).omega.max())
+        gaps = np.diff(engine_answer(scene, diameters).times.astype(float))  # which a step must not exceed
         yield {
             "modes": real_modes(diameters, 0),
             "omega_max": top,
             "step_limit": STABILITY_LIMIT / top,
-            "shortest_phase": scenes.shortest_phase(engine_answer(scene, diameters)),
+            "shortest_phase": float(gaps[gaps > 0].min()),
             "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
         }
 

@@ -183,12 +183,6 @@ def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> floa
     return float(max([largest, *late]))
 
 
-def shortest_phase(answer: Answer) -> float:
-    """Shortest time between two events, s, which a step must not exceed."""
-    gaps = np.diff(answer.times.astype(float))
-    return float(gaps[gaps > 0].min())
-
-
 def describe(name: str) -> dict[str, Any]:
     """Description of a scene for a dataset's attributes."""
     case, right = problem(name), answer(name)

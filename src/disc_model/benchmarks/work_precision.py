@@ -59,7 +59,11 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
 
     def measure(scene: str, solver: str, point: int, value: float) -> Iterator[Row]:
         before = times[scene, solver, point]
-        if not _again(before) if before else (scene, solver) in hopeless:
+        if before:  # quick points are measured in every round, others at most twice more
+            again = _quick(before) or (float(np.median(before)) < LONG and len(before) < 3)
+        else:
+            again = (scene, solver) not in hopeless
+        if not again:
             return
         problem, budget = scenes.problem(scene), RIGID_BUDGET if scene == "rigid" else BUDGET
         result = METHODS[solver].solve(problem, value, budget)
@@ -117,11 +121,6 @@ def _whole_call() -> float:
 
 def _quick(times: Sequence[float]) -> bool:
     return float(np.median(times)) < 0.1 * LONG
-
-
-def _again(times: Sequence[float]) -> bool:
-    """Whether to measure a point in a later round: always if it is quick, else at most twice more."""
-    return _quick(times) or (float(np.median(times)) < LONG and len(times) < 3)
 
 
 def _line_order(dataset: xr.Dataset, scene: str, solver: str, error: str) -> float:

@@ -70,7 +70,7 @@ class RegionMap(Plot):
         """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked. Lines come
         from the further study ``curves``, if it is given, and else lie between cells."""
         norms = drawing.normalizations(study)
-        shown = planes(study, norms, self)
+        shown = [drawing.of(study, norm).transpose(self.y, self.x, ...) for norm in norms]
         figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
         above, below = axes[: len(norms)], axes[len(norms) :]
         drawing.letters(axes, [MODES[norm] for norm in norms])
@@ -151,11 +151,6 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
             yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
-
-
-def planes(study: xr.Dataset, norms: Sequence[str], plot: RegionMap) -> list[xr.Dataset]:
-    """A study over the two parameters, the vertical one first, for each normalization."""
-    return [drawing.of(study, norm).transpose(plot.y, plot.x, ...) for norm in norms]
 
 
 def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Artist]:

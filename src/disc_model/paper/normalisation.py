@@ -24,8 +24,11 @@ SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the
 def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:
     """What changes with orthonormal modes: in "brief", then in the "modes", the "cases" and the "verdicts". Cases of
     the second set alone are "instead", if there are any."""
-    shared = _once([case for name, case in published.items() if name in orthonormal])
-    pairs = {name: (published[name], orthonormal[name]) for name in shared}
+    shared: dict[Parameters, str] = {}  # without repetitions at another tolerance
+    for name, case in published.items():
+        if name in orthonormal and case.from_rest:
+            shared.setdefault(case.parameters, name)
+    pairs = {name: (published[name], orthonormal[name]) for name in shared.values()}
     failed = [name for name, pair in pairs.items() if "failed" in (case.status for case in pair)]
     whole = {name: pair for name, pair in pairs.items() if name not in failed}
     verdicts = _verdicts(published, orthonormal)
@@ -59,15 +62,6 @@ def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -
     }
     rows |= {f"first separation, {pair[0].place}": [*map(_first, pair)] for pair in pairs if pair[0].name in SHOWN}
     return pd.DataFrame([(name, *map(str, values)) for name, values in rows.items()], columns=["", OLD, NEW])
-
-
-def _once(cases: Sequence[CaseView]) -> list[str]:
-    """Names of cases from the static start, without repetitions at another tolerance."""
-    names: dict[Parameters, str] = {}
-    for case in cases:
-        if case.from_rest:
-            names.setdefault(case.parameters, case.name)
-    return [*names.values()]
 
 
 def _modes() -> pd.DataFrame:

@@ -30,7 +30,7 @@ from disc_model.mode_choice import ModeRequest, asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
-from disc_model.studies.quantity import Blocks, Quantity, Value, holds, names_in
+from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, holds, names_in
 from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
@@ -128,7 +128,7 @@ class GridStudy:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
             return self._texts(self.dims, _tiles(self.dims, batch, marked))
-        size = batch.size or self.options.batch_size
+        size = batch.size or max(1, round(WORK / self.options.seconds))
         return self._texts(self.dims, ({"points": cut} for cut in _chunks(self.dims, batch.over, size)))
 
     @cached_property

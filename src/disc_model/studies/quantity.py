@@ -271,11 +271,6 @@ class Quantity(Ruled):
         return type(self).cost(self)
 
     @property
-    def batch_size(self) -> int:
-        """Number of points in a batch if a study does not state it."""
-        return max(1, round(WORK / self.seconds))
-
-    @property
     def scanned(self) -> tuple[str, ...]:
         """Parameters that it varies by itself."""
         return tuple(getattr(self, name, name) for name in self.scans)
