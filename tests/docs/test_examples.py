@@ -69,6 +69,10 @@ SAID = {
         "(growth['growth_rate'] > 0).any() and (growth['growth_rate'] < 0).any()",
         "set(growth['status'].values) == {'ok', 'no_cycle'}",
     ),
+    "reading_results": (
+        "list(tree.children) == ['events', 'history', 'final_state']",
+        "len(named) > 3 and sum('f_s' in name or 'f_Ω' in name for name in named) == len(named)",
+    ),
     "brake_disc": (
         "len(disc.omega) == 7 and max(disc.omega) < math.tau * 3000",
         "dm.steady_sliding(case).stable",
