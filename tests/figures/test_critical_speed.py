@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
 from disc_model.figures.maps import Curve
-from tests.figures.reading import draw, labels, lines
+from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed, growth_over
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
@@ -62,8 +62,8 @@ def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Fig
     assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
 
 
-def test_shorter_horizons_are_marked_where_their_speed_differs(speeds: xr.Dataset) -> None:
+def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:
     (ax,) = draw("critical_speed", speeds).axes
-    onset, later = (lines(ax)[name] for name in ("onset of separation within 1000 s", "at another speed within 900 s"))
-    assert set(later.get_ydata()) == {200}
-    assert min(later.get_xdata()) > np.nanmin(onset.get_xdata())
+    assert [line.get_label() for line in ax.lines] == ["separation begins, within 1000 s"]
+    onsets = ax.lines[0].get_xdata()
+    assert np.nanmin(onsets) == np.nanmin(speeds["critical_speed"].sel(horizon=1000))
