@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from disc_model import ParameterError
-from disc_model.errors import DiscModelError, Fault, StatusBase, script
+from disc_model.errors import DiscModelError, Fault, script
 from disc_model.studies.study import StudyError
 from disc_model.units import Checked, Real, Strict, Tolerance
 from tests.studies.refused import faults_of
@@ -44,11 +44,6 @@ def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     for error in (ParameterError(fault, "k=nan: must be finite"), StudyError("a: b", "c: d", source="x.yaml")):
         again = pickle.loads(pickle.dumps(error))
         assert (str(again), again.faults) == (str(error), error.faults)
-
-
-def test_a_status_without_a_sentence_is_refused() -> None:
-    with pytest.raises(TypeError, match="advice"):
-        StatusBase("Mute", {"OK": "ok"})  # type: ignore[call-overload]
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), DiscModelError("no result")])

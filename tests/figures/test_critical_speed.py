@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
 from disc_model.figures.critical_speed import branches
 from disc_model.figures.maps import Curve
@@ -60,6 +61,9 @@ def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Fig
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
     assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
+    apart = growth["growth_rate"].copy(data=np.full((3, 7, 1), OUTCOMES_TO_HORIZON.index("separation")))
+    regions = growth.assign(outcome=apart.assign_attrs(flag_meanings=" ".join(OUTCOMES_TO_HORIZON)))
+    assert "separation within 900 s" in labels(chart(cycle=regions.assign_attrs(options='{"horizon": 900}')))
 
 
 def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:

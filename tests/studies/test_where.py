@@ -1,6 +1,5 @@
 """Points that a grid's own rule leaves out: not computed, recorded as excluded, drawn as empty; and axes of ratios."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -19,17 +18,6 @@ FRICTION = {"mu_s": [0.1, 0.2, 0.3], "mu_k": [0.1, 0.2, 0.3]}
 def raw(**changes: Any) -> dict[str, Any]:
     base = {"N": 200, "Omega": 20, "n_diameters": 1}
     return {"study": "s", "quantity": "floquet", "base": base, "axes": FRICTION, "where": "mu_k <= mu_s"} | changes
-
-
-def points(phrase: dict[str, Any]) -> list[list[Any]]:
-    return [point for text in parse_grid(phrase).batches.values() for point in json.loads(text)["points"]]
-
-
-def test_points_that_break_the_rule_are_not_computed() -> None:
-    grid = parse_grid(raw())
-    assert points(raw()) == [[s, k] for s in FRICTION["mu_s"] for k in FRICTION["mu_k"] if k <= s]
-    assert (grid.n_points, grid.attrs["where"]) == (6, "(mu_k <= mu_s)")
-    assert not list(grid.doubts)
 
 
 def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:
