@@ -138,11 +138,13 @@ def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None
     assert explored() == []
     project.edit(MAP, "title: outcome", "title: what becomes of it")
     assert explored() == ["build_explorer"]
-    # another point of which a motion is kept, of one study of two
+    # another point of which a motion is kept, in the one study of two that has motions
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 400]")
     assert explored() == ["build_explorer", "compute_motions"]
+    project.edit(MAP, "N: [100, 200, 400]", "N: [100, 200.0, 300]")
+    assert explored() == ["build_explorer"]
     project.change("src/disc_model/studies/motions.py")
-    assert explored() == ["build_explorer", "compute_motions", "compute_motions"]
+    assert explored() == ["build_explorer", "compute_motions"]
     # and a plain run knows nothing of it
     assert "compute_motions" not in project.complete("-n")
 
