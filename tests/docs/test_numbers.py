@@ -67,7 +67,6 @@ def test_a_number_that_is_not_that_of_the_results_is_corrected() -> None:
         ("first_separation('F13')", "54.42", 54.43, False),  # before any irregular motion
         ("chance('sensitivity', 200, 'separation')", "0.45 (0.34 to 0.57)", "0.47 (0.36 to 0.59)", True),
         ("chance('sensitivity', 200, 'separation')", "0.45 (0.34 to 0.57)", "0.50 (0.38 to 0.62)", False),
-        ("verdicts('holds')", "two", 4.0, False),
         ("most_changing('sensitivity', 200)", "h 0.64, E 0.50", "h 0.65, k 0.50", False),
     ],
 )
