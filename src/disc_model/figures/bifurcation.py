@@ -229,8 +229,10 @@ class LateRange(Plot):
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a panel for each value of ``by``, and a line for each preload and contact."""
         ranges = (study["u_max"] - study["u_min"]) / self.thickness
-        separates = study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
+        outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
         names, loads = study[self.by].values, study["N"].values
+        apart: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 3}
+        open_end = apart | {"marker": "^", "markersize": 5, "markerfacecolor": "white"}
         figure, axes = panels(PAGE, 3.0, 1, len(names), sharex=True, sharey=True)
         for ax, name in zip(axes, names, strict=True):
             ax.axhspan(1, 1e3, color="0.93", zorder=0)
@@ -238,10 +240,13 @@ class LateRange(Plot):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}
                     height = np.maximum(ranges.sel(line).transpose("Omega").values, SMALLEST)
-                    apart = separates.sel(line).transpose("Omega").values
+                    words = outcomes.sel(line).transpose("Omega").values
                     ax.plot(study["Omega"], height, look, color=colour, linewidth=1.0)
                     ax.plot(study["Omega"], height, "o", color=colour, markersize=3, markerfacecolor="white")
-                    ax.plot(study["Omega"].values[apart], height[apart], "o", color=colour, markersize=3)
+                    for mark, shown in ((apart, ["separation"]), (open_end, ["growing", "undecided"])):
+                        here = np.isin(words, shown)
+                        ax.plot(study["Omega"][here], height[here], color=colour, **mark)
+            ax.margins(x=0.05)
             ax.set(yscale="log", ylim=(SMALLEST / 2, 10), xlabel=drawing.label_of(study["Omega"])[0])
         axes[0].set_ylabel("Slider, peak to peak (thicknesses)")
         first = axes[0]
@@ -251,7 +256,8 @@ class LateRange(Plot):
             *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
             drawing.sample(color=GREY, linestyle="-", label="unilateral contact"),
             drawing.sample(color=GREY, linestyle="--", label="bilateral contact"),
-            drawing.sample(color=GREY, linestyle="", marker="o", markersize=3, label="separates"),
+            drawing.sample(color=GREY, label="separates", **apart),
+            drawing.sample(color=GREY, label="growing or undecided", **open_end),
         ]
-        figure.legend(handles=handles, loc="outside lower center", ncols=5)
+        figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1.0)
         return figure

@@ -239,24 +239,26 @@ def spread(places: list[float], apart: float, low: float, high: float) -> list[f
     return (np.clip(level, low, high - steps[-1]) + steps).tolist()  # type: ignore[no-any-return]
 
 
-def mode_handles(diameters: Iterable[int]) -> list[Line2D]:
+def mode_handles(diameters: Iterable[int], **look: Any) -> list[Line2D]:
     """Legend entries of the colours of modes by their nodal diameters."""
     shown = sorted({*diameters})
-    return [drawing.sample(color=colour_of(l), label="in-plane mode" if l < 0 else f"l = {l}") for l in shown]
+    names = {l: "in-plane mode" if l < 0 else f"l = {l}" for l in shown}
+    return [drawing.sample(color=colour_of(l), label=name, **look) for l, name in names.items()]
 
 
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
 THIN, THICK = 0.8, 2.4  # widths of the lines of modes that decay and grow
+BEGIN: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 5, "markerfacecolor": "white"}
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 
 
 def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
-    """Each mode of a study of one point, with its nodal diameters at the first value; -1 in the plane."""
-    for _, mode in study.groupby("mode"):
+    """Each mode of a study of one point, cut where its nodal diameters change: these, -1 in the plane, and its part."""
+    for _, mode in study[["frequency", "mode_growth_rate", "diameters"]].groupby("mode"):
         mode = mode.squeeze("mode")
-        known = np.isfinite(mode["frequency"].values)
-        if known.any():
-            yield int(mode["diameters"].values[known.argmax()]), mode
+        diameters = mode["diameters"].where(mode["frequency"].notnull())
+        for l in np.unique(diameters.dropna("value")):
+            yield int(l), mode.where(diameters == l)
 
 
 class SlidingModes(Plot):
@@ -270,7 +272,8 @@ class SlidingModes(Plot):
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies, (b) growth rates, by nodal diameters; thick where a mode grows."""
+        """Draw (a) frequencies, (b) growth rates, by nodal diameters; thick where a mode grows. Growth at zero
+        frequency belongs to no mode; it is drawn where it is the largest."""
         study = study.squeeze()
         label, factor = drawing.label_of(study["value"])
         along = study["value"].values * factor
@@ -278,21 +281,25 @@ class SlidingModes(Plot):
         for l, mode in modes_of(study):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
             for ax, values in ((top, frequency), (bottom, rate)):
-                ax.plot(along, values, color=colour_of(l), linewidth=THIN)
+                ax.plot(along, values, ".-", color=colour_of(l), linewidth=THIN, markersize=1.2)
                 x, y = (np.where(rate > ROUNDING, coordinates, np.nan) for coordinates in (along, values))
                 ax.plot(x, y, ".-", color=colour_of(l), linewidth=THICK, markersize=3)
+        largest = study["largest_growth_rate"]
+        diverging = (largest > study["mode_growth_rate"].max("mode") + ROUNDING).values
+        for ax, values in ((top, np.zeros(along.size)), (bottom, largest.values)):
+            ax.plot(along, np.where(diverging, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
         bottom.axhline(0, color=BLACK, linewidth=0.5)
         top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=(along[0], along[-1]))
         if self.highest is not None:
             top.set_ylim(0, self.highest)
         # the sign matters: decay of high modes may be much faster
-        low, high = (float(end(study["mode_growth_rate"])) for end in (np.nanmin, np.nanmax))
-        top_rate = max(high, 0.1)
+        low, top_rate = float(study["mode_growth_rate"].min()), max(float(largest.max()), 0.1)
         bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -2 * top_rate), 1.1 * top_rate))
         drawing.letters([top, bottom])
-        grows = drawing.sample(color=GREY, linewidth=THICK, label="grows")
-        handles = [*mode_handles(l for l, _ in modes_of(study)), grows]
-        figure.legend(handles=handles, loc="outside lower center", ncols=7)
+        handles = [*mode_handles(l for l, _ in modes_of(study)), drawing.sample(color=GREY, lw=THICK, label="grows")]
+        if diverging.any():
+            handles.append(drawing.sample(color=BLACK, lw=THICK, label="grows at zero frequency"))
+        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.2)
         return figure
 
 
@@ -303,7 +310,7 @@ class RootLocus(Plot):
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a line for each mode, with an open mark where it begins."""
+        """Draw points for each mode, with a ring where it begins."""
         from cmcrameri import cm
 
         study = study.squeeze()
@@ -312,13 +319,13 @@ class RootLocus(Plot):
         figure, [ax] = panels(PAGE, 3.8)
         for l, mode in modes_of(study):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
-            ax.plot(rate, frequency, color=colour_of(l), linewidth=THIN, zorder=1)
-            ax.plot(rate[:1], frequency[:1], "o", color=colour_of(l), markersize=4, markerfacecolor="white")
+            ax.plot(rate[:1], frequency[:1], color=colour_of(l), **BEGIN)
             points = ax.scatter(rate, frequency, c=along, cmap=cm.batlow, vmin=along[0], vmax=along[-1], s=5, zorder=2)
         ax.axvline(0, color=BLACK, linewidth=0.6)
         ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")
         figure.colorbar(points, ax=ax, label=label, pad=0.01, aspect=30)
-        figure.legend(handles=mode_handles(l for l, _ in modes_of(study)), loc="outside lower center", ncols=7)
+        handles = mode_handles((l for l, _ in modes_of(study)), **BEGIN)
+        figure.legend(handles=handles, loc="outside lower center", ncols=7)
         return figure
 
 
