@@ -295,6 +295,26 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
     return len(centres)
 
 
+def arrival(points: Array, start: int = 0) -> int:
+    """Index from which all points lie on the set on which a motion that has settled ends: the later half of its points.
+
+    A point lies on it if it is as near to one of them as they are to each other at most, or within `SAME`.
+
+    Parameters
+    ----------
+    points : shape (n, d), n > 0
+    start : index from which the motion is known to have settled, by its drift: transients may be short beside a record
+    """
+    from scipy.spatial import KDTree
+
+    ends = points[(start + len(points)) // 2 :]
+    extent = np.maximum(np.ptp(ends, axis=0), STILL * np.abs(ends).max(axis=0) + np.finfo(float).tiny)
+    tree = KDTree(ends / extent)
+    apart = max(SAME, float(tree.query(ends / extent, k=2, p=np.inf)[0][:, 1].max()))
+    away = np.flatnonzero(tree.query(points / extent, p=np.inf)[0] > apart)
+    return max(start, int(away[-1]) + 1 if away.size else 0)
+
+
 # ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows
 #
 # This is the one test behind "settled" in studies, figures and verdicts. A stable cycle that the motion follows

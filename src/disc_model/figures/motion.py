@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.analysis.classify import settling, stages
+from disc_model.analysis.classify import arrival, settling, stages
 from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -149,6 +149,7 @@ MARKS: dict[str, dict[str, Any]] = {
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 """Symbol by stage: told apart by shape as well as by colour."""
+SMALL = 0.2  # share of both axes below which a section has an inset
 BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
 BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separated": "separated"}
 
@@ -158,19 +159,17 @@ def draw_sections(
     case: xr.DataTree,
     samples: xr.Dataset,
     compared: Sequence[xr.Dataset] = (),
-    last: int | None = None,
 ) -> list[Artist]:
     """Draw velocity over displacement of slider and disc, once a turn of the drive; returns the entries of a legend.
 
-    compared : sections that the axes fit too
-    last : number of points that are shown at most, the last ones
+    compared : sections that the axes fit too; one that is small on them is drawn again in an inset
     """
     first, time = float(case["first_separation"]), samples["time"].values
     since = _settled_since(case, samples)
     masks = stages(time, samples["phase"].values, first, float(since))
     slider, disc = axes
     for ax, name in ((slider, "psi"), (disc, "w_point")):
-        coordinates = []
+        coordinates, shares = [], []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
             label, factor, _ = drawing.sampled(variable, samples)
             coordinates.append(samples[variable].values * factor)
@@ -178,10 +177,13 @@ def draw_sections(
             low, high = float(shown.min()), float(shown.max())
             margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)  # room for the marks
             ax.set(**{f"{axis}label": label, f"{axis}lim": (low - margin, high + margin)})
+            shares.append(np.ptp(coordinates[-1]) / (high - low + 2 * margin))
+        closer = [ax.inset_axes((0.66, 0.68, 0.34, 0.32))] if max(shares) < SMALL else []
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
-            mask = getattr(masks, stage) & (np.arange(len(time)) >= len(time) - (last or len(time)))
+            mask = getattr(masks, stage)
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
-            ax.scatter(*(values[mask] for values in coordinates), **look)
+            for panel in (ax, *closer):
+                panel.scatter(*(values[mask] for values in coordinates), **look)
     names = BY_SEPARATION if masks.divided_by_separation else BY_SETTLING
     names = {stage: name for stage, name in names.items() if getattr(masks, stage).any()}
     drawing.show_thickness(disc, case, "x")
@@ -195,7 +197,7 @@ def draw_sections(
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
     """Time from which a motion has settled, s, by its section; by the ranges of a window where that does not show it.
-    Points of a section may come near each other again for longer than the record."""
+    Points of a section may come near each other again for longer than the record. From then on all lie on its end."""
     window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
     since = []
     for name in ("psi", "w_point"):
@@ -204,20 +206,23 @@ def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
             ranges = window.isel(time=slice(None, -1))  # the last bin is cut
             answer = settling(ranges["time"], ranges[f"{name}_max"] - ranges[f"{name}_min"], still=1.0)
         since.append(answer.since)
-    return float(np.max(since))
+    latest, time = float(np.max(since)), samples["time"].values
+    if not math.isfinite(latest):
+        return latest
+    section = [samples[f"{name}{of}"].values for name in ("psi", "w_point") for of in ("", "_velocity")]
+    start = min(int(np.searchsorted(time, latest)), len(time) - 1)
+    return float(time[arrival(np.column_stack(section), start)])
 
 
 class PoincareSections(CasePlot):
     """The Poincaré sections of slider and disc: psi' over psi, and velocity over displacement of the disc at r_0.
 
     below : further cases, each in a row of its own on the same axes
-    last : number of points that are shown at most, the last ones
     """
 
     further = ("below",)
     kind: Literal["poincare"] = "poincare"
     below: tuple[str, ...] = ()
-    last: Annotated[int, Field(ge=1)] | None = None
 
     def needs(self) -> Iterator[Need]:
         for case in self.cases:
@@ -229,7 +234,7 @@ class PoincareSections(CasePlot):
         sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
         for i, (row, case, samples) in enumerate(zip(rows, cases, sections, strict=True)):
             axes = row.subplots(1, 2)
-            handles = draw_sections(axes, case, samples, sections, self.last)
+            handles = draw_sections(axes, case, samples, sections)
             row.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
             for ax, text in zip(axes, "abcdefgh"[2 * i :], strict=False):
                 drawing.letter(ax, text)
