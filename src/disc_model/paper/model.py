@@ -129,7 +129,7 @@ class Row(BaseModel):
         wanted = (*self.scans, *self.beside)
         studies = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
         answer = check(*needed.values(), *studies, **self.given)
-        return Answer(answer.verdict, answer.here, answer.notes, self.note, "Settled by the test." * bool(steady))
+        return Answer(answer.verdict, answer.here, answer.notes, self.note, "The motion has settled." * bool(steady))
 
 
 def rows_of(module: ModuleType) -> tuple[Row, ...]:

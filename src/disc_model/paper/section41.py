@@ -148,7 +148,7 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
         graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
         f"{'; '.join(rows)}.",
         f"Neighbouring systems have other periods. With k 0.1 % larger: {'; '.join(near)}.",
-        "Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. The period: "
+        "Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. Periods: "
         f"{'; '.join(other)}."
         if other
         else "",
@@ -234,10 +234,10 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     study = _scanned(study)
     lowest = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
     falls, last = all(each.falls for each in lowest), lowest[-1]
-    again = f"Up to {last.top:g} N it does. At larger preloads it falls again, to {', '.join(last.again)}."
+    again = f"Up to {last.top:g} N it falls once and rises. It has further minima at {', '.join(last.again)}."
     return Answer(
         PART if falls and last.again else falls,
-        f"Lowest speed with separation within {float(study['horizon'][-1]):g} s, where it turns: "
+        f"Turns of the lowest speed with separation within {float(study['horizon'][-1]):g} s: "
         f"{'; '.join(last.speeds)} rad/s.",
         again if last.again else "",
     )
