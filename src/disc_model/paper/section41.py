@@ -148,8 +148,7 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
         graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
         f"{'; '.join(rows)}.",
         f"Neighbouring systems have other periods. With k 0.1 % larger: {'; '.join(near)}.",
-        "Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. Periods: "
-        f"{'; '.join(other)}."
+        f"Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. Periods: {'; '.join(other)}."
         if other
         else "",
     )
