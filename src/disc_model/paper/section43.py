@@ -154,6 +154,10 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float) -> Answer:
     count = int(case["time_reached"] / (4 * STRETCH))
+    if not count:
+        if case.separates:  # where it was to be stopped
+            return Answer(FALSE, f"{outcome_of(case).capitalize()}.")
+        raise Missing(f"case {case.name} ends at {case['time_reached']:g} s, {4 * STRETCH:g} s are needed")
     widths = case.last_widths("P", STRETCH, 2 * count)
     last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
     return Answer(
