@@ -66,10 +66,8 @@ def test_help_shows_units_defaults_choices_and_the_version(command: Command, mon
     out = command.out("run", "--help")
     for part in ("(N m s)", "as_published|orthonormal", "unilateral|bilateral", "first_separation"):
         assert part in out
-    assert "-1 for a rigid disc, auto: as many as" in out
     groups = re.findall(r"╭─ ([\w ]+) ─", out)
     assert groups == ["Options", "Run", "Slider", "Disc", "Friction and contact", "Numerics"]
-    assert "[default: as_published]" in " ".join(out.replace("│", " ").split())
     assert command.out("help", "run") == out
     out = command.out("help")
     assert out == command.out("--help") == command.out()

@@ -7,7 +7,6 @@ import sys
 import threading
 from pathlib import Path
 
-import numba
 import pytest
 
 from disc_model import Execution, Parameters, display, simulate
@@ -37,17 +36,6 @@ def test_only_a_long_simulation_is_shown(
     simulate(P, 0.05, execution=Execution(progress=option))
     assert ("simulating 0.05 s" in stderr.getvalue()) == shown
     assert bool(stderr.getvalue()) == shown
-
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("report", [True, False])
-def test_compilation_is_said_in_one_line(capsys: pytest.CaptureFixture[str], monkeypatch, report: bool) -> None:
-    monkeypatch.setattr(cache.LINES, "shown", set())
-    add = numba.njit(lambda x: x + 1)
-    with cache.compiling(report):
-        add(1)
-        add(2.0)
-    assert capsys.readouterr().err == f"{cache.COMPILING}\n" * report
 
 
 def test_a_wait_for_another_process_is_said_and_its_helpers_are_read(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:

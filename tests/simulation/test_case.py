@@ -1,10 +1,15 @@
 """What a simulation keeps: windows, envelopes, samples by the drive; and which records are refused."""
 
+import json
+
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
-from disc_model import ParameterError, Parameters, Poincare, Window, simulate
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Window, simulate
 from disc_model.simulation import recorder
+from disc_model.simulation.case import CaseSpec, Start, resolved_windows
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -22,6 +27,61 @@ def test_envelopes_are_the_extremes_of_the_samples():
         np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
     np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
     assert turns["time"].tolist() == [0.0]
+
+
+@given(*[st.integers(0, 60)] * 4, st.sampled_from(["stop", "end", "last"]), st.sampled_from([None, 2]))
+@example(0, 9, 9, 1, "end", None)
+@example(0, 9, 8, 1, "end", 2)
+def test_a_window_has_the_samples_within_it(begin, duration, start, length, until, envelope):
+    """Times are in quarters of the interval between samples, 1/64 s: none is rounded, all digits are shown."""
+    end, stop = begin + duration + 1, start + length + 1
+    times = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}.get(until, {"start": start})
+    window = Window(rate=16, envelope=envelope, **{name: time / 64 for name, time in times.items()})
+    if until == "end" and start >= end:
+        with pytest.raises(
+            ParameterError, match=rf"^windows\.w\.start={start / 64:.9g}: must be < t_end={end / 64:.9g}$"
+        ):
+            resolved_windows({"w": window}, begin / 64, end / 64)
+        return
+    resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
+    first, last = max(begin, end - length - 1) if until == "last" else start, stop if until == "stop" else end
+    assert (resolved.start, resolved.last) == (first / 64, None)
+    assert resolved.stop <= last / 64
+    if envelope and until != "stop":  # without the instant of the end, and half an interval before it
+        last = max(end - 2, first)
+    assert resolved.count == len(range(first, last + 1, 4))
+    assert resolved_windows({"w": resolved}, begin / 64, end / 64)["w"] == resolved
+
+
+@given(st.integers(1, 10**12), st.floats(1e-3, 1e9))
+def test_rounding_loses_no_sample(intervals, rate):
+    assert Window(stop=intervals / rate, rate=rate).count == intervals + 1
+
+
+def test_a_section_has_one_sample_a_turn():
+    p, turn = P.replace(Omega=500), 2 * np.pi / 500
+    windows = {"turns": Poincare(start=1.5 * turn, stop=4.1 * turn, theta=2.0)}
+    windows |= {f"at {theta:g}": Window(start=2 * turn, rate=1 / turn, theta=theta) for theta in (1.0, 2.0)}
+    turns, other, same = simulate(p, 4.5 * turn, windows).samples.values()
+    np.testing.assert_allclose(turns["time"], turn * np.arange(2, 5), rtol=1e-15)
+    np.testing.assert_allclose(turns["w_point"], same["w_point"], rtol=1e-9)  # times differ by their rounding
+    assert not np.isclose(turns["w_point"], other["w_point"], rtol=1e-2).any()
+
+
+def test_a_text_is_a_case_and_does_not_name_what_is_absent():
+    """Older texts, from before `last` and four fields, are still those of their cases, and address their results."""
+    brief = CaseSpec(parameters=P, t_end=1.0, windows=(("w", Window(rate=10, stop=1)),))
+    later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1}), "truncation": "a", "modes": "b"}
+    later |= {"ramps": (Ramp(parameter="N", to=100, start=0, end=1),), "poincare": Poincare(theta=2.0)}
+    full = CaseSpec(**dict(brief) | later | {"windows": (("w", Window(rate=10, last=1)),)})
+    fields = [json.loads(case.canonical) for case in (brief, full)]
+    assert set(fields[1]) - set(fields[0]) == {"start", "truncation", "modes", "ramps"}
+    assert set(fields[1]["windows"][0][1]) - set(fields[0]["windows"][0][1]) == {"last"}
+    assert [[*case.sections] for case in (brief, full)] == [["w"], ["w", "poincare"]]
+    for case, named in zip((brief, full), fields, strict=True):
+        assert CaseSpec.from_canonical(case.canonical) == case
+        assert named == {"parameters": case.parameters.canonical, **json.loads(case.beside)}
+        assert "parameters" not in json.loads(case.beside)
 
 
 def test_nothing_is_kept_if_nothing_is_asked_for():

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, load, simulate
+from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
 from disc_model.data.dataset import MissingFile, UnreadableFile
 from tests.simulation.equal import same
 
@@ -47,19 +47,6 @@ def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str,
     path.unlink()
     with pytest.raises(MissingFile):
         Result.load(path)
-
-
-def test_a_tree_is_what_netcdf_holds(tmp_path: Path) -> None:
-    result = simulate(P, 0.05, WINDOWS)
-    result.save(tmp_path / "r.nc")
-    tree = load(tmp_path / "r.nc")
-    for name, group in result.to_tree().children.items():
-        assert tree[name].to_dataset().drop_vars("direction", errors="ignore").identical(group.to_dataset()), name
-    assert result["late"]["P"].attrs["units"] == "N"
-    with pytest.raises(
-        ParameterError, match=r"name='lat': no such window, did you mean late\? \(known: late, bins, turns\)"
-    ):
-        result["lat"]
 
 
 def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Path) -> None:

@@ -94,24 +94,17 @@ def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     return SimpleNamespace(COLUMNS=columns, COORDINATES={}, compute_point=compute_point)
 
 
-@pytest.mark.parametrize(
-    ("fail", "message"),
-    [
-        (lambda: np.linalg.solve(np.zeros((2, 2)), np.ones(2)), "LinAlgError: Singular matrix"),
-        (lambda: 1 / 0, "ZeroDivisionError: division by zero"),
-    ],
-)
-def test_a_numerical_failure_is_the_status_of_its_point(fail, message) -> None:
+def test_a_numerical_failure_is_the_status_of_its_point() -> None:
     """One singular matrix used to end all points of a batch."""
 
     def compute_point(point: Point):
         N = point.parameters.N
-        return {"status": "ok", "value": fail() if N == 0 else N}, ""
+        return {"status": "ok", "value": np.linalg.solve([[N]], [N**2])[0]}, ""
 
     table = compute(made_up_quantity(compute_point), [P, Q, P])
     assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
-    assert table.messages == ["", message, ""]
+    assert table.messages == ["", "LinAlgError: Singular matrix", ""]
 
 
 def test_a_mistake_in_the_program_is_no_status() -> None:

@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.studies.merge import MergeError, failures, merge_batches
+from disc_model.studies.merge import failures, merge_batches
 from disc_model.studies.run import run_batch
 from tests.studies.refused import parse_grid
 
@@ -33,5 +32,3 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert list(drawing.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
         plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
-    with pytest.raises(MergeError, match="not the 9 points of the grid"):
-        merge_batches(batches, grid.grid, {})
