@@ -116,8 +116,3 @@ def test_a_wrong_argument_is_named(function, others, name, right, tmp_path, monk
             with pytest.raises(dm.ParameterError) as error:
                 function(**others | {name: value})
             assert any(name in re.findall(r"\w+", fault) for fault in error.value.faults), label
-
-
-def test_a_state_refuses_names_that_it_does_not_have() -> None:
-    with pytest.raises(dm.ParameterError, match=r"^psy=0\.1: is not of a state, did you mean psi\?"):
-        SLIPPING.replace(psy=0.1)

@@ -11,11 +11,6 @@ ULP = 2.0**-52
 P = printed.P.model_copy(update={"N": 100.0})
 
 
-def _window(start: float) -> Window:
-    """One sample, at ``start``."""
-    return Window(start=start, stop=start + 1e-3, rate=999.0)
-
-
 def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
     """Moved by less than rounding moves a switch it still does; moved by more it shows the side after."""
     start = printed.lively("separation", p=P)
@@ -29,7 +24,7 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
             continue
         seen.add(kind)
         offsets = (-1e-10, *(ULP * t * np.array([-200, -1, 0, 1, 200])), 1e-10)
-        windows = {f"w{offset:+}": _window(t + offset) for offset in offsets}
+        windows = {f"w{offset:+}": Window(start=t + offset, stop=t + offset + 1e-3, rate=999) for offset in offsets}
         samples = simulate(P, t + 2e-3, windows, initial_state=start).samples.values()
         phases = [PHASES[int(sample["phase"][0])] for sample in samples]
         assert phases == [before[i]] * 6 + [after], kind
