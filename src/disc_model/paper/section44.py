@@ -90,9 +90,9 @@ def follow(*cases: CaseView, within: float) -> Answer:
     combined = [each <= within for each in off]
     return Answer(
         max(away) <= 4 and not any(combined),
-        f"The lines follow the stick-slip rate: {sum(combined)} of {len(combined)} are n f_s + m f_Ω, to "
-        f"{max(off):.2f} Hz, when the in-plane spring or the speed is changed. Natural frequencies do not change, and "
-        f"are up to {max(away) * cases[0].drive:.0f} Hz away.",
+        f"The lines follow the stick-slip rate f_s when the in-plane spring or the speed is changed: {sum(combined)} "
+        f"of {len(combined)} are n f_s + m f_Ω to {max(off):.2f} Hz. Natural frequencies do not change, and are up to "
+        f"{max(away) * cases[0].drive:.0f} Hz away.",
         f"{'; '.join(rows)}.",
     )
 
