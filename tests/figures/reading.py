@@ -59,7 +59,8 @@ def crosses(ax: Axes) -> list[list[float]]:
 def labels(shown: Figure | Axes) -> list[str]:
     """What the legends of a figure, or that of a panel, say."""
     legends = shown.legends if isinstance(shown, Figure) else [shown.get_legend()]
-    return [text.get_text() for legend in legends for text in legend.get_texts()]
+    texts = [text.get_text() for legend in legends for text in (*legend.get_texts(), legend.get_title())]
+    return [text for text in texts if text]
 
 
 def lines(ax: Axes) -> dict[str, Line2D]:

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
 EDGE: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5, "zorder": 1.9}
-ONSETS = EDGE | {"color": "white", "marker": "o", "path_effects": drawing.outline(1.3, BLACK)}
+ONSETS = EDGE | {"color": "white", "marker": "o"}
 """Look of onsets of separation: with black edges, to be seen on any area, below the curves."""
 
 
@@ -118,7 +118,8 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     # a gap after each pair
     pairs = [[(a, loads[i]), (b, loads[i + 1]), (np.nan, np.nan)] for i, a, b in links]
     alone = [[(speed, load), (np.nan, np.nan)] for load, row in zip(loads, speeds, strict=True) for speed in row]
-    ax.plot(*np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2)).T, **look)
+    points = np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2))
+    ax.plot(*points.T, path_effects=drawing.outline(1.3, BLACK), **look)
 
 
 # ---- The map behind, and the panel beside

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import logging
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
@@ -238,9 +239,13 @@ def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
     if by is None:
         return [("", variable)]
     along = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
-    ranks = {word: i for i, word in enumerate(WORDS)}  # words that are not among them keep their order
+    ranks = {word: i for i, word in enumerate(WORDS)}
+
+    def rank(value: Any) -> Any:  # other words keep their order, those that begin with a number by this
+        return (ranks.get(value, 0), float(re.match(r"\d*", value)[0] or "inf")) if isinstance(value, str) else value
+
     each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
-    each.sort(key=lambda part: [ranks.get(x, 0) if isinstance(x, str) else x for x in (part[n].item() for n in along)])
+    each.sort(key=lambda part: [rank(part[name].item()) for name in along])
     return [(", ".join(coordinate_text(part, name) for name in along), part) for part in each]
 
 
@@ -322,17 +327,17 @@ def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float 
 
 
 def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
-    """Draw a bar as long as the disc is thick, in a panel whose axis is a displacement in mm, if it finds room."""
+    """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm, if it finds room."""
     h = json.loads(case.attrs.get("parameters", "{}")).get("h")
     low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
     share = 1e3 * h / (high - low) if h else 1.0
     if share > 0.8:
         return
-    a, b = 0.97, 0.05
-    points = ([a - share, a], [b, b]) if along == "x" else ([a, a], [b, b + share])
-    ax.plot(*points, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, zorder=5)
-    point, offset = ((a - share, b), (-3, 0)) if along == "x" else ((a, b + share / 2), (-4, 0))
-    say(ax, f"thickness {1e3 * h:g} mm", point, offset, xycoords="axes fraction", fontsize=6, path_effects=halo())
+    points = ([1 - share, 1], [1.04, 1.04]) if along == "x" else ([1.02, 1.02], [0, share])
+    look: dict[str, Any] = {"linewidth": 2.5, "solid_capstyle": "butt", "clip_on": False}
+    ax.plot(*points, color=BLACK, transform=ax.transAxes, **look)
+    point, offset, turn = ((1 - share, 1.04), (-3, 0), 0) if along == "x" else ((1.02, 0), (3, 1), 90)
+    say(ax, f"thickness {1e3 * h:g} mm", point, offset, xycoords="axes fraction", fontsize=6, rotation=turn)
 
 
 def mark_printed(ax: Axes, time: float) -> None:

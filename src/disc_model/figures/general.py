@@ -247,21 +247,18 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a variable against one dimension, or a line for each value of a second one. Marks at the axis stand for
-    missing values. A second dimension of numbers has a colour scale, one of words or pairs labels for a legend."""
+    """Draw a variable against one dimension, or a line for each value of a second one, with its label for a legend.
+    Marks at the upper edge, a row for each line, stand for missing values."""
     from cmcrameri import cm
-    from matplotlib.cm import ScalarMappable
 
     array = study[variable]
     by = remaining(array, [x])
-    numbers = array[by] if by in array.coords and array[by].dtype.kind in "fi" else None
     label, factor = drawing.label_of(array[x])
     along, words = array[x].values * factor, drawing.flags_of(array)
     lines = drawing.slices(drawing.as_numbers(array), by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     jump = np.inf if log or variable != "growth_rate" else LINEAR
-    for colour, (text, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
-        name = text if numbers is None else ""
+    for colour, (name, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
         ax.plot(
             *drawing.broken(along, line.values, jump), mark + "-" * (not words), color=colour, label=name or None,
             markersize=3, markerfacecolor="none", markeredgewidth=0.6, linewidth=0.7,
@@ -273,17 +270,17 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
         ax.yaxis.set_major_formatter("{x:g}")
         ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
     ax.set_xscale(scale(x, along))
-    ax.margins(0.03)
     ax.set(xlabel=label, ylabel=fill(drawing.label_of(array)[0], 32))
     if words:
         ax.set_yticks(range(len(words)), labels=words)
-    for (name, gone), mark in zip(drawing.gaps(study, array).items(), "x+|12", strict=False):
-        mask = gone.any([dim for dim in gone.dims if dim != x]).values
-        drawing.mark_failed(ax, along[mask], name=name, mark=mark)
-    if numbers is not None:
-        label, factor = drawing.label_of(numbers)
-        steps = ScalarMappable(**in_steps(colours))
-        colour_bar(ax.figure, [ax], steps, label, [f"{value * factor:g}" for value in numbers.values])
+    gaps = drawing.gaps(study, array)
+    ax.margins(0.03, 0.12 if gaps else 0.03)
+    for (name, gone), mark in zip(gaps.items(), "x+|12", strict=False):
+        look: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "markersize": 3.5}
+        for i, (colour, (_, mask)) in enumerate(zip(colours, drawing.slices(gone, by), strict=True)):
+            missing = along[mask.values]
+            ax.plot(missing, np.full(missing.size, 0.98 - 0.03 * i), mark, color=colour, **look)
+        ax.plot([], [], mark, color=GREY if by else BLACK, markersize=3.5, label=name)
 
 
 class CurvePlot(General):
@@ -304,6 +301,6 @@ class CurvePlot(General):
             ax.set_ylim(self.limits)
         if labels := ax.get_legend_handles_labels()[1]:
             # names of more letters do not fit there
-            beside = self.by is not None and max(map(len, labels)) < 25
+            beside = len(labels) > 4 and max(map(len, labels)) < 25
             figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if self.by else 2)
         return figure

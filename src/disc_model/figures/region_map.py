@@ -86,9 +86,8 @@ class RegionMap(Plot):
         named = {line.get_label(): line for line in lines}.values()
         handles = [*patches(maps.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
-        said = drawing.sample(linestyle="", label="\n".join(_captions(study, self)))
-        handles = [*patches(maps.CYCLE_LOOKS, gaps), said]
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+        handles, said = patches(maps.CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
+        figure.legend(handles=handles, loc="outside lower center", ncols=max(len(handles), 1), title=said)
         return figure
 
 
@@ -136,7 +135,8 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
 
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     """Captions: the horizon, and disagreements between paper, start and cycle."""
-    yield f"Within {stated_in(study, 'options')['horizon']:g} s of the static start."
+    horizon = stated_in(study, "options")["horizon"]
+    yield f"Within {horizon:g} s of the static start."
     if "as_published" not in drawing.normalizations(study):
         return
     data = drawing.of(study, "as_published")
@@ -146,7 +146,8 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         label = OUTCOME_LOOKS[outcome].label
         if outcome != mark.paper_outcome:
             stated = OUTCOME_LOOKS[mark.paper_outcome].label
-            yield f"{name}: paper: “{stated}”, static start: {label}."
+            still = f"still growing at {horizon:g} s" if outcome == "growing" else label
+            yield f"{name}: paper: “{stated}”, static start: {still}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
