@@ -197,8 +197,8 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settle
         if mask.any():  # the layout leaves room for marks that are not clipped, even for none
             ax.plot(x[mask], shown[mask], mark, color=color, clip_on=False, **SWEEP_MARK)
     order = slice(None) if mark == "^" else slice(None, None, -1)
-    x, y = x[order], shown[order]
-    for i in np.flatnonzero(np.abs(np.log(y[1:] / y[:-1])) > np.log(10)):
+    x, y, jumps = x[order], shown[order], np.abs(np.diff(np.log10(np.maximum(y[order], 1e-9)))) > 1
+    for i in np.flatnonzero(jumps & (y[1:] != y[:-1])):
         ax.annotate("", (x[i + 1], y[i + 1]), (x[i], y[i]), arrowprops={"arrowstyle": "->", "color": GREY, "lw": 1.0})
 
 

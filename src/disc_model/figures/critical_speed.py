@@ -134,11 +134,8 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
         words = flag_names(cycle["outcome"])
         words = np.where(words == "other_cycle", "growing", words)
         horizon = stated_in(cycle, "options")["horizon"]
-        looks = {
-            "growing": CONTACT,
-            "separation": OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s"),
-            "undecided": OUTCOME_LOOKS["undecided"],
-        }
+        apart = OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
+        looks = OUTCOME_LOOKS | {"growing": CONTACT, "separation": apart}
         maps.fill(ax, maps.edges_of(cycle["outcome"]), words, looks)
         return [*patches(looks, words)]
     stable = np.where(cycle["growth_rate"].values < 0, "quiet", "")

@@ -46,7 +46,7 @@ CYCLE_LOOKS = {
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae", 6 * "\\"),
-    "nearby_only": Look("start not on a cycle", "#f2e6a2", 5 * "-"),
+    "nearby_only": Look("cycle nearby, not followed", "#f2e6a2", 5 * "-"),
     "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5", 4 * "x"),
     "stable": Look("stable cycle", "none", 3 * "."),
     "alone": UNRESOLVED,

@@ -89,10 +89,10 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
 def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     """Draw the critical energy by bisection, the lowest separating energy of the starts, and all their energies."""
     for i, energy in enumerate(study["energy"].values):
-        label = "energies sampled" if i == 0 else "_nolegend_"
+        label = "sampled" if i == 0 else "_nolegend_"
         ax.axhline(energy, color=GREY, linestyle=":", linewidth=0.6, zorder=0, label=label)
     sample, bound = study["critical_energy_sampled"].values, study["critical_energy"].values
-    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="lowest sampled")
+    ax.plot(along, sample, "_", color=BLACK, markersize=6, label="lowest separating")
     ax.plot(along, np.where(bound > 0, bound, np.nan), "v-", color=SEPARATED, markersize=3.5, label="by bisection")
     ax.set(ylabel="Critical energy (J)")
     if np.any(sample > 0):
