@@ -9,7 +9,7 @@ import pandas as pd
 from disc_model.data.texts import fill
 from disc_model.paper import precursor, section2, section41, section43, section44
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FALSE, PART, TRUE, VERDICTS, Row, judge, read_texts, rows_of
+from disc_model.paper.model import FALSE, TRUE, VERDICTS, Row, judge, read_texts, rows_of
 
 MODULES = (section2, section41, section43, section44, precursor)
 ROWS = tuple(row for module in MODULES for row in rows_of(module))  # in the order of the paper
@@ -61,7 +61,7 @@ def summary(table: pd.DataFrame) -> dict[str, Any]:
         index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0
     )
     verdicts, here = (table.set_index("id")[column] for column in ("verdict", "here"))
-    for name, verdict in (("headline", PART), ("stands", TRUE), ("falls", FALSE)):
+    for name, verdict in (("headline", TRUE), ("stands", TRUE), ("falls", FALSE)):
         items = [(row, text) for row, text in texts[name].items() if verdicts[row] == verdict]
         texts[name] = [{"id": row, "text": fill(text, n=numbers(here[row]))} for row, text in items]
     links = {name: _link(name) for name in texts["pictures"]}

@@ -344,15 +344,11 @@ def classify_intervals(intervals: tuple[float, ...]) -> Motion:
 
 
 class Falls(NamedTuple):
-    """Whether lowest speeds fall and rise with the preload; where they turn, in words.
-
-    ``again`` are later preloads to which they fall after rising up to the preload ``top``.
-    """
+    """Whether lowest speeds fall and rise with the preload; whether they fall again after that; how, in words."""
 
     falls: bool
-    speeds: list[str]
-    top: float
-    again: list[str]
+    again: bool
+    words: str
 
 
 def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
@@ -361,13 +357,19 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
     known = np.where(np.isnan(speeds), infinite, speeds)
     dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
-    first = min(dips, default=len(speeds))
+    if not dips.size:
+        return Falls(False, False, f"is {listed(or_none(speed, '.1f') for speed in speeds)} rad/s")
+    first = min(dips)
     later = [i for i in also_last if i > first]
-    steps = np.sign(np.diff(known))
-    turns = [0, *(np.flatnonzero(steps[1:] != steps[:-1]) + 1), len(speeds) - 1]
-    top = loads[first + np.nanargmax(speeds[first : later[0]])] if later else math.nan
-    texts = [f"{loads[i]:g} N: {or_none(speeds[i], '.1f')}" for i in turns]
-    return Falls(bool(dips.size), texts, top, [f"{loads[i]:g} N" for i in later])
+    top = first + np.nanargmax(speeds[first : later[0] if later else None])
+    never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
+    parts = [f"does not exist up to {never[-1]:g} N"] if never.size else []
+    parts += [
+        f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
+        f"rises to {speeds[top]:.1f} at {loads[top]:g} N",
+    ]
+    parts += [f"then lies at {extent(rest[np.isfinite(rest)]):.1f} up to {loads[-1]:g} N"] if later else []
+    return Falls(True, bool(later), ", ".join(parts))
 
 
 def width_ratio(case: CaseView, bonded: CaseView) -> float:

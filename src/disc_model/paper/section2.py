@@ -12,7 +12,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 from disc_model.paper.measures import CaseView, extent, listed, or_none, pairs, width_ratio
-from disc_model.paper.model import FALSE, PART, TRUE, Answer
+from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded
 from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
@@ -31,35 +31,50 @@ SEPARATING = {
 """The figures of the paper that show separation, each with a map and its point."""
 
 
-def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
-    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for each normalization."""
-    rows = {}
+def _points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+    """The points of `SEPARATING`; raises `Missing` if one is not computed."""
+    points = {}
     for figure, (name, values) in SEPARATING.items():
-        point = maps[name].sel(values, method="nearest")
+        point = points[figure] = maps[name].sel(values, method="nearest")
         if not all(np.isclose(point[axis], value) for axis, value in values.items()):
             raise Missing(f"study {name} has no point of {figure}")
         if np.any(flag_names(point["outcome"]) == "failed"):
             raise Missing(f"study {name} failed at {figure}")
-        rows[figure] = point["first_separation"].to_series()
-    return pd.DataFrame(rows).T
+    return points
 
 
-def survive(*maps: xr.Dataset) -> Answer:
-    times = first_separations({study.attrs["study"]: study for study in maps})
-    published, lost = times["as_published"].notna(), times["orthonormal"].isna()
-    words = times.map(lambda time: or_none(time, ".0f", " s"))
-    apart = (flag_names(maps[0]["outcome"]) == "separation").sum(maps[0]["outcome"].get_axis_num(["N", "Omega"]))
-    counts = dict(zip(maps[0]["normalization"].values, apart, strict=True))
-    horizons = extent(stated_in(study, "options")["horizon"] for study in maps)
+def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for each normalization."""
+    return pd.DataFrame({figure: point["first_separation"].to_series() for figure, point in _points(maps).items()}).T
+
+
+def survive(*maps: xr.Dataset, share: float) -> Answer:
+    """Whether points of the map of speed and preload separate at low speed, with either scale of the modes."""
+    critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
+    apart = flag_names(plane["outcome"]) == "separation"
+    lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
+    by_name = {study.attrs["study"]: study for study in maps}
+    times, points = first_separations(by_name), _points(by_name)
+    horizons = {figure: stated_in(by_name[SEPARATING[figure][0]], "options")["horizon"] for figure in points}
+    kinds = {
+        figure: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for figure, point in points.items()
+    }
+    lost = [figure for figure in points if kinds[figure] != "separation"]
+    grow = [figure for figure in lost if kinds[figure] == "growing"]
     return Answer(
-        PART if 0 < lost.sum() < lost.size else not lost.any() and published.all(),
-        f"With the modes behind the published numbers, {published.sum()} of {len(times)} cases separate. With modes by "
-        f"Eq. (17), {lost.sum()} of them do not within {horizons:g} s, depending on the map: "
-        f"{', '.join(times.index[lost])}. "
-        + "; ".join(f"{figure}: {was} becomes {now}" for figure, was, now in words.itertuples())
-        + ".",
-        f"On the map of speed and preload, separation covers {counts['as_published']} points as published and "
-        f"{counts['orthonormal']} with Eq. (17), of {maps[0].sizes['N'] * maps[0].sizes['Omega']}.",
+        graded(speed < share * critical for speed in lowest),
+        f"Of {len(times)} cases that the paper shows, {times['as_published'].notna().sum()} separate with the modes "
+        f"behind the published numbers, and {len(times) - len(lost)} with modes by Eq. (17). Of the others "
+        f"{len(lost) - len(grow)} come to a stable cycle, and {len(grow)} grow but keep contact up to the horizon"
+        + (f" of {extent(horizons[figure] for figure in grow):g} s" if grow else "")
+        + f". On the map of preload and speed, the lowest speeds with separation are {listed(lowest, 'g')} rad/s with "
+        f"either modes. The critical speed of a moving load is {critical:.2f} rad/s.",
+        "; ".join(
+            f"{figure}: {or_none(was, '.0f', ' s')} becomes "
+            + or_none(now, ".0f", " s", f"{kinds[figure]} in {horizons[figure]:g} s")
+            for figure, was, now in times.itertuples()
+        )
+        + f". On the map, {listed(np.sum(apart, axis=(1, 2)))} of {apart[0].size} points separate.",
     )
 
 

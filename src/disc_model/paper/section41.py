@@ -16,7 +16,7 @@ from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
 from disc_model.paper.measures import Absent, Array, CaseView, listed, mm, pairs, published
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
-from disc_model.paper.section2 import moving_load_speed
+from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
 
 
@@ -99,8 +99,8 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
     rows = ", ".join(f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True))
     return Answer(
         min(*sticks, least) > share,
-        f"The slider sticks {rows}. On a grid of {settled.size} preloads and speeds it sticks {100 * least:.2g} % of "
-        f"the time or more at all {settled.sum()} that have settled.",
+        f"The slider sticks {rows}. On a grid of {settled.size} preloads and speeds it sticks {100 * least:.2g} to "
+        f"{100 * np.max(shares[settled], initial=0.0):.0f} % of the time at all {settled.sum()} that have settled.",
         f"{moving} of the grid had not settled after {measures.facts(study)['max_transient']:g} s." if moving else "",
     )
 
@@ -202,7 +202,8 @@ def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
     return Answer(
         not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
         f"{case.first_separation().capitalize()}. The contact force stays within {early:.2f} N at first and "
-        f"{late:.2f} N in the end, the disc within {mm(case.disc.width)}. {case.growth.capitalize()}.",
+        f"{late:.2f} N in the end. A point of the disc moves by {mm(case.disc.width)}, as the static deflection passes "
+        f"it; the slider's height varies by {1e3 * case.late_range('u').width:.2f} mm. {case.growth.capitalize()}.",
     )
 
 
@@ -233,12 +234,9 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     study = _scanned(study)
     lowest = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
     falls, last = all(each.falls for each in lowest), lowest[-1]
-    again = f"Up to {last.top:g} N it falls once and rises. It has further minima at {', '.join(last.again)}."
     return Answer(
         PART if falls and last.again else falls,
-        f"Turns of the lowest speed with separation within {float(study['horizon'][-1]):g} s: "
-        f"{'; '.join(last.speeds)} rad/s.",
-        again if last.again else "",
+        f"The lowest speed with separation within {float(study['horizon'][-1]):g} s {last.words}.",
     )
 
 
@@ -252,9 +250,15 @@ def maintained_below(
     begins = measures.extent(critical.values[np.isfinite(critical)])
     below: list[str] = []
     if sweeps is not None:
-        starts, ends = xr.align(critical, published(sweeps)["offset_speed"], join="inner")
-        rows = zip(starts["N"].values, starts.values, ends.values, strict=True)
-        below = [f"{N:g} N: to {end:g} instead of {begin:.1f} rad/s" for N, begin, end in rows if begin - end > within]
+        starts, turns = xr.align(critical, published(sweeps), join="inner")
+        rows = zip(
+            starts["N"].values, starts.values, turns["onset_speed"].values, turns["offset_speed"].values, strict=True
+        )
+        below = [
+            f"{N:g} N: from {up:g} on and down to {down:g} instead of {begin:.1f} rad/s"
+            for N, begin, up, down in rows
+            if begin - min(up, down) > within
+        ]
     kicked = ""
     if basins is not None:
         total = basins.sizes["energy"] * basins.sizes["start"]
@@ -264,7 +268,9 @@ def maintained_below(
     return Answer(
         PART if refuted else TRUE,
         f"From rest it is so by definition: separation begins at {begins:.1f} rad/s, depending on the preload. "
-        + (f"When the speed is lowered, separation lasts longer. {'; '.join(below)}." if below else ""),
+        + (
+            f"When the speed rises and falls slowly, separation occurs below that. {'; '.join(below)}." if below else ""
+        ),
         kicked,
     )
 
@@ -278,18 +284,19 @@ def far_below(*cases: CaseView, share: float) -> Answer:
     return Answer(bool(lower), f"{text} of {critical:.2f} rad/s." if lower else "No separation.")
 
 
-def unstable_means_separation(study: xr.Dataset, scan: xr.Dataset) -> Answer:
-    """Whether all points of the map with a growing cycle separate within its horizon."""
-    study = published(study)
-    unstable, apart = study["growth_rate"].values > 0, flag_names(study["outcome"]) == "separation"
-    stays, stable = int((unstable & ~apart).sum()), int((apart & (study["growth_rate"].values < 0)).sum())
-    kinds = _scanned(scan).isel(horizon=-1)["crossing_kind"]
-    again = int((flag_names(kinds) == "ends").any(axis=kinds.get_axis_num("crossing_number")).sum())
+def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
+    """Whether cycles grow, and separation occurs, far below the critical speed of a moving load."""
+    study, critical = published(study), moving_load_speed(BASE)
+    low = study["Omega"] < share * critical
+    unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
+    most = float(study["Omega"].max())
     return Answer(
-        PART if stays and stays < unstable.sum() else not stays,
-        f"Of {unstable.sum()} combinations of speed and preload with a growing cycle, {stays} do not separate within "
-        f"{measures.facts(study)['horizon']:g} s; {stable} separate with a stable one.",
-        f"At {again} of {kinds.sizes['N']} preloads, contact is kept again above the critical speed." if again else "",
+        bool((low & unstable).any() and (low & apart).any()),
+        f"Up to {most:g} rad/s, {100 * most / critical:.1f} % of the critical speed of a moving load, "
+        f"{int(unstable.sum())} of {apart.size} combinations of speed and preload have a growing cycle, and "
+        f"{int(apart.sum())} separate.",
+        f"{int((unstable & ~apart).sum())} with a growing cycle do not separate within "
+        f"{measures.facts(study)['horizon']:g} s.",
     )
 
 

@@ -150,11 +150,7 @@ def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
     _require_ok(study, "survival_speed")
     found = measures.lowest_speeds(study, depth)
     few = np.isfinite(study["critical_speed"].values).sum() < 3
-    return Answer(
-        NOT_COMPUTED if few else PART if found.falls and found.again else found.falls,
-        f"{'; '.join(found.speeds)} (rad/s, where it turns).",
-        f"It rises up to {found.top:g} N, then falls again, to {listed(found.again)}." if found.again else "",
-    )
+    return Answer(NOT_COMPUTED if few else PART if found.again else found.falls, f"The lowest speed {found.words}.")
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
