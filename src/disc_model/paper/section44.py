@@ -28,8 +28,8 @@ def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answe
     off = abs(case["first_separation"] - printed)
     return Answer(
         off <= within,
-        f"{case.first_separation().capitalize()}. The paper has {printed:g} s: {off:.2f} s or "
-        f"{100 * off / printed:.2f} % away.",
+        f"{case.first_separation().capitalize()}. The paper has {printed:g} s"
+        + (f": {off:.2f} s or {100 * off / printed:.2f} % away." if case.separates else "."),
     )
 
 
