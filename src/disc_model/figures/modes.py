@@ -17,6 +17,7 @@ from disc_model.units import Positive, Unit
 
 COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
 """Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
+MOST = 5  # number of peaks that are numbered at most
 LEAST = 0.01  # least growth rate of a numbered peak, 1/s
 HIGH = 0.5  # growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s
 DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 3.5, "markeredgewidth": 0.5}
@@ -52,14 +53,14 @@ class Campbell(Plot):
         _growth_rates(bottom, study)
         for ax in (top, bottom):
             ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
-            for low, high, _ in gaps(study):
+            for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
             for note in met:
                 ax.axvline(note.Omega, color=GREY, linewidth=0.4, zorder=0)
         _crossings(top, study, met)
         bottom.set_xlabel(drawing.axis_of("Omega")[0])
         below.set_axis_off()
-        heading = "Peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
+        heading = "Highest peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
         nothing = "the cycle's growth rate has no peak at a crossing"
         phrase = "\n".join([heading if met else nothing, *(f"{i}  {note.phrase}" for i, note in enumerate(met, 1))])
         below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
@@ -75,9 +76,9 @@ class Campbell(Plot):
 
 
 class Noted(NamedTuple):
-    """A peak of the cycle's growth rate near crossings, or a range of speeds without a cycle.
+    """A peak of the cycle's growth rate near crossings.
 
-    Omega : rad/s, of the peak, or where the gap begins
+    Omega : rad/s, of the peak
     crossings : indices of the crossings in the study
     """
 
@@ -87,8 +88,8 @@ class Noted(NamedTuple):
 
 
 def noted(study: xr.Dataset) -> list[Noted]:
-    """Peaks and gaps of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates rise, and
-    elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one."""
+    """The `MOST` highest peaks of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates
+    rise, and elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one."""
     rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
     speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
     rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))
@@ -103,15 +104,8 @@ def noted(study: xr.Dataset) -> list[Noted]:
         index = int(np.nanargmin(np.abs(rate - height)))
         places.setdefault((index, int(np.nanargmax(by_mode[index]))), []).extend(crossings)
     least = LEAST * (1 - 1e-9)
-    notes = [
-        _rise(study, *peak, sorted({*crossing_indices}))
-        for peak, crossing_indices in places.items()
-        if by_mode[peak] >= least
-    ]
-    # at fewer speeds, Newton's method may have failed
-    wide = [(low, high) for low, high, count in gaps(study) if count >= 3]
-    notes += [Noted(low, (), f"{low:.2f} to {high:.2f} rad/s: no cycle found") for low, high in wide]
-    return sorted(notes)
+    highest = sorted((peak for peak in places if by_mode[peak] >= least), key=lambda peak: by_mode[peak])[-MOST:]
+    return sorted(_rise(study, *peak, sorted({*places[peak]})) for peak in highest)
 
 
 def _rise(study: xr.Dataset, index: int, mode: int, crossings: list[int]) -> Noted:
@@ -127,12 +121,12 @@ def _rise(study: xr.Dataset, index: int, mode: int, crossings: list[int]) -> Not
     return Noted(float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {of_mode}")
 
 
-def gaps(study: xr.Dataset) -> Iterator[tuple[float, float, int]]:
-    """Ranges of speeds without a cycle, extended by half a step, and the number of speeds in each."""
+def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
+    """Ranges of speeds without a cycle, extended by half a step."""
     speeds = study["Omega"].values
     edges = drawing.edges(speeds)
     for first, last in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
-        yield float(edges[first]), float(edges[last]), last - first
+        yield float(edges[first]), float(edges[last])
 
 
 _TURN = r"$f_\Omega$"
