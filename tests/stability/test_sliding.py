@@ -160,12 +160,14 @@ def roots_of_energies(p, shapes):
     return disc, slider, np.array(contact), omega * (a + 1j * b), omega * (a - 1j * b)
 
 
+@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
 def test_modes_are_named_and_compared_by_their_energies():
     """Where the slider's frequency passes those of the disc most of the energy passes from one to the other."""
     base = Parameters(N=385, Omega=20, normalization="orthonormal", contact_compliance=1e-7, c_p=0.5)
     l, kinds = mode_arrays(base).diameters, set()
-    for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist():
-        cases = [base.replace(k_p=value) for value in (0.999 * k_p, k_p)]
+    heavy = base.replace(N=3e4, m=100.0, k_p=3.468e8)  # here not |f| but its square tells whose motion it is
+    for last in (*(base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()), heavy):
+        cases = [last.replace(k_p=0.999 * last.k_p), last]
         _, (_, modes, numbers, mac) = found = follow_modes(cases)
         each = [roots_of_energies(p, one.modes.shapes) for p, one in zip(cases, found, strict=True)]
         disc, slider, _, forward, backward = (np.abs(rows) ** 2 for rows in each[1])
@@ -180,7 +182,7 @@ def test_modes_are_named_and_compared_by_their_energies():
         sizes = [np.sum(np.abs(rows) ** 2, axis=0) for rows in (before[:, numbers], after)]
         np.testing.assert_allclose(mac, overlap / (sizes[0] * sizes[1]), rtol=1e-9)
         kinds.add(tuple(expected))
-    assert len(kinds) > 1, "the energy does not pass on"
+    assert len(kinds) > 2, "the energy does not pass on"
 
 
 def test_a_step_that_changes_modes_much_is_halved():

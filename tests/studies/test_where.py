@@ -11,12 +11,10 @@ from disc_model.studies.merge import failures, merge_batches
 from disc_model.studies.run import run_batch
 from tests.studies.refused import parse_grid
 
-FRICTION = {"mu_s": [0.1, 0.2, 0.3], "mu_k": [0.1, 0.2, 0.3]}
-
 
 def raw(**changes: Any) -> dict[str, Any]:
-    base = {"N": 200, "Omega": 20, "n_diameters": 1}
-    return {"study": "s", "quantity": "floquet", "base": base, "axes": FRICTION, "where": "mu_k <= mu_s"} | changes
+    base, axes = {"N": 200, "Omega": 20, "n_diameters": 1}, {key: [0.1, 0.2, 0.3] for key in ("mu_s", "mu_k")}
+    return {"study": "s", "quantity": "floquet", "base": base, "axes": axes, "where": "mu_k <= mu_s"} | changes
 
 
 def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:
