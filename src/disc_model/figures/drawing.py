@@ -242,7 +242,11 @@ def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
     ranks = {word: i for i, word in enumerate(WORDS)}
 
     def rank(value: Any) -> Any:  # other words keep their order, those that begin with a number by this
-        return (ranks.get(value, 0), float(re.match(r"\d*", value)[0] or "inf")) if isinstance(value, str) else value
+        return (
+            (ranks.get(value, 0), float((re.findall(r"^\d+", value) or ["inf"])[0]))
+            if isinstance(value, str)
+            else value
+        )
 
     each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
     each.sort(key=lambda part: [rank(part[name].item()) for name in along])
@@ -422,16 +426,14 @@ def failed(study: xr.Dataset) -> xr.DataArray:
     return statuses(study) != "ok"
 
 
-def mark_failed(
-    ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed", mark: str = "x"
-) -> None:
+def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed") -> None:
     """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
     if not values.size:
         return
     points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
     if on == "y":
         points, transform = points[::-1], ax.get_yaxis_transform()
-    ax.plot(*points, mark, color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
+    ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
 # ---- Pictures that a reader asks for, beside those of a study

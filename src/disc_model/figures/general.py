@@ -125,16 +125,6 @@ def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
     return {"cmap": cmap, "norm": norm}
 
 
-def colour_bar(
-    figure: FigureBase, axes: Sequence[Axes], colours: ScalarMappable, label: str, names: Sequence[str] = ()
-) -> None:
-    """Draw a scale of colours beside panels, with the names of its steps."""
-    bar = figure.colorbar(colours, ax=list(axes), pad=0.01, aspect=30, label=label)
-    if names:
-        bar.set_ticks(range(len(names)), labels=list(names))
-        bar.minorticks_off()
-
-
 def draw_maps(
     figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
 ) -> list[Patch]:
@@ -171,7 +161,10 @@ def draw_maps(
             for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
                 _cells(ax, panel.where(panel).transpose(y, x), cmap=ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
-        colour_bar(figure, axes, mesh, drawing.label_of(array)[0], words)
+        bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
+        if words:
+            bar.set_ticks(range(len(words)), labels=words)
+            bar.minorticks_off()
         if not words and (gaps := drawing.gaps(study, array)):
             handles.append(Patch(label=", ".join(gaps), **HATCH))
     for axis, name in (("x", x), ("y", y)):  # axes are shared

@@ -86,8 +86,8 @@ class RegionMap(Plot):
         named = {line.get_label(): line for line in lines}.values()
         handles = [*patches(maps.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
-        handles, said = patches(maps.CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
-        figure.legend(handles=handles, loc="outside lower center", ncols=max(len(handles), 1), title=said)
+        without, said = patches(maps.CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
+        figure.legend(handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said)
         return figure
 
 
