@@ -60,7 +60,7 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
         assert result.final.a.shape == problem(scene).start.a.shape
 
 
-@pytest.mark.parametrize("name", SHORT)
+@pytest.mark.parametrize("name", [pytest.param(x, marks=[pytest.mark.compiled] * (x == "CVODE")) for x in SHORT])
 @pytest.mark.parametrize(
     ("phase", "direction", "span", "p", "lifted"),
     [
