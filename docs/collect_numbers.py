@@ -196,7 +196,7 @@ class Sources:
         """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
         row = _table(self.results / "paper" / "claims.csv").set_index("id").loc[claim]
         found = re.findall(rf"{NUMBER}(?= {unit})", f"{row['here']} {row['notes']}")
-        return [_numbers(number)[0] for number in found] if unit else _numbers(row["here"])
+        return [_numbers(number)[0] for number in found] if unit else _numbers(str(row["here"]))
 
     def table(self, name: str, column: str, row: int) -> float:
         """A value in a table of the paper's study."""
