@@ -380,10 +380,6 @@ class Sources:
         """Modal amplitude under the slider with one nodal diameter, 1/sqrt(kg)."""
         return float(dm.plate_modes(_parameters(normalization=normalization))["psi"][1])
 
-    def static_deflection(self, normalization: str) -> float:
-        """At 385 N, m."""
-        return 385 * mode_arrays(_parameters(normalization=normalization)).flexibility
-
     def growth(self, **changed: float) -> float:
         return dm.floquet(_parameters(**changed)).growth_rate
 
