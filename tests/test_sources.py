@@ -108,6 +108,8 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         assert ("stability/attractor/outcome.py" in batch) == (
             name not in ("campbell", "floquet", "lyapunov", "ramps", "sliding", "stability_curves")
         )
+        sweeps = ("basins", "bifurcation", "branches", "hysteresis")
+        assert ("stability/lyapunov.py" in batch) == (name in ("lyapunov", *sweeps))
         # one quantity's code is not another's
         others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch
         assert others == {f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
@@ -116,6 +118,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
+    assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.contact")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {"benchmarks/methods/installed.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"

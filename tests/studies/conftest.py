@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
-from disc_model.stability.attractor import outcome as arrivals
+from disc_model.stability.attractor import arrival as arrivals
 from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches

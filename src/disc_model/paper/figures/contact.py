@@ -1,8 +1,8 @@
 """Contact and its losses, as in figures 2, 3, 10 and 23 of the paper, the whole disc, and separations by Eq. (17)."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Literal
 
 import numpy as np
 import xarray as xr
@@ -10,12 +10,12 @@ from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import flag_names, stated_in
-from disc_model.disc.plate import mode_arrays, plate_modes
+from disc_model.data.variables import flag_names
+from disc_model.disc.plate import mode_arrays
 from disc_model.figures import drawing
 from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
 from disc_model.figures.drawing import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, Axes, Figure, panels
-from disc_model.figures.kind import CasePlot, Need, Plot, Role, Roles, as_ranges, as_samples
+from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
 from disc_model.parameters import Parameters
 from disc_model.units import Positive, Unit
 
@@ -283,103 +283,3 @@ def motion_of(case: xr.DataTree) -> Motion:
     amplitudes = at_slider / mode_arrays(p).psi[:, None]
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
-
-
-# ---- Which of the separations survive the paper's own Eq. (17): the two scales of the modes side by side
-SCALES = ("as_published", "orthonormal")
-LABELS = ("as published", "by Eq. (17)")
-CELLS = ("white", "#f2b69c", "#b9d3ea", "#c9c9c9")
-"""Neither separates; only as published; only by Eq. (17); both."""
-
-
-class Scales(Plot):
-    """(a) Squared amplitudes under the slider, (b) where the static start separates, (c) first separations.
-
-    The study is the map over speed and preload; the overlays are the maps over one more parameter and the speed, or the
-    preload, which have the paper's further figures with separation.
-    """
-
-    quantities: ClassVar = ("regions",)
-    needs: ClassVar = ("N", "Omega")
-    several: ClassVar = True
-    named_above: ClassVar = True
-    roles: ClassVar[Roles] = {
-        f"map_{name}": Role("regions", (other, name), required=True)
-        for name, other in (("D_star", "Omega"), ("c_p", "N"), ("k_p", "Omega"), ("m", "Omega"))
-    }
-    kind: Literal["paper.scales"] = "paper.scales"
-
-    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        figure, axes = panels(PAGE, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
-        _amplitudes(axes[0])
-        _regions(axes[1], study)
-        _times(axes[2], {"map_N": study, **overlays})
-        drawing.letters(axes)
-        return figure
-
-
-def _amplitudes(ax: Axes) -> None:
-    from disc_model.paper.section2 import BASE
-
-    squares = [plate_modes(BASE.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES]
-    for values, label, look in zip(squares, LABELS, _looks(), strict=True):
-        ax.plot(range(len(values)), values, label=label, markersize=5, **look)
-    ratio = squares[0][1] / squares[1][1]
-    arrow = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.0, "shrinkA": 4, "shrinkB": 4}
-    ax.annotate("", (1, squares[0][1]), (1, squares[1][1]), arrowprops=arrow)
-    drawing.say(ax, f"× {ratio:.0f}", (1, float(np.sqrt(squares[0][1] * squares[1][1]))), (5, 0))
-    label = r"Amplitude under the slider $\Psi_l^2$ (1/kg)"
-    ax.set(yscale="log", xlabel="Nodal diameters l", ylabel=label, xticks=range(5), ylim=(0.7, 110))
-    ax.margins(x=0.12)
-    ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
-
-
-def _looks() -> tuple[dict[str, Any], dict[str, Any]]:
-    """Filled marks for the published scale, open ones for Eq. (17)."""
-    open_: dict[str, Any] = {"marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"}
-    return {"marker": "o", "color": SEPARATED, "linestyle": "none"}, open_
-
-
-def _regions(ax: Axes, study: xr.Dataset) -> None:
-    from matplotlib.colors import ListedColormap
-
-    from disc_model.paper.section2 import SEPARATING
-
-    apart = [
-        flag_names(study["outcome"].sel(normalization=scale).transpose("N", "Omega")) == "separation"
-        for scale in SCALES
-    ]
-    cells = apart[0] + 2 * apart[1].astype(int)
-    across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
-    ax.pcolormesh(across, up, cells, cmap=ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
-    for name, (of, point) in SEPARATING.items():
-        if of == "map_N":
-            cell = tuple(np.searchsorted(study[axis], point[axis] - 1e-6) for axis in ("N", "Omega"))
-            fill = SEPARATED if cells[cell] == 3 else "white"
-            ax.plot(point["Omega"], point["N"], "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
-            side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
-            drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
-    places = {"only as\npublished": (0.68, 0.2), "both": (0.68, 0.62), "only by\nEq. (17)": (0.29, 0.93)}
-    for words, corner in places.items():
-        ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
-
-
-def _times(ax: Axes, maps: Mapping[str, xr.Dataset]) -> None:
-    from disc_model.paper.section2 import SEPARATING, first_separations
-
-    horizons = {name: float(stated_in(study, "options")["horizon"]) for name, study in maps.items()}
-    times = first_separations(maps).sort_values("as_published", ascending=False)
-    for height, (name, row) in enumerate(times.iterrows()):
-        was, now = (float(row[scale]) for scale in SCALES)
-        none = np.isnan(now)
-        arrow = {"arrowstyle": "-|>" if none else "-", "color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
-        end = max(horizons[SEPARATING[str(name)][0]], 1.3 * was) if none else now
-        ax.annotate("", (end, height), (was, height), arrowprops=arrow)
-        for time, look in zip((was, now), _looks(), strict=True):
-            ax.plot([time], [height], markersize=5, **look)
-        drawing.say(ax, str(name), (0, height), (-3, 0), xycoords=("axes fraction", "data"), fontsize=7)
-    lost = int(times["orthonormal"].isna().sum())
-    ax.set(xscale="log", xlabel="First separation (s)", xlim=(25, 1.6 * max(horizons.values())))
-    ax.set(yticks=[], ylim=(-0.6, len(times) - 0.4), ylabel=" ")
-    ax.set_title(f"{lost} of {len(times)}: none by Eq. (17)", loc="right")

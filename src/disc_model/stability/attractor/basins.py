@@ -23,14 +23,13 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
+from disc_model.stability.attractor.arrival import cycle_reached, regularity
 from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
 from disc_model.stability.attractor.outcome import (
     Attractor,
     OutcomeResult,
     Segment,
-    cycle_reached,
     find_calm,
-    regularity,
     segment_of,
     switch_angles,
 )

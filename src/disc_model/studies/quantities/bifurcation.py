@@ -108,7 +108,8 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     """Sample at separations if there are any, else at releases; double the transient until the motion has settled."""
     from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
-    from disc_model.stability.attractor.outcome import Regularity, arrival, regularity, shares
+    from disc_model.stability.attractor.arrival import Regularity, arrival, regularity
+    from disc_model.stability.attractor.outcome import shares
     from disc_model.stability.attractor.thresholds import FIRST_LEG
 
     p = point.parameters

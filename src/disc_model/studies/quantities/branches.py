@@ -81,7 +81,7 @@ class Branches(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Compute the sweep and the branches; the point's own value of the parameter is not used."""
-        from disc_model.stability.attractor.outcome import sweep
+        from disc_model.stability.attractor.arrival import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 

@@ -53,7 +53,7 @@ class Hysteresis(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Sweep the speed up and down; the point's own Omega is not used."""
-        from disc_model.stability.attractor.outcome import sweep
+        from disc_model.stability.attractor.arrival import sweep
 
         speeds, columns = self.scan.values, self.COLUMNS.items()
         values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}

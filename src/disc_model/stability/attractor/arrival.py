@@ -1,0 +1,145 @@
+"""What a motion has come to: whether it has settled, on what, and how regular it is; sweeps through a parameter.
+
+Maps and critical speeds need none of this, so that a change of exponents does not compute them again.
+"""
+
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from disc_model.analysis.classify import CLOSES, FEWEST, Settled, Settling, closure, settling, shortest_period
+from disc_model.data.variables import Outcome
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
+from disc_model.stability.attractor import thresholds
+from disc_model.stability.attractor.linear_motion import NearCycle, find_cycle_near, find_near_return
+from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm, switch_angles
+from disc_model.stability.cycle import may_stick_and_slip
+from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
+from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+
+
+class Arrival(NamedTuple):
+    """What a motion has come to.
+
+    Attributes
+    ----------
+    settling : whether it has settled
+    calm : `AT_REST` or `STEADY_SLIDING` if that is what it has come to, else None
+    near : the stable cycle that it follows, by its multipliers, else None
+    """
+
+    settling: Settling
+    calm: Outcome | None = None
+    near: NearCycle | None = None
+
+    @property
+    def settled(self) -> bool:
+        return self.settling.answer is Settled.SETTLED
+
+
+def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
+    """What a motion has come to at the end of its successive legs, recorded with their events. Rest, eigenvalues of
+    steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs decides, by the angles
+    at releases and at losses of contact."""
+    leg = legs[-1]
+    if (calm := find_calm(p, leg, tol)) is not None:
+        return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
+    near = cycle_reached(p, leg)
+    if near is not None and near.follows_cycle:  # of stable cycles only
+        rate, since = near.cycle.growth_rate, leg.final_state.time
+        return Arrival(Settling(Settled.SETTLED, rate, 0.0, since), near=near)
+    if near is not None and near.lingers:
+        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
+    return Arrival(settling(*np.hstack([switch_angles(leg) for leg in legs])))
+
+
+def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCycle | None:
+    """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact. Periods of up
+    to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
+    last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
+    releases = int((last["kind"] == "stick_to_slip").sum())
+    if not releases or not may_stick_and_slip(p) or case_faults(p, "a cycle"):
+        return None
+    map_ = ReturnMap(p, patient=True)
+    code, x = map_.next_release(leg.final_state)
+    if code != RETURNED:
+        return None
+    near_return = find_near_return(map_, x, max(1, min(most, releases // 2)), may_separate=True)
+    return find_cycle_near(map_, x, near_return, may_separate=True)
+
+
+def sweep(
+    p: Parameters,
+    name: str,
+    values: Sequence[float],
+    dwell: float,
+    longest: float,
+    late: float,
+    tol: float,
+    lowest: int = 0,
+) -> Iterator[tuple[tuple[int, int], Result, Segment | None, Arrival]]:
+    """Follow the motion through values of a parameter, up from that of index ``lowest`` and down again to the first.
+
+    It stays ``dwell`` s at each value, then up to twice as long again and again until it has settled, ``longest`` s at
+    most; from a stable cycle that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of
+    the value, the last run there, its last segment of ``late`` s, and what the motion has come to. If a run ends early,
+    the segment is None and the sweep ends.
+    """
+    state: State | None = None
+    for step in [(0, i) for i in range(lowest, len(values))] + [(1, i) for i in reversed(range(len(values)))]:
+        case = p.replace(**{name: values[step[1]]})
+        begin, stay, legs = 0.0 if state is None else state.time, dwell, list[Result]()
+        while True:
+            result = simulate(case, begin + stay, tol=tol, initial_state=state)
+            legs.append(result)
+            if not result.status.complete:
+                yield step, result, None, Arrival(Settling())
+                return
+            state, reached = result.final_state, arrival(case, legs, tol)
+            if reached.settled or 2 * stay > longest:
+                break
+            stay *= 2
+        if reached.near is not None:
+            state = reached.near.cycle.state
+        result, segment = final_segment(case, state, late, late, tol)
+        yield step, result, segment, reached
+        state = result.final_state
+
+
+class Regularity(NamedTuple):
+    """Kind of a motion; number of events after which it repeats, 0 if that is not shown; closure, s."""
+
+    kind: Outcome
+    period: int = 0
+    closure: float = math.nan
+
+
+def regularity(p: Parameters, state: State, tol: float) -> Regularity:
+    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent. The
+    exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is negative,
+    all neighbouring motions converge to one cycle, even if its period is too long to be observed."""
+    run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
+    times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
+    separates = bool((kinds == "separation").any())
+    intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
+    if not run.status.complete or len(intervals) < FEWEST:
+        return Regularity(Outcome.UNDECIDED)
+    periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
+    if n := shortest_period(intervals, CLOSES):
+        return Regularity(periodic, n, closure(intervals, n))
+    duration = thresholds.SETTLING * thresholds.FIRST_LEG / 2
+    # exponents below -90/s are not resolved by this interval; such a motion repeats
+    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True}
+    largest = lyapunov_exponents(p, duration, initial_state=state, tol=tol, **how)
+    rate, error = float(largest.exponents[0]), float(largest.errors[0])
+    if not (math.isfinite(rate) and math.isfinite(error)):
+        return Regularity(Outcome.UNDECIDED)
+    if abs(rate) <= max(CLEAR * error, CONVERGED[1]):
+        return Regularity(Outcome.QUASI_PERIODIC)
+    return Regularity(Outcome.IRREGULAR if rate > 0 else periodic)
