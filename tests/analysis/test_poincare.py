@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.analysis.classify import arrival, distinct_points, stages
+from disc_model.analysis.classify import distinct_points, first_settled, stages
 
 PHASE = np.array([0, 1, 2, 1, 2, 0], dtype=np.int8)
 TIME = np.arange(6.0)
@@ -50,6 +50,6 @@ def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> No
     curve, turns = around(0.618034, 3000), np.arange(3000)
     spiral = (1 + 0.5 * np.exp(-turns / 100))[:, None] * curve
     # 0.5 exp(-t) falls to the tolerance between 0.01 of the curve's width and 0.01 of its radius, two and one
-    assert 100 * np.log(0.5 / 0.02) - 50 < arrival(spiral) <= 100 * np.log(0.5 / 0.01)
-    assert arrival(curve) == 0
-    assert arrival(spiral, 2000) == 2000
+    assert 100 * np.log(0.5 / 0.02) - 50 < first_settled(spiral) <= 100 * np.log(0.5 / 0.01)
+    assert first_settled(curve) == 0
+    assert first_settled(spiral, 2000) == 2000

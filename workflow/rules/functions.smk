@@ -118,7 +118,7 @@ def duration(job):
     if record and record.endtime:
         return record.endtime - (record.starttime or record.endtime)
     if job.rule.name != "compute_batch":
-        return 3.0  # most of it the start of Python
+        return 3.0  # other jobs are short
     study = GRIDS[job.wildcards.study]
     batch = json.loads(study.batches[job.wildcards.batch])
     points = 1 if study.options.tiled else len(batch["points"])

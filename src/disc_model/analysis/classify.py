@@ -6,7 +6,7 @@ does not repeat within half the record is quasi-periodic or irregular. The 0-1 t
 (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
 
 `motion_of` judges recorded intervals. Claims use it, because a case stores events and no state. Grids and diagrams have
-a state: `disc_model.stability.attractor.outcome.regularity` finds the period alike, and then decides by the
+a state: `disc_model.stability.attractor.arrival.regularity` finds the period alike, and then decides by the
 largest Lyapunov exponent. The two may differ where only jumps part neighbouring motions, such as a release that one of
 them has. The exponent is that of small disturbances and does not see jumps. With E = 100 GPa, N = 200 N and 11 rad/s it
 is zero within 3e-4/s. A disturbance of 1e-8 keeps its size there for a minute, then parts the motions. The 0-1 test
@@ -295,7 +295,7 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
     return len(centres)
 
 
-def arrival(points: Array, start: int = 0) -> int:
+def first_settled(points: Array, start: int = 0) -> int:
     """Index from which all points lie on the set on which a motion that has settled ends: the later half of its points.
 
     A point lies on it if it is as near to one of them as they are to each other at most, or within `SAME`.
@@ -318,7 +318,7 @@ def arrival(points: Array, start: int = 0) -> int:
 # ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows
 #
 # This is the one test behind "settled" in studies, figures and verdicts. A stable cycle that the motion follows
-# (`disc_model.stability.attractor.outcome`) proves more, since its multipliers know every rate. A
+# (`disc_model.stability.attractor.arrival`) proves more, since its multipliers know every rate. A
 # record shows no rate far below one over its length: what stays unseen, such as a slow departure from an unstable cycle
 # or a sudden end of a chaotic transient, is excluded by no record.
 

@@ -147,14 +147,8 @@ def _named(curves: Sequence[Curve], cycle: xr.Dataset) -> list[Curve]:
     """The curves of a map, without the names of those that pass no cell with separation."""
     if "outcome" not in cycle:
         return [*curves]
-    apart = flag_names(cycle["outcome"]) == "separation"
-    sides = [(name, np.diff(cycle[name].values).max()) for name in ("N", "Omega")]
-
-    def passes(curve: Curve) -> bool:
-        near = [np.abs(cycle[name].values - getattr(curve, name)[:, None]) <= width for name, width in sides]
-        return bool(np.einsum("ki,kj,ij->", *near, apart))
-
-    return [curve if passes(curve) else replace(curve, label="") for curve in curves]
+    apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
+    return [curve if maps.passes(curve, apart).any() else replace(curve, label="") for curve in curves]
 
 
 def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:

@@ -259,26 +259,29 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
     return curves
 
 
+def passes(curve: Curve, cells: xr.DataArray) -> NDArray[np.bool_]:
+    """Whether each point of a curve lies in one of these cells over N and Omega, or in one of the eight around it."""
+    from scipy.ndimage import binary_dilation
+
+    i, j = (
+        np.abs(cells[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
+        for name in ("N", "Omega")
+    )
+    return np.asarray(np.isfinite(curve.Omega) & binary_dilation(cells, np.ones((3, 3)))[i, j])
+
+
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
     """Split curves into the parts that bound the cycle of a map, and those that belong to another cycle.
 
     cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
     """
-    from scipy.ndimage import binary_dilation
-
     rate = cycle["growth_rate"]
-    # beside a cell are the eight around it
-    stable, unstable, other_side = (binary_dilation(of, np.ones((3, 3))) for of in (rate < 0, rate > 0, ~(rate < 0)))
-    beside = {"neutral": stable & unstable, "fold": stable & other_side}
+    beyond = {"neutral": rate > 0, "fold": ~(rate < 0)}
     shown: list[Curve] = []
     other: list[Curve] = []
     for curve in curves:
         side = np.isfinite(curve.Omega)
-        i, j = (
-            np.abs(rate[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
-            for name in ("N", "Omega")
-        )
-        bounding = side & beside[curve.kind][i, j]
+        bounding = passes(curve, rate < 0) & passes(curve, beyond[curve.kind])
         within = slice(bounding.argmax(), bounding.size - bounding[::-1].argmax())
         if bounding[within].mean() >= 0.5:  # cells are coarser than the curve
             bounding[within] = side[within]

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.analysis.classify import arrival, settling, stages
+from disc_model.analysis.classify import first_settled, settling, stages
 from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -211,7 +211,7 @@ def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
         return latest
     section = [samples[f"{name}{of}"].values for name in ("psi", "w_point") for of in ("", "_velocity")]
     start = min(int(np.searchsorted(time, latest)), len(time) - 1)
-    return float(time[arrival(np.column_stack(section), start)])
+    return float(time[first_settled(np.column_stack(section), start)])
 
 
 class PoincareSections(CasePlot):
