@@ -55,7 +55,7 @@ def test_the_ledger_counts_links_and_escapes(tmp_path: Path) -> None:
     assert found["errors"] == 1
     assert [item["id"] for item in found["falls"]] == ["P07", "T2c", "F10e", "F05"], "eq17 is not computed"
     assert [item["id"] for item in found["stands"]] == ["F13", "F15b"], "C3s is true in part"
-    assert found["stands"][0]["text"].endswith("separation at 1 s, where the paper has 2 s.")
+    assert found["stands"][0]["text"].endswith("separation begins at 1 s, where the paper has 2 s.")
     for file in ("x.html", "x.md"):
         write_page(tmp_path / file, "T", ("", found, table), template="paper/ledger")
     text = (tmp_path / "x.html").read_text()

@@ -45,13 +45,14 @@ class Answer:
     """Result of a check.
 
     verdict : one of `VERDICTS`, or whether the statement is true
-    here : what was computed, in words
+    here : what was computed, in words; "" if the row has the words
     notes : what should be known besides; empty ones do not count
+    values : what the row's words are filled with
     """
 
-    def __init__(self, verdict: bool | np.bool_ | str, here: str, *notes: str) -> None:
+    def __init__(self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any) -> None:
         self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
-        self.here, self.notes = here, " ".join(filter(None, notes))
+        self.here, self.notes, self.values = here, " ".join(filter(None, notes)), values
 
 
 def graded(holds: Iterable[bool | np.bool_]) -> str:
@@ -73,7 +74,7 @@ class Row(BaseModel):
     statement: str = ""  # the statement in words of ours
     check: Callable[..., Answer] | None = None  # judges it; a file has its name. None for what nothing is computed for:
     verdict: str = ""  # then the verdict
-    here: str = ""  # and what is said for it
+    here: str = ""  # and what is said for it; otherwise what is said of the check's values, as in the note
     matters: str = ""  # the consequence, in one sentence
     judged: str = ""  # the rule, with the numbers below
     note: str = ""  # what should be known in any case
@@ -129,7 +130,11 @@ class Row(BaseModel):
         wanted = (*self.scans, *self.beside)
         studies = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
         answer = check(*needed.values(), *studies, **self.given)
-        return Answer(answer.verdict, answer.here, answer.notes, self.note, "The motion has settled." * bool(steady))
+        which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
+        if len(steady) < len(needed):
+            which = f"The motions at {' and '.join(case.place for case in steady)} have"
+        here, note = (fill(text, **answer.values) for text in (self.here, self.note))
+        return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))
 
 
 def rows_of(module: ModuleType) -> tuple[Row, ...]:

@@ -34,11 +34,12 @@ def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer
     for alone, both, damped in growths(loads, c, **friction):
         new = (both > 0) & ~(alone > 0)
         raised = new & (damped > both)
-        begins = f", from {SPEEDS[raised.any(axis=0)].min():g} rad/s on" if raised.any() else ""
+        begins = f", all at {SPEEDS[raised.any(axis=0)].min():g} rad/s or more" if raised.any() else ""
         verdicts.append(FALSE if not new.any() else TRUE if (raised == new).all() else PART)
         found.append(
-            f"{new.sum()} of {new.size} speeds are unstable with friction only. A damper of {c:g} N s/m raises growth "
-            f"at {raised.sum()} of them{begins}, and stabilises {(new & (damped < 0)).sum()}"
+            f"steady sliding is unstable with friction and stable without it at {new.sum()} of {new.size} combinations "
+            f"of load and speed. A damper of {c:g} N s/m normal to the disc raises growth at {raised.sum()} of these"
+            f"{begins}, and stabilises {(new & (damped < 0)).sum()}"
         )
     return Answer(verdicts[0], *texts(loads, *found))
 
@@ -50,6 +51,6 @@ def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
         old = alone > 0
         stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
         verdicts.append(graded([lower == old.sum(), stable > 0]))
-        text = f"{old.sum()} speeds are unstable without friction. With it {stable} of them are stable"
-        found.append(f"{text}, and growth is lower at {lower}")
+        text = f"steady sliding without friction is unstable at {old.sum()} combinations of load and speed"
+        found.append(f"{text}. Friction stabilises {stable} of these, and lowers growth at {lower}")
     return Answer(verdicts[0], *texts(loads, *found))

@@ -60,21 +60,19 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
         figure: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for figure, point in points.items()
     }
     lost = [figure for figure in points if kinds[figure] != "separation"]
-    grow = [figure for figure in lost if kinds[figure] == "growing"]
+    grow = [horizons[figure] for figure in lost if kinds[figure] == "growing"]
     return Answer(
         graded(speed < share * critical for speed in lowest),
-        f"Of {len(times)} cases that the paper shows, {times['as_published'].notna().sum()} separate with the modes "
-        f"behind the published numbers, and {len(times) - len(lost)} with modes by Eq. (17). Of the others "
-        f"{len(lost) - len(grow)} come to a stable cycle, and {len(grow)} grow but keep contact up to the horizon"
-        + (f" of {extent(horizons[figure] for figure in grow):g} s" if grow else "")
-        + f". On the map of preload and speed, the lowest speeds with separation are {listed(lowest, 'g')} rad/s with "
-        f"either modes. The critical speed of a moving load is {critical:.2f} rad/s.",
-        "; ".join(
-            f"{figure}: {or_none(was, '.0f', ' s')} becomes "
-            + or_none(now, ".0f", " s", f"{kinds[figure]} in {horizons[figure]:g} s")
+        counts=(len(times), times["as_published"].count(), len(times) - len(lost), len(lost) - len(grow), len(grow)),
+        until=extent(grow) if grow else None,
+        lowest=lowest,
+        critical=critical,
+        first=[
+            f"{or_none(was, '.0f', ' s')} and "
+            f"{or_none(now, '.0f', ' s', f'not within {horizons[figure]:g} s ({kinds[figure]})')} in {figure}"
             for figure, was, now in times.itertuples()
-        )
-        + f". On the map, {listed(np.sum(apart, axis=(1, 2)))} of {apart[0].size} points separate.",
+        ],
+        points=(apart[0].size, *np.sum(apart, axis=(1, 2))),
     )
 
 
@@ -89,19 +87,13 @@ def norms(p: Parameters) -> Array:
 def normalised(*, within: float) -> Answer:
     norms_of_base = norms(BASE)
     squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
-    return Answer(
-        np.max(np.abs(norms_of_base - 1)) <= within,
-        f"The left side is {listed(norms_of_base, '.2f')} for the modes of 0 to 4 nodal diameters that give the "
-        "paper's frequencies with the slider attached. With one nodal diameter the squared amplitude under the slider "
-        f"is {squares[0]:.2f} instead of {squares[1]:.2f} 1/kg.",
-    )
+    return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base], squares=squares)
 
 
 def second_relation(*, within: float) -> Answer:
     p = BASE.replace(normalization="orthonormal")
     second = norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D  # of the biharmonic: rho h omega^2/D
-    text = f"With modes that satisfy the first relation, the second one has {listed(second, '.3g')} 1/(kg m²)."
-    return Answer(np.max(np.abs(second - 1)) <= within, text)
+    return Answer(np.max(np.abs(second - 1)) <= within, second=[*second])
 
 
 def slip_condition(*cases: CaseView) -> Answer:
@@ -114,8 +106,7 @@ def slip_condition(*cases: CaseView) -> Answer:
         ends += stops.sizes["event"]
     if not ends:
         raise Missing("no case keeps an end of slip")
-    text = f"The relation as printed is true at {true} of {ends} ends of slip, where the slider sticks."
-    return Answer(not true, text)
+    return Answer(not true, held=true, ends=ends, place=cases[0].place)
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
@@ -127,16 +118,13 @@ def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
         for case in (evidence[0], *evidence[3:])
     )
     more, *circles = [bool(np.allclose(norm, nine, rtol=share)) for norm in others]
-    names = ("nine modes", "8 nodal diameters", "one nodal circle", "two nodal circles")
-    rows = [
-        f"{name}: {rate:.0f} separations/s, separated {100 * apart:.1f} % and sticking {100 * stick:.1f} % of the time"
-        for name, (rate, apart, stick) in zip(names, (nine, *others), strict=True)
-    ]
-    times = ", ".join(f"{time:.2f}" for time in first)
+    names = ("nine modes", "up to 8 nodal diameters", "up to one nodal circle", "up to two nodal circles")
     return Answer(
         TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE,
-        f"After the first separation at 385 N, 15.1 rad/s: {'; '.join(rows)}.",
-        f"First separation at {times} s with up to 4, 5, 6 and 8 nodal diameters, and with one and two nodal circles.",
+        change=["hardly change" if same else "change" for same in (more, all(circles))],
+        place=evidence[0].place,
+        rows=[(name, *values) for name, values in zip(names, (nine, *others), strict=True)],
+        first=first,
     )
 
 
@@ -145,8 +133,8 @@ def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
     other = shifted_frequencies(BASE.replace(normalization="orthonormal"))
     return Answer(
         np.all(np.abs(ours - np.sort(printed)) <= within),
-        f"{listed(ours, '.2f')} rad/s.",
-        f"Modes by Eq. (17) would give {listed(other, '.2f')} rad/s for the shifted ones.",
+        f"{listed(ours, '.2f')} rad/s are the natural frequencies with the published modes and the slider attached.",
+        f"Modes by Eq. (17) would give {listed(other, '.2f')} rad/s for those that the slider shifts.",
     )
 
 
@@ -159,9 +147,10 @@ def shifted_frequencies(p: Parameters) -> list[float]:
 def moving_load(*, printed: float, within: float) -> Answer:
     ours, modes = moving_load_speed(BASE), plate_modes(BASE)
     shifted = float(np.min(modes["omega"] / (modes["diameters"] + 1)))
-    wrong = f"The printed value is the least ω_l/(l + 1), {shifted:.2f} rad/s: an index shifted by one."
     holds = abs(ours - printed) <= within
-    return Answer(holds, f"The least ω_l/l is {ours:.2f} rad/s.", "" if holds else wrong)
+    wrong = f"The printed value is that of the least ω_l/(l + 1), {shifted:.2f} rad/s, whose index is shifted by one."
+    text = f"The critical speed of a moving load, the least ω_l/l for l nodal diameters, is {ours:.2f} rad/s."
+    return Answer(holds, text, "" if holds else wrong)
 
 
 def moving_load_speed(p: Parameters) -> float:
@@ -173,11 +162,7 @@ def moving_load_speed(p: Parameters) -> float:
 def often(*cases: CaseView, factor: float, share: float) -> Answer:
     rows, differ = [], []
     for case, bonded in pairs(cases):
-        sticks, ratio = (case.stick, bonded.stick), width_ratio(case, bonded)
+        rows.append((case.place, width_ratio(case, bonded), case.stick, bonded.stick))
+        _, ratio, *sticks = rows[-1]
         differ.append(ratio * factor <= 1 or max(sticks) >= factor * min(sticks))
-        shares = f"{100 * sticks[0]:.1f} instead of {100 * sticks[1]:.1f} %"
-        rows.append(f"{case.place}: disc {ratio:.2f} as far, stick {shares}")
-    return Answer(
-        sum(differ) >= share * len(differ),
-        f"With separation, in {sum(differ)} of {len(differ)} pairs: {'; '.join(rows)}.",
-    )
+    return Answer(sum(differ) >= share * len(differ), rows=rows, differ=sum(differ), factor=factor)

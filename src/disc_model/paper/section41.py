@@ -1,5 +1,6 @@
 """Rows on Sections 4.1 and 4.2: separation occurs, ignoring it changes the motion, and the critical speed."""
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
@@ -9,12 +10,12 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import irregularity
+from disc_model.analysis.classify import Motion, irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
-from disc_model.paper.measures import Absent, Array, CaseView, listed, mm, pairs, published
+from disc_model.paper.measures import Absent, Array, CaseView, mm, pairs, published
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
@@ -24,11 +25,14 @@ def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
     if not case.separates:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
-    late, count = case.range_of("P", before - 20, before), case["n_separations"]
+    late = case.range_of("P", before - 20, before)
     return Answer(
         late.width > factor * case.early.width,
-        f"The contact force is {case.early:.2f} N at first, and {late:.1f} N before the first separation at "
-        f"{before:.2f} s. {count:.0f} separations follow until {case['time_reached']:g} s.",
+        place=case.place,
+        ranges=(case.early, late),
+        first=before,
+        count=int(case["n_separations"]),
+        end=case["time_reached"],
     )
 
 
@@ -41,9 +45,10 @@ def upward(*cases: CaseView, share: float) -> Answer:
         if not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         parts.append(float(np.mean(velocity > 0)))
-        means = f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():+.1f} mm"
-        rows.append(f"{case.place}: {100 * parts[-1]:.0f} %, at {means}")
-    return Answer(min(parts) >= share, f"Upward in {'; '.join(rows)} from equilibrium.")
+        rows.append(f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():.1f} mm above equilibrium at {case.place}")
+    up = measures.extent(100 * part for part in parts)
+    text = f"The disc under the slider moves upward at {up:.0f} % of the separations in these cases"
+    return Answer(min(parts) >= share, f"{text}. Its mean velocity and mean height are then {'; '.join(rows)}.")
 
 
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
@@ -53,11 +58,7 @@ def separations_are_short(*cases: CaseView, share: float) -> Answer:
         longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
         parts.append(longest / period)
         rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
-    return Answer(
-        max(parts) < share,
-        f"The longest take {100 * min(parts):.0f} to {100 * max(parts):.0f} % of the {1e3 * period:.2f} ms between "
-        f"two: {', '.join(rows)}.",
-    )
+    return Answer(max(parts) < share, rows=rows, parts=(min(parts), max(parts)), period=period)
 
 
 def preload_closes(case: CaseView, *, share: float) -> Answer:
@@ -68,11 +69,8 @@ def preload_closes(case: CaseView, *, share: float) -> Answer:
         raise Missing(f"no separation in the window of case {case.name}")
     spring = case["k"] * float(np.mean(window["u"].values[apart] - case["u_0"]))
     part = case["N"] / (case["N"] + spring)
-    return Answer(
-        TRUE if part >= share else PART if part > 0 else FALSE,
-        f"During separation the preload pushes with {case['N']:g} N, and the spring k with {spring:.0f} N on average: "
-        f"the preload is {100 * part:.0f} % of the closing force.",
-    )
+    verdict = TRUE if part >= share else PART if part > 0 else FALSE
+    return Answer(verdict, part=part, place=case.place, N=case["N"], spring=spring)
 
 
 def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
@@ -82,11 +80,7 @@ def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
         late, before = bonded.last_widths("w_point", measures.STRETCH, 2)
         also.append(late <= factor * before)
         bounds.append(1e3 * late)
-    return Answer(
-        PART if any(also) else TRUE,
-        f"Without separation the vibration stops growing as well, in {sum(also)} of {len(also)} cases, at a range of "
-        f"{measures.extent(bounds):.1f} mm.",
-    )
+    return Answer(PART if any(also) else TRUE, also=sum(also), of=len(also), bounds=measures.extent(bounds))
 
 
 def keeps_sticking(*evidence: Any, share: float) -> Answer:
@@ -95,27 +89,25 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
     settled = flag_names(study["settled"]) == "settled"
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
     least = np.min(shares[settled], initial=np.inf)
-    moving = settled.size - settled.sum()
-    rows = ", ".join(f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True))
     return Answer(
         min(*sticks, least) > share,
-        f"The slider sticks {rows}. On a grid of {settled.size} preloads and speeds it sticks {100 * least:.2g} to "
-        f"{100 * np.max(shares[settled], initial=0.0):.0f} % of the time at all {settled.sum()} that have settled.",
-        f"{moving} of the grid had not settled after {measures.facts(study)['max_transient']:g} s." if moving else "",
+        sticks=[f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True)],
+        size=settled.size,
+        settled=settled.sum(),
+        extent=(100 * least, 100 * np.max(shares[settled], initial=0.0)),
+        moving=measures.counted(settled.size - settled.sum(), "point") if not settled.all() else "",
+        waited=measures.facts(study)["max_transient"],
     )
 
 
 def releases_regularly(*cases: CaseView, within: float) -> Answer:
     intervals = [case.intervals() for case in cases]
-    rows = [
-        f"{case.place}: one release per {1e3 * each.mean():.3f} ms, spread {irregularity(each):.0e}"
-        for case, each in zip(cases, intervals, strict=True)
-    ]
-    return Answer(graded(irregularity(each) <= within for each in intervals), f"{'; '.join(rows)}.")
+    rows = [(case.place, 1e3 * each.mean(), irregularity(each)) for case, each in zip(cases, intervals, strict=True)]
+    return Answer(graded(irregularity(each) <= within for each in intervals), rows=rows)
 
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows: list[str] = []
+    rows: list[tuple[str, bool, int, int]] = []
     more: list[bool] = []
     too: list[bool] = []
     for free, bonded in pairs(cases):
@@ -124,10 +116,8 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
             late = case.samples("late")
             counts.append(len(spectra.lines(late["time"].values, late["w_point"].values, above=1.0, floor=floor)))
         (more if free.from_rest else too).append(counts[0] > counts[1])
-        begun = "" if free.from_rest else ", begun in a separated motion"
-        rows.append(f"{free.place}{begun}: {counts[0]} lines with separation, {counts[1]} without")
-    verdict = graded([*more, *too]) if any(more) else FALSE
-    return Answer(verdict, f"{'; '.join(rows)}.")
+        rows.append((free.place, free.from_rest, counts[0], counts[1]))
+    return Answer(graded([*more, *too]) if any(more) else FALSE, rows=rows)
 
 
 def quasi_periodic(*cases: CaseView, count: float) -> Answer:
@@ -137,35 +127,37 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     motions = [case.late_motion() for case in shown]
     if any(motion.kind is Outcome.UNDECIDED for motion in motions):
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    rows = [f"{case.place}: {case.motion}" for case in shown]
-    near = [f"{case.place}: {case.late_motion()}" for case in stiffer]
-    other = []
-    for case in (case for case in begun if case.stick <= 1e-3):
-        motion = measures.classify_intervals(tuple(case.intervals("separation")))
-        repeats = measures.counted(motion.period, "separation") if motion.period else str(motion)
-        other.append(f"{case.place}: {repeats}")
-    return Answer(
-        graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions),
-        f"{'; '.join(rows)}.",
-        f"Neighbouring systems have other periods. With k 0.1 % larger: {'; '.join(near)}.",
-        f"Begun in the separated motion of 385 N, 15.1 rad/s, the slider does not stick. Periods: {'; '.join(other)}."
-        if other
-        else "",
-    )
+    near = [f"{_repeats(case.late_motion(), 'release')} at {case.place}" for case in stiffer]
+    other = [
+        f"{_repeats(measures.classify_intervals(tuple(case.intervals('separation'))), 'separation')} at {case.place}"
+        for case in begun
+        if case.stick <= 1e-3
+    ]
+    verdict = graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions)
+    return Answer(verdict, rows=[(case.place, case.motion) for case in shown], near=near, other=other)
+
+
+def _repeats(motion: Motion, name: str) -> str:
+    return f"repeats after {measures.counted(motion.period, name)}" if motion.period else f"is {motion}"
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     """Decided by the first ``shown`` pairs; the results of the others are told."""
     parts = [measures.width_ratio(*pair) for pair in pairs(cases)]
-    first, others = pairs(cases)[: int(shown)], parts[int(shown) :]
+    both = list(zip(pairs(cases), parts, strict=True))
+    first, others = both[: int(shown)], both[int(shown) :]
     rows = [
-        f"{case.place}: {mm(case.disc.width)} with separation, {mm(bonded.disc.width)} without"
-        for case, bonded in first
+        f"At {case.place} the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
+        f"without, and their ratio is {part:.2f}."
+        for (case, bonded), part in first
     ]
+    over = measures.extent(1 / part for part in parts)
     return Answer(
         max(parts[: int(shown)]) < ratio,
-        f"{'; '.join(rows)}. The ratio is {listed(parts[: int(shown)], '.2f')}.",
-        f"In the other pairs it is {listed(others, '.2f')}." if others else "",
+        " ".join(rows),
+        f"In the other pairs it is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
+        * bool(others),
+        f"Ignoring separation overestimates the range by a factor of {over:.1f} in these pairs.",
     )
 
 
@@ -177,19 +169,9 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         kept = at_width(course(bonded.parameters, bonded["time_reached"]), held.width)
         cycle = float(free.intervals("separation").mean())
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
-        powers_told = held.supplied, kept.supplied, held.damped, held.impacts
-        with_, without, damped, impacts = (1e3 * cycle * power for power in powers_told)
-        rows.append(
-            f"{free.place}: {with_:.2f} mJ per cycle, without separation {without:.2f} mJ; damping takes {damped:.2f} "
-            f"mJ, impacts take {impacts:.2f} mJ"
-        )
+        rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
     steady = of_windows(pairs(cases)[0][1], "field")
-    return Answer(
-        min(withheld) >= share,
-        f"The contact force supplies as much at equal amplitude, and impacts take the surplus. {'; '.join(rows)}. "
-        f"Without separation, at {cases[0].place}, the force supplies {steady.pushes:.2f} W while positive and takes "
-        f"{-steady.pulls:.2f} W while negative.",
-    )
+    return Answer(less := min(withheld) >= share, less=less, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
 
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
@@ -201,10 +183,17 @@ def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
     early, late = case.early, case.late
     return Answer(
         not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
-        f"{case.first_separation().capitalize()}. The contact force stays within {early:.2f} N at first and "
-        f"{late:.2f} N in the end. A point of the disc moves by {mm(case.disc.width)}, as the static deflection passes "
-        f"it; the slider's height varies by {1e3 * case.late_range('u').width:.2f} mm. {case.growth.capitalize()}.",
+        fate=_fate(case),
+        ranges=(early, late),
+        widths=(1e3 * case.disc.width, 1e3 * case.late_range("u").width),
     )
+
+
+def _fate(case: CaseView) -> str:
+    time = case["first_separation"]
+    end = f"contact is kept for {case['time_reached']:g} s" if math.isnan(time) else f"contact is lost at {time:.2f} s"
+    growth = measures.rate_text(case.growth_rate, "/s", "not defined, because there is no quiet cycle")
+    return f"At {case.place} {end}, and growth is {growth}."
 
 
 def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
@@ -220,13 +209,9 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
         ]
         for case in (below, above)
     ]
-    early, none = (", ".join(names) or "none" for names in lost)
-    return Answer(
-        not below.separates and above.separates,
-        "; ".join(f"{case.place}: {case.first_separation()}, {case.growth}" for case in (below, above)) + ".",
-        "This holds for the paper's very values. With one parameter 0.1 % larger, contact is lost at "
-        f"{below['Omega']:g} rad/s ({early}), or is not lost within {until:g} s at {above['Omega']:g} rad/s ({none}).",
-    )
+    speeds = below["Omega"], above["Omega"]
+    verdict = not below.separates and above.separates
+    return Answer(verdict, fates=(_fate(below), _fate(above)), lost=lost, speeds=speeds, until=until)
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
@@ -248,40 +233,27 @@ def maintained_below(
     if not np.isfinite(critical).any():
         return Answer(FALSE, "No separation at any preload and speed.")
     begins = measures.extent(critical.values[np.isfinite(critical)])
-    below: list[str] = []
+    below: list[tuple[float, ...]] = []
     if sweeps is not None:
         starts, turns = xr.align(critical, published(sweeps), join="inner")
         rows = zip(
             starts["N"].values, starts.values, turns["onset_speed"].values, turns["offset_speed"].values, strict=True
         )
-        below = [
-            f"{N:g} N: from {up:g} on and down to {down:g} instead of {begin:.1f} rad/s"
-            for N, begin, up, down in rows
-            if begin - min(up, down) > within
-        ]
-    kicked = ""
+        below = [(N, up, down, begin) for N, begin, up, down in rows if begin - min(up, down) > within]
+    total = apart = 0
     if basins is not None:
         total = basins.sizes["energy"] * basins.sizes["start"]
-        if apart := round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0))):
-            kicked = f"At 385 N, 15 rad/s, {apart} of {total} random perturbations lead to repeated separation."
-    refuted = bool(below or kicked)
-    return Answer(
-        PART if refuted else TRUE,
-        f"From rest it is so by definition: separation begins at {begins:.1f} rad/s, depending on the preload. "
-        + (
-            f"When the speed rises and falls slowly, separation occurs below that. {'; '.join(below)}." if below else ""
-        ),
-        kicked,
-    )
+        apart = round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0)))
+    return Answer(PART if below or apart else TRUE, begins=begins, below=below, total=total, apart=apart)
 
 
 def far_below(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters)
     lower = [case for case in cases if case["Omega"] < share * critical and case.separates]
-    speeds = [case["Omega"] for case in lower]
-    shares = [100 * speed / critical for speed in speeds]
-    text = f"Contact is lost at {listed(speeds, 'g')} rad/s. These are {listed(shares, '.1f')} %"
-    return Answer(bool(lower), f"{text} of {critical:.2f} rad/s." if lower else "No separation.")
+    if not lower:
+        return Answer(False, "No case separates.")
+    rows = [(case.place, case["Omega"] / critical) for case in lower]
+    return Answer(True, rows=rows, critical=critical)
 
 
 def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
@@ -295,7 +267,7 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
         f"Up to {most:g} rad/s, {100 * most / critical:.1f} % of the critical speed of a moving load, "
         f"{int(unstable.sum())} of {apart.size} combinations of speed and preload have a growing cycle, and "
         f"{int(apart.sum())} separate.",
-        f"{int((unstable & ~apart).sum())} with a growing cycle do not separate within "
+        f"{int((unstable & ~apart).sum())} combinations with a growing cycle do not separate within "
         f"{measures.facts(study)['horizon']:g} s.",
     )
 

@@ -72,12 +72,10 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
     compared = unstable > 0 and bool(stable.any())
     return Answer(
         soon if compared or not soon else NOT_COMPUTED,
-        f"{apart.sum()} of {apart.size} points separate: {unstable} from an unstable cycle, {without} where none is "
-        f"found, {len(early)} from a stable one; {(stable & ~apart).sum()} with a stable cycle do not.",
-        "Shortly before the stable cycle ends at a fold it separates, too: "
-        f"{'; '.join(measures.place(*point) for point in early)}."
-        if early and soon
-        else "",
+        points=(int(apart.sum()), apart.size),
+        kinds=(unstable, without, len(early)),
+        keep=int((stable & ~apart).sum()),
+        early=[measures.place(*point) for point in early if soon],
     )
 
 
@@ -87,7 +85,7 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     _require_ok(one, "survival_speed")
     highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
     width = float(stated_in(speed, "options")["precision"])
-    told = f"Folds beside a stable cycle: {listed(folds, '.3f')}; separation begins: {listed(highs, '.1f')} (rad/s)"
+    told = f"Folds end stable cycles at {listed(folds, '.3f')} rad/s; separation begins at {listed(highs, '.1f')} rad/s"
     if not highs.size:
         return Answer(NOT_COMPUTED, f"{told}.")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
@@ -107,7 +105,7 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     goes_on = all(rate > SLOW for pair in beside for rate in pair)
     return Answer(
         NOT_COMPUTED if missed and not goes_on else FALSE,
-        f"{told}; growth there {listed(growth)}.",
+        f"{told}. From just below to just above the latter, growth is {listed(growth)}.",
         f"{missed} curves could not be followed." if missed and not goes_on else "",
     )
 
@@ -132,8 +130,9 @@ def _require_ok(grid: xr.Dataset, name: str) -> None:
 def below_critical(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters) if cases else math.nan
     lower = [case for case in _separating(cases) if case["Omega"] < share * critical]
-    rows = [f"{case.place}: {100 * case['Omega'] / critical:.1f} %" for case in lower]
-    return Answer(bool(lower) or NOT_COMPUTED, f"{'; '.join(rows) or 'No case separates'} of {critical:.2f} rad/s.")
+    rows = [f"{100 * case['Omega'] / critical:.1f} % of it at {case.place}" for case in lower]
+    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {'; '.join(rows)}."
+    return Answer(bool(lower) or NOT_COMPUTED, told if lower else "No case separates.")
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
@@ -163,20 +162,21 @@ def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
         below = fourth <= (1 + wider) * third and max(third, fourth) < min(other)
         above = min(third, fourth) >= max(other)
         smaller.append(False if above else True if below else None)
-        rows.append(f"{free.place}: {1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm")
+        rows.append(f"{1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm at {free.place}")
         steep += [f"{free.place} after {bonded['time_reached']:.0f} s"] * ends
     note = f"Bilateral contact ends in Painlevé's paradox at {'; '.join(steep)}." if steep else ""
-    return Answer(_all_cases(smaller), f"{'; '.join(rows) or 'No case separates'}.", note)
+    told = f"The range of the disc with separation against that without is {'; '.join(rows)}."
+    return Answer(_all_cases(smaller), told if rows else "No case separates.", note)
 
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
-    rows = "; ".join(f"{case.place}: {100 * case.stick:.2g} %" for case in apart)
+    rows = "; ".join(f"{100 * case.stick:.2g} % of the time at {case.place}" for case in apart)
     return Answer(
         len(stays) < len(apart) if apart else NOT_COMPUTED,
-        f"{rows or 'No case separates'}.",
-        f"Not at {'; '.join(stays)}." if len(stays) < len(apart) and stays else "",
+        f"After a separation the slider sticks for {rows}." if apart else "No case separates.",
+        f"Stick does not disappear at {'; '.join(stays)}." if len(stays) < len(apart) and stays else "",
     )
 
 
@@ -184,10 +184,8 @@ def normal_damping(study: xr.Dataset) -> Answer:
     without, with_damper, _ = _damped(study, "c")
     compared = (without > SLOW) & np.isfinite(with_damper)
     lowered, stable = int((compared & (with_damper < without)).sum()), int((compared & (with_damper < 0)).sum())
-    return Answer(
-        lowered == compared.sum() if compared.any() else NOT_COMPUTED,
-        f"Lower at {lowered} of {compared.sum()} points with a growing cycle, stable at {stable}.",
-    )
+    verdict = lowered == compared.sum() if compared.any() else NOT_COMPUTED
+    return Answer(verdict, lowered=lowered, compared=int(compared.sum()), stable=stable)
 
 
 def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
@@ -200,9 +198,10 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     destabilises = above + ended > 0
     return Answer(
         destabilises if destabilises or of >= fewest else NOT_COMPUTED,
-        f"At {large:g} N or more higher at {above} of {of} points, and {measures.counted(ended, 'stable cycle')} "
-        f"ended; below, higher at {below} of {of_below}.",
-        "At few points only; elsewhere it lowers growth or leaves it." if 0 < 10 * (above + ended) <= of else "",
+        large=large,
+        ended=measures.counted(ended, "stable cycle"),
+        higher=(above, of, below, of_below),
+        few=0 < 10 * (above + ended) <= of,
     )
 
 
@@ -223,8 +222,8 @@ def not_periodic(*cases: CaseView) -> Answer:
         None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
         for kind, _ in repeats.values()
     ]
-    rows = [f"{place}: {words}" for place, (_, words) in repeats.items()]
-    return Answer(_all_cases(holds), f"{'; '.join(rows) or 'No case separates'}.")
+    rows = [f"At {place} the motion {words}." for place, (_, words) in repeats.items()]
+    return Answer(_all_cases(holds), " ".join(rows) or "No case separates.")
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -235,9 +234,9 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
             motion = measures.classify_intervals(tuple(intervals))
             if motion.period:
                 length = float(intervals[: motion.period].sum())
-                return motion.kind, f"repeats after {measures.counted(motion.period, name)} = {length:.4g} s"
-            return motion.kind, f"{motion} by its {name}s"
-    return Outcome.UNDECIDED, "too few switches"
+                return motion.kind, f"repeats after {measures.counted(motion.period, name)} or {length:.4g} s"
+            return motion.kind, f"is {motion}, judged by its {name}s"
+    return Outcome.UNDECIDED, "switches too rarely to be judged"
 
 
 def _all_cases(holds: Sequence[bool | None]) -> bool | str:
