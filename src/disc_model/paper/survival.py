@@ -105,7 +105,7 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     goes_on = all(rate > SLOW for pair in beside for rate in pair)
     return Answer(
         NOT_COMPUTED if missed and not goes_on else FALSE,
-        f"{told}. From just below to just above the latter, growth is {listed(growth)}.",
+        f"{told}. Across this speed growth goes from {listed(growth)}.",
         f"{missed} curves could not be followed." if missed and not goes_on else "",
     )
 
@@ -234,7 +234,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
             motion = measures.classify_intervals(tuple(intervals))
             if motion.period:
                 length = float(intervals[: motion.period].sum())
-                return motion.kind, f"repeats after {measures.counted(motion.period, name)} or {length:.4g} s"
+                return motion.kind, f"repeats after {measures.counted(motion.period, name)} ({length:.4g} s)"
             return motion.kind, f"is {motion}, judged by its {name}s"
     return Outcome.UNDECIDED, "switches too rarely to be judged"
 
