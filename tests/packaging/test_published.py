@@ -4,8 +4,6 @@ import re
 import tomllib
 from pathlib import Path
 
-import yaml
-
 from tests import needs
 from tests.processes import run
 
@@ -16,17 +14,19 @@ WORKFLOWS = {path.stem: path for path in (ROOT / ".github" / "workflows").glob("
 
 def test_addresses_are_those_of_pyproject() -> None:
     urls = PROJECT["urls"]
-    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    assert (cited["repository-code"], cited["url"]) == (urls["Repository"], urls["Documentation"])
-    assert f"https://doi.org/{cited['doi']}" == urls["DOI"]
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    for name, address in urls.items():
-        assert f"[{name}]({address})" in readme
-    # no other page names another place of the project
-    owner = re.compile(r"https://(?:github\.com/(\w+)/disc_model|(\w+)\.github\.io/disc_model)")
-    texts = [path.read_text(encoding="utf-8") for path in (*ROOT.glob("*.*"), *ROOT.glob("docs/*.*")) if path.is_file()
-             and path.suffix in (".md", ".cff", ".toml", ".py")]  # fmt: skip
-    assert len({one or other for text in texts for one, other in owner.findall(text)}) == 1
+    repository, site = urls["Repository"], urls["Documentation"]
+    lines = {
+        "README.md": [f"[{name}]({address})" for name, address in urls.items()],
+        "CITATION.cff": [f"repository-code: {repository}", f"url: {site}", f"doi: {urls['DOI'].split('/', 3)[3]}"],
+        "recipe/meta.yaml": [f"home: {repository}", f"doc_url: {site}"],
+    }
+    texts = {path: (ROOT / path).read_text(encoding="utf-8") for path in lines}
+    wrong = [f"{path}: no {line}" for path, text in texts.items() for line in lines[path] if line not in text]
+    owner = re.compile(r"https://(?:github\.com/\w+/disc_model|\w+\.github\.io/disc_model)")
+    for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/*.*")):
+        found = owner.finditer(path.read_text(encoding="utf-8") if path.is_file() else "")
+        wrong += [f"{path.name}: {match[0]}" for match in found if match[0] not in (repository, site.rstrip("/"))]
+    assert not wrong, "\n".join(wrong)
 
 
 @needs.ACTIONLINT.mark

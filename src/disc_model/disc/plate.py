@@ -35,7 +35,7 @@ WIDEST = 1e11
 
 
 def plate_modes(p: Parameters) -> pd.DataFrame:
-    """Natural frequencies of the free disc and the modes' amplitudes under the slider.
+    """Natural frequencies of the disc alone, and the modes' amplitudes under the slider.
 
     Parameters
     ----------

@@ -217,7 +217,7 @@ def hysteresis(
     evaluation_time: float = 5.0,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Sweep the speed up and down, each speed from the last motion, and describe the motion at each.
+    """Sweep the speed up and down, continuing the same motion, and describe it at each speed.
 
     Parameters
     ----------
