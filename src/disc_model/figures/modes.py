@@ -1,8 +1,7 @@
 """Modes over the speed or a parameter: Campbell diagrams, complex eigenvalues of steady sliding, root loci."""
 
-import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -10,19 +9,15 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BROWN, GREY, PAGE, SLIDER, Axes, Figure, Line2D, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, panels
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
 from disc_model.figures.maps import Look, edges_of, fill, patches
 from disc_model.units import Positive, Unit
 
-COLOURS = ("#1b1046", "#7a1f4d", "#2a7fb8", "#999933", "#9fd4f2", BROWN)
-"""Colours of the disc's modes by nodal diameters, distinct in grey print and from phases; from six on they repeat."""
-MOST = 5  # number of peaks that are numbered at most
-LEAST = 0.01  # least growth rate of a numbered peak, 1/s
-HIGH = 0.5  # growth rate above which peaks are numbered even if no rise at a crossing is resolved, 1/s
-DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": 3.5, "markeredgewidth": 0.5}
-RING = DOT | {"markersize": 2.2, "markerfacecolor": "white"}  # looks of a numbered crossing, and of any
-LINEAR = 1.0  # growth rate up to which the scale is linear, 1/s
+MOST = 5  # number of peaks that are named at most
+NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
+DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "marker": "o", "markersize": 3.5}
+LINEAR = 0.1  # growth rate up to which the scale is linear, 1/s, and from which on peaks are named
 
 
 class Campbell(Plot):
@@ -44,81 +39,76 @@ class Campbell(Plot):
             yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies, (b) growth rates by mode; events of the cycle are numbered and explained below."""
+        """Draw (a) frequencies of modes, and multiples that meet them at peaks of (b) the cycle's growth rate."""
         study = study.transpose("Omega", ...)
-        met = noted(study)
-        heights = [3.2, 1.9, 0.13 * (1 + len(met))]
-        figure, [top, bottom, below] = panels(PAGE, sum(heights) + 1.6, 3, height_ratios=heights)
-        _frequencies(top, study)
-        _growth_rates(bottom, study)
+        speeds, rate = study["Omega"].values, study["growth_rate"].values
+        figure, [top, bottom] = panels(PAGE, 5.4, 2, height_ratios=[3, 2], sharex=True)
+        top.plot(speeds, study["sliding_frequency"], color=BLACK, linewidth=0.9)
+        highest = 1.06 * float(study["sliding_frequency"].max())
+        ends = study.isel(Omega=-1)
+        of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
+        for part, name in named_modes(of_disc, ends["sliding_frequency"].values, 0.035 * highest):
+            height = float(ends["sliding_frequency"][part].mean())
+            drawing.say(top, name, (1, height), (3, 0), xycoords=("axes fraction", "data"), fontsize=7)
+        # so large a step leads to another cycle
+        bottom.plot(*drawing.broken(speeds, rate, LINEAR), ".-", color=BLACK, linewidth=0.8, markersize=1.6)
+        bottom.axhline(0, color=GREY, linewidth=0.5, zorder=0)
+        for i, crossing in peaks(study):
+            for ax in (top, bottom):
+                ax.axvline(speeds[i], color=GREY, linewidth=0.4, zorder=0)
+            bottom.plot(speeds[i], rate[i], **DOT)
+            if crossing is None:
+                continue
+            of_cycle = flag_names(crossing["crossing_line"]) == "stick_slip"
+            multiple, point = float(crossing["crossing_multiple"]), crossing[["crossing_Omega", "crossing_frequency"]]
+            line = multiple * study["stick_slip_frequency" if of_cycle else "rotation_frequency"]
+            top.plot(speeds, line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
+            place = tuple(float(value) for value in point.values())
+            top.plot(*place, **DOT)
+            name = rf"{multiple:g} ${'f_s' if of_cycle else 'f_Ω'}$"
+            drawing.say(top, name, place, (4, -3), fontsize=7, path_effects=drawing.halo())
+            drawing.say(bottom, name, (speeds[i], rate[i]), (2, 3), fontsize=7, path_effects=drawing.halo())
         for ax in (top, bottom):
-            ax.set_xlim(float(study["Omega"][0]), float(study["Omega"][-1]))
             for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
-            for note in met:
-                ax.axvline(note.Omega, color=GREY, linewidth=0.4, zorder=0)
-        _crossings(top, study, met)
-        bottom.set_xlabel(drawing.axis_of("Omega")[0])
-        below.set_axis_off()
-        heading = "Highest peaks of the cycle's growth rate, with crossings there: mode that grows, and its rate"
-        nothing = "the cycle's growth rate has no peak at a crossing"
-        phrase = "\n".join([heading if met else nothing, *(f"{i}  {note.phrase}" for i, note in enumerate(met, 1))])
-        below.text(0, 1, phrase, fontsize=7, va="top", transform=below.transAxes, linespacing=1.25)
-        handles = [
-            *mode_handles(l for l, _ in _parts(study, "sliding_frequency")),
-            drawing.sample(marker=".", label="stick-slip cycle, in (a)", **DOT),
-            drawing.sample(color=GREY, alpha=0.25, linewidth=6, label="no cycle found"),
-            drawing.sample(marker="o", label="crossing", **RING),
-            drawing.sample(marker="o", label="numbered crossing", **DOT),
-        ]
-        figure.legend(handles=handles, loc="outside lower center", ncols=5, columnspacing=1.2)
+        low, high = float(np.nanmin(rate)), float(np.nanmax(rate))
+        bottom.set_yscale("symlog", linthresh=LINEAR)
+        bottom.yaxis.set_major_formatter("{x:g}")
+        bottom.set(ylim=(min(1.3 * low, -LINEAR), max(3 * high, LINEAR)), xlabel=drawing.axis_of("Omega")[0])
+        bottom.set_ylabel("Largest growth rate\nof the cycle (1/s)")
+        top.set(xlim=speeds[[0, -1]], ylim=(0, highest), ylabel="Frequency in the slider's frame (Hz)")
+        drawing.letters([top, bottom])
         return figure
 
 
-class Noted(NamedTuple):
-    """A peak of the cycle's growth rate near crossings.
-
-    Omega : rad/s, of the peak
-    crossings : indices of the crossings in the study
-    """
-
-    Omega: float
-    crossings: tuple[int, ...]
-    phrase: str
-
-
-def noted(study: xr.Dataset) -> list[Noted]:
-    """The `MOST` highest peaks of one normalization, by speed. Peaks count from `LEAST` on at crossings at which rates
-    rise, and elsewhere from `HIGH` on. One entry has all crossings of a peak, at its speed or up to the next one."""
-    rate, by_mode = study["growth_rate"].values, study["cycle_growth_rate"].values
-    speeds, crossed = study["Omega"].values, study["crossing_Omega"].values
-    rising = np.flatnonzero(np.isin(flag_names(study["crossing_effect"]), ("rises", "destabilises")))
-    peaks = [(float(study["crossing_growth_rate"][i]), [int(i)]) for i in rising]
-    for first, after in drawing.stretches(np.nan_to_num(rate) > HIGH):
-        index = first + int(np.argmax(rate[first:after]))
-        beside = speeds[max(index - 1, 0)], speeds[min(index + 1, len(speeds) - 1)]
-        crossings_beside = np.flatnonzero((beside[0] <= crossed) & (crossed <= beside[1]))
-        peaks.append((float(rate[index]), crossings_beside.tolist()))
-    places: dict[tuple[int, int], list[int]] = {}
-    for height, crossings in peaks:
-        index = int(np.nanargmin(np.abs(rate - height)))
-        places.setdefault((index, int(np.nanargmax(by_mode[index]))), []).extend(crossings)
-    least = LEAST * (1 - 1e-9)
-    highest = sorted((peak for peak in places if by_mode[peak] >= least), key=lambda peak: by_mode[peak])[-MOST:]
-    return sorted(_rise(study, *peak, sorted({*places[peak]})) for peak in highest)
+def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
+    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the crossing there.
+    Of several crossings it is one of the mode that leads, and the nearest; without one it is None."""
+    speeds, rate = study["Omega"].values, np.nan_to_num(study["growth_rate"].values, nan=-np.inf)
+    beside = np.abs(speeds - speeds[:, None]) <= NEAR * np.ptp(speeds)
+    tops = np.flatnonzero((rate >= LINEAR) & (rate == np.where(beside, rate, -np.inf).max(axis=1)))
+    found: list[tuple[int, xr.Dataset | None]] = []
+    for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
+        leads = study["mode"][int(np.nanargmax(study["cycle_growth_rate"].values[i]))]
+        apart = np.abs(study["crossing_Omega"].values - speeds[i])
+        other = np.where(study["crossing_mode"] == leads, 0.0, np.ptp(speeds))
+        known = np.flatnonzero(apart <= NEAR * np.ptp(speeds))
+        nearest = known[np.argsort((apart + other)[known])[:1]]
+        found.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
+    return found
 
 
-def _rise(study: xr.Dataset, index: int, mode: int, crossings: list[int]) -> Noted:
-    """A peak at a speed, described by the mode that leads there, which need not be that of a crossing."""
-    peak = study.isel(Omega=index, mode=mode)
-    texts = [f"{float(peak['Omega']):.2f} rad/s"]
-    for i in crossings:
-        crossing = study.isel(crossing=i)
-        line = "$f_s$" if flag_names(crossing["crossing_line"]) == "stick_slip" else _TURN
-        multiple, frequency = float(crossing["crossing_multiple"]), float(crossing["crossing_frequency"])
-        texts.append(f"{multiple:g} {line} = {frequency:.0f} Hz")
-    of_mode = f"{float(peak['sliding_frequency']):.0f} Hz mode, {float(peak['cycle_growth_rate']):.2g}/s"
-    return Noted(float(peak["Omega"]), tuple(crossings), f"{', '.join(texts)}: {of_mode}")
+def name_of(*diameters: int) -> str:
+    """Name of modes by their nodal diameters; -1: in the plane."""
+    numbers = [str(l) for l in sorted({*diameters}) if l >= 0]
+    return ", ".join(["in-plane"] * (min(diameters) < 0) + [f"l = {', '.join(numbers)}"] * bool(numbers))
+
+
+def named_modes(diameters: np.ndarray, heights: np.ndarray, apart: float) -> Iterator[tuple[np.ndarray, str]]:
+    """Indices of modes, ascending by height, and their names; those nearer than `apart` to the one below share one."""
+    known = np.argsort(heights)[: int(np.isfinite(heights).sum())]
+    for part in np.split(known, np.flatnonzero(np.diff(heights[known]) > apart) + 1):
+        yield part, name_of(*diameters[part].tolist())
 
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
@@ -129,120 +119,8 @@ def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
         yield float(edges[first]), float(edges[last])
 
 
-_TURN = r"$f_\Omega$"
-
-
-def colour_of(l: int) -> str:
-    """Colour of modes with so many nodal diameters; -1: in the plane."""
-    return SLIDER if l < 0 else COLOURS[l % len(COLOURS)]
-
-
-def _parts(study: xr.Dataset, name: str) -> list[tuple[int, np.ndarray]]:
-    """A variable by mode, cut where the nodal diameters of its number change: diameters and values, nan elsewhere."""
-    kinds, diameters = flag_names(study["mode_kind"]), study["diameters"].values
-    lines = []
-    for i in range(study.sizes["mode"]):
-        of_disc = np.where(kinds[:, i] == "disc", diameters[:, i], -1)
-        present = kinds[:, i] != "none"
-        for l in np.unique(of_disc[present]):
-            lines.append((int(l), np.where(present & (of_disc == l), study[name].values[:, i], np.nan)))
-    return lines
-
-
-def _frequencies(ax: Axes, study: xr.Dataset) -> None:
-    speeds = study["Omega"].values
-    for l, values in _parts(study, "sliding_frequency"):
-        ax.plot(speeds, values, color=colour_of(l), linewidth=0.9)
-    thin = slice(None, None, max(1, len(speeds) // 40))
-    for l, values in _parts(study, "cycle_frequency"):
-        ax.plot(speeds[thin], values[thin], ".", color=colour_of(l), markersize=2.5)
-    highest = 1.06 * float(study["sliding_frequency"].max())
-    ax.set_ylim(0, highest)
-    _multiples(ax, speeds, study["stick_slip_frequency"].values, highest)
-    turns = study["rotation_frequency"].values
-    most = int(study["diameters"].max())
-    for l in range(1, most + 1):
-        ax.plot(speeds, l * turns, color=GREY, linewidth=0.4, linestyle=":", zorder=0)
-    if most:
-        drawing.say_beside(ax, most * turns[-1] / 2, rf"{_TURN}..{most} {_TURN}" if most > 1 else _TURN)
-    ax.set_ylabel("Frequency in the slider's frame (Hz)")
-    ax.set_title("(a)", loc="left", pad=16)
-
-
-def _multiples(ax: Axes, speeds: np.ndarray, rate: np.ndarray, highest: float) -> None:
-    """Draw multiples of the stick-slip frequency, and fainter the halves between; labels stand at the panel's edge."""
-    known = np.flatnonzero(np.isfinite(rate))
-    if not known.size:
-        return
-    named = speeds[0]
-    for half in range(math.floor(2 * highest / np.nanmin(rate)), 0, -1):
-        n, whole = half / 2, half % 2 == 0
-        look: dict[str, Any] = {"linewidth": 0.6, "linestyle": (0, (4, 2))} if whole else {"linewidth": 0.3}
-        ax.plot(speeds, n * rate, color=GREY, alpha=1 if whole else 0.6, zorder=0, **look)
-        if whole and n * rate[known[-1]] <= highest:
-            drawing.say_beside(ax, n * rate[known[-1]], "$f_s$" if n == 1 else f"{n:g} $f_s$")
-        elif whole:
-            leaves = speeds[known[np.argmax(n * rate[known] > highest)]]
-            if leaves - named < 0.05 * (speeds[-1] - speeds[0]):
-                continue  # no room
-            named = leaves
-            aligned: dict[str, Any] = {"ha": "center", "va": "top", "path_effects": drawing.halo()}
-            ax.text(leaves, highest, f"{n:g}", fontsize=7, color=GREY, **aligned)
-
-
-def _growth_rates(ax: Axes, study: xr.Dataset) -> None:
-    speeds = study["Omega"].values
-    for l, values in _parts(study, "cycle_growth_rate"):
-        # so large a step leads to another cycle
-        ax.plot(*drawing.broken(speeds, values, LINEAR), ".-", color=colour_of(l), linewidth=0.8, markersize=1.6)
-    ax.axhline(0, color=BLACK, linewidth=0.5)
-    ax.set_yscale("symlog", linthresh=LINEAR, linscale=2)
-    low, high = (float(end(study["cycle_growth_rate"])) for end in (np.nanmin, np.nanmax))
-    ax.set_yticks([-1, -0.5, 0, 0.5, 1, 10, 100])
-    ax.yaxis.set_major_formatter("{x:g}")
-    ax.set_ylim(min(1.1 * low, -LINEAR), max(1.3 * high, LINEAR))
-    ax.set_ylabel(f"Cycle's growth rates (1/s),\nlogarithmic beyond ±{LINEAR:g}")
-    drawing.letter(ax, "b")
-
-
-def _crossings(ax: Axes, study: xr.Dataset, met: list[Noted]) -> None:
-    """Draw small open circles at all crossings, and full ones at those with a number above the panel."""
-    ax.plot(study["crossing_Omega"], study["crossing_frequency"], "o", **RING)
-    numbered = study.isel(crossing=[i for note in met for i in note.crossings])
-    ax.plot(numbered["crossing_Omega"], numbered["crossing_frequency"], "o", **DOT)
-    low, high = ax.get_xlim()
-    places = spread([note.Omega for note in met], 0.055 * (high - low), low, high)
-    for i, (note, x) in enumerate(zip(met, places, strict=True), 1):
-        ax.annotate(
-            str(i), (note.Omega, 1), xycoords=("data", "axes fraction"), xytext=(x, 1.03),
-            textcoords=("data", "axes fraction"), ha="center", va="bottom", fontsize=7,
-            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": GREY, "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
-
-
-def spread(places: list[float], apart: float, low: float, high: float) -> list[float]:
-    """Ascending places, spread to a distance within bounds, as close as possible to the given ones."""
-    from scipy.optimize import isotonic_regression
-
-    if not places:
-        return []
-    apart = min(apart, (high - low) / max(len(places) - 1, 1))
-    steps = apart * np.arange(len(places))
-    # after subtraction of the steps, places need only not fall
-    level = isotonic_regression(np.asarray(places) - steps).x
-    return (np.clip(level, low, high - steps[-1]) + steps).tolist()  # type: ignore[no-any-return]
-
-
-def mode_handles(diameters: Iterable[int], **look: Any) -> list[Line2D]:
-    """Legend entries of the colours of modes by their nodal diameters."""
-    shown = sorted({*diameters})
-    names = {l: "in-plane mode" if l < 0 else f"l = {l}" for l in shown}
-    return [drawing.sample(color=colour_of(l), label=name, **look) for l, name in names.items()]
-
-
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
 THIN, THICK = 0.8, 2.4  # widths of the lines of modes that decay and grow
-BEGIN: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 5, "markerfacecolor": "white"}
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 
 
@@ -266,34 +144,36 @@ class SlidingModes(Plot):
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies, (b) growth rates, by nodal diameters; thick where a mode grows. Growth at zero
-        frequency belongs to no mode; it is drawn where it is the largest."""
+        """Draw (a) frequencies, named where they begin, (b) growth rates, named at their peaks; thick where a mode
+        grows. Growth at zero frequency belongs to no mode; it is drawn where it is the largest."""
         study = study.squeeze()
         label, factor = drawing.label_of(study["value"])
         along = study["value"].values * factor
-        figure, [top, bottom] = panels(PAGE, 5.2, 2, height_ratios=[3, 2], sharex=True)
-        for l, mode in modes_of(study):
-            rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
-            for ax, values in ((top, frequency), (bottom, rate)):
-                ax.plot(along, values, ".-", color=colour_of(l), linewidth=THIN, markersize=1.2)
-                x, y = (np.where(rate > ROUNDING, coordinates, np.nan) for coordinates in (along, values))
-                ax.plot(x, y, ".-", color=colour_of(l), linewidth=THICK, markersize=3)
+        figure, [top, bottom] = panels(PAGE, 5.6, 2, height_ratios=[5, 4], sharex=True)
         largest = study["largest_growth_rate"]
         diverging = (largest > study["mode_growth_rate"].max("mode") + ROUNDING).values
-        for ax, values in ((top, np.zeros(along.size)), (bottom, largest.values)):
-            ax.plot(along, np.where(diverging, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
+        at_zero = [np.where(diverging, values, np.nan) for values in (0 * largest, largest)]
+        lines = [(name_of(l), mode["frequency"].values, mode["mode_growth_rate"].values) for l, mode in modes_of(study)]
+        for name, frequency, rate in (*lines, ("0 Hz", *at_zero)):
+            grows = np.nan_to_num(rate) > ROUNDING
+            for ax, values in ((top, frequency), (bottom, rate)):
+                ax.plot(along, values, ".-", color=GREY, linewidth=THIN, markersize=1.2)
+                ax.plot(along, np.where(grows, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
+            for first, after in drawing.stretches(grows[:-1] & grows[1:]):
+                i = first + int(np.argmax(rate[first : after + 1]))
+                offset = (3, 0) if i == along.size - 1 else (0, 3)
+                drawing.say(bottom, name, (along[i], rate[i]), offset, fontsize=7, path_effects=drawing.halo())
         bottom.axhline(0, color=BLACK, linewidth=0.5)
-        top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=(along[0], along[-1]))
-        if self.highest is not None:
-            top.set_ylim(0, self.highest)
+        highest = self.highest or top.get_ylim()[1]
+        top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=along[[0, -1]], ylim=(0, highest))
+        first = study.isel(value=0)
+        for part, name in named_modes(first["diameters"].values, first["frequency"].values, 0.03 * highest):
+            place = along[0], float(first["frequency"][part].mean())
+            drawing.say(top, name, place, (3, 0), fontsize=7, bbox={"fc": "white", "lw": 0, "pad": 1})
         # the sign matters: decay of high modes may be much faster
         low, top_rate = float(study["mode_growth_rate"].min()), max(float(largest.max()), 0.1)
-        bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -2 * top_rate), 1.1 * top_rate))
+        bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -top_rate), 1.1 * top_rate))
         drawing.letters([top, bottom])
-        handles = [*mode_handles(l for l, _ in modes_of(study)), drawing.sample(color=GREY, lw=THICK, label="grows")]
-        if diverging.any():
-            handles.append(drawing.sample(color=BLACK, lw=THICK, label="grows at zero frequency"))
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.2)
         return figure
 
 
@@ -304,22 +184,26 @@ class RootLocus(Plot):
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw points for each mode, with a ring where it begins."""
+        """Draw points for each mode, with a ring and its name where it begins."""
         from cmcrameri import cm
 
         study = study.squeeze()
         label, factor = drawing.label_of(study["value"])
         along = study["value"].values * factor
-        figure, [ax] = panels(PAGE, 3.8)
-        for l, mode in modes_of(study):
+        figure, [ax] = panels(PAGE, 4.8)
+        for _, mode in study.groupby("mode"):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
-            ax.plot(rate[:1], frequency[:1], color=colour_of(l), **BEGIN)
             points = ax.scatter(rate, frequency, c=along, cmap=cm.batlow, vmin=along[0], vmax=along[-1], s=5, zorder=2)
+        first = study.isel(value=0)
+        ax.plot(first["mode_growth_rate"], first["frequency"], "o", color=BLACK, markersize=4, markerfacecolor="white")
+        apart = 0.03 * float(study["frequency"].max())
+        for part, name in named_modes(first["diameters"].values, first["frequency"].values, apart):
+            place = float(first["mode_growth_rate"][part].mean()), float(first["frequency"][part].max())
+            drawing.say(ax, name, place, (0, 3), fontsize=7, path_effects=drawing.halo(), zorder=3)
         ax.axvline(0, color=BLACK, linewidth=0.6)
+        ax.margins(x=0.02)
         ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")
         figure.colorbar(points, ax=ax, label=label, pad=0.01, aspect=30)
-        handles = mode_handles((l for l, _ in modes_of(study)), **BEGIN)
-        figure.legend(handles=handles, loc="outside lower center", ncols=7)
         return figure
 
 
