@@ -81,10 +81,14 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     figure = draw("curve", study, variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
     ax = figure.axes[0]
     names = [f"In-plane damper $c_p$ = {value} N s/m" for value in ("0.01", "0.1", "1", "10")]
-    assert labels(figure) == [*names, "no cycle found"]
+    assert labels(figure) == names
     assert np.allclose(lines(ax)[names[2]].get_ydata(), [-0.1, 0, 0.1])
-    crosses = [line for line in ax.lines if line.get_marker() == "x" and len(line.get_xdata())]
-    assert [line.get_xdata() for line in crosses] == [[0.1]], "a cross where one has no value"
-    assert crosses[0].get_color() in [lines(ax)[name].get_color() for name in names]
+    assert [text.get_text() for text in ax.texts] == ["no cycle found"]
+    [gone] = [line for line in ax.lines if line.get_ydata()[0] > 1]
+    assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), "that has no value there"
     assert ax.get_ylabel() == "Growth rate of disturbances\n(1/s)"
     save(figure, tmp_path / "curve.png")
+    ends = {"at": {"normalization": "as_published"}, "panels": [[0.1, 10], [1.0, 10]]}
+    study["drift"] = study["drift"] + study["c_p"]
+    axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes
+    assert [{text.get_text() for text in ax.texts} for ax in axes] == [{names[1], names[3]}, {names[2], names[3]}]

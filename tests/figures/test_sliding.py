@@ -37,12 +37,8 @@ def test_linear_analysis_beside_the_motion() -> None:
 
 
 def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
-    sliding = computed(
-        quantity="sliding",
-        options={"parameter": "c_p", "scan": SCAN},
-        base={"Omega": 20, **SMALL},
-        axes={"N": [200, 400]},
-    )
+    options = {"parameter": "c_p", "scan": SCAN}
+    sliding = computed(quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200, 400]})
     flags = {"flag_meanings": " ".join(OUTCOMES_TO_HORIZON)}
     values = {"N": [200.0, 300, 400], "c_p": np.linspace(0, 0.4, 9)}
     outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))
@@ -54,4 +50,4 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     figure = plot.render({"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert f"{AGREEMENTS['unstable_separates'].label} ({growing:.0%})" in texts
+    assert f"{AGREEMENTS['unstable_separates'].label}: {growing:.0%}" in texts

@@ -81,6 +81,7 @@ GRIDS: list[tuple[dict[str, Any], str]] = [
     (figure(at={"k": 4e4}), "figures.f.at.k no dimension remains"),
     ({"figures": {"f": {"kind": "curve", "variable": "outcome", "x": "Omega"}}}, "figures.f.at.k required by"),
     ({"figures": {"f": LINE | {"by": "k"}}} | axes(k={"start": 1, "stop": 2, "count": 60}), "figures.f.by 60 values"),
+    ({"figures": {"f": LINE | {"by": "k", "panels": [[4e4, 6e4]]}}}, "figures.f.panels 60000 value by"),
     ({"figures": {"f": LINE | {"x": "k"}}} | axes(k=[1]), "figures.f.x two values"),
     (figure(overlays={"growth": "s"}), "figures.f.overlays.growth unknown"),
 ]

@@ -1,6 +1,6 @@
 """Motions against a parameter: bifurcation diagrams, the range of cycles along branches, and that of late motion."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -8,9 +8,10 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
+from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, panels
-from disc_model.figures.kind import Plot, Role, Roles
+from disc_model.figures.kind import Plot, Role, Roles, Values
 from disc_model.units import Finite, Positive, Unit
 
 DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
@@ -148,13 +149,13 @@ class Branches(Plot):
             color, stable = SEPARATED if branch["separations"] > 0 else BLACK, branch["growth_rate"].values < 0
             draw_branch(ax, branch["value"].values * factor, 1e3 * branch["range"].values, stable, color, BENDS)
         along = study["sweep_value"].values * factor
-        for way, mark in enumerate("^v"):
-            heights, separates = 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0
-            _swept(ax, along, heights, separates, flag_names(study["sweep_settled"])[way] == "settled", mark)
         unstable = study["sliding_growth_rate"].values > 0
         phrase = "unstable" if unstable.all() else "stable" if not unstable.any() else "stable where the line is thick"
         draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
         drawing.say(ax, f"steady sliding: {phrase}", (along[-1], LOWEST), (-4, 3), fontsize=7, color=GREY)
+        for way, mark in enumerate("^v"):
+            heights, separates = 1e3 * study["sweep_range"].values[way], study["sweep_separation_rate"].values[way] > 0
+            _swept(ax, along, heights, separates, flag_names(study["sweep_settled"])[way] == "settled", mark)
         drawing.mark_cases([ax], {case: value * factor for case, value in self.paper_cases.items()}, 0.05)
         ax.set(xlabel=label, ylabel="Range of the slider's height (mm)")
         ax.set(xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None))
@@ -209,10 +210,11 @@ SMALLEST = 1e-5
 
 
 class LateRange(Plot):
-    """Peak-to-peak displacement of the slider against the speed, in unilateral and in bilateral contact.
+    """Peak-to-peak displacement of the slider against the speed, with separation and with it ignored.
 
     by : dimension with a panel for each value
     thickness : of the disc, m; that of the paper unless given
+    shaded : speeds between which the law of friction does not hold, rad/s, by panel
     """
 
     quantities = ("outcome",)
@@ -220,11 +222,20 @@ class LateRange(Plot):
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002
+    shaded: dict[str, tuple[Finite, Finite]] = Field({})
 
     @property
     def dims(self) -> tuple[str, ...]:  # type: ignore[override]
         """All that the figure shows."""
         return ("Omega", "N", "contact", self.by)
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        """Faults as of any figure, and shaded panels that there are not."""
+        yield from super().faults(values)
+        known = [str(name) for name, *_ in values.get(self.by, ())]
+        for name in self.shaded:
+            if known and name not in known:
+                yield Fault.of(("shaded",), name, f"is no value of {self.by}{suggestion(name, known)}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a panel for each value of ``by``, and a line for each preload and contact."""
@@ -236,6 +247,16 @@ class LateRange(Plot):
         figure, axes = panels(PAGE, 3.0, 1, len(names), sharex=True, sharey=True)
         for ax, name in zip(axes, names, strict=True):
             ax.axhspan(1, 1e3, color="0.93", zorder=0)
+            if str(name) in self.shaded:
+                low, high = self.shaded[str(name)]
+                ax.axvspan(low, high, facecolor="none", edgecolor=GREY, hatch=5 * "/", linewidth=0, zorder=0)
+                look: dict[str, Any] = {
+                    "fontsize": 6,
+                    "path_effects": drawing.halo(2.0),
+                    "ha": "center",
+                    "va": "bottom",
+                }
+                ax.text((low + high) / 2, SMALLEST, "surface faster\nthan drive:\nlaw not valid", **look)
             for load, colour in zip(loads, LOAD_COLOURS, strict=False):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}
@@ -254,10 +275,11 @@ class LateRange(Plot):
         drawing.letters(axes, [str(name) for name in names])
         handles = [
             *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
-            drawing.sample(color=GREY, linestyle="-", label="unilateral contact"),
-            drawing.sample(color=GREY, linestyle="--", label="bilateral contact"),
+            drawing.sample(color=GREY, linestyle="-", label="with separation"),
+            drawing.sample(color=GREY, linestyle="--", label="separation ignored"),
             drawing.sample(color=GREY, label="separates", **apart),
             drawing.sample(color=GREY, label="growing or undecided", **open_end),
+            drawing.sample(color=GREY, label="settled in contact", **apart | {"markerfacecolor": "white"}),
         ]
-        figure.legend(handles=handles, loc="outside lower center", ncols=6, columnspacing=1.0)
+        figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=1.0)
         return figure

@@ -59,7 +59,7 @@ class CriticalSpeed(Plot):
         if "curves" in overlays:
             curves = curves_of(overlays["curves"])
             shown = curves if cycle is None else _named(maps.parted(curves, cycle)[0], cycle)
-            handles += draw_curves([axes[0]], [shown], [overlays["curves"]])
+            handles += draw_curves([axes[0]], [shown])
         horizon = float(study["horizon"].max())
         _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
         if self.paper_points:
@@ -164,8 +164,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> st
     _onsets(ax, study, horizon, label="_nolegend_", **ONSETS)
     drawing.mark_failed(ax, N[lost], on="y")
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    options = stated_in(sweep, "options")
-    return f"sweeps: {options['dwell']:g} to {options['max_dwell']:g} s, then {step:g} rad/s further"
+    return f"sweeps in steps of {step:g} rad/s"
 
 
 def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:

@@ -87,12 +87,16 @@ def _draw_plane(ax: Axes, p: Parameters, values: Array, scale: Normalize, r: Arr
     return mesh
 
 
-def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize) -> QuadMesh:
-    """Draw the disc from above, in mm, with the slider on it."""
+def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequence[float] = ()) -> QuadMesh:
+    """Draw the disc from above, in mm, with the slider on it, and lines at levels in mm, dashed below zero."""
     p = motion.parameters
     inner, outer = radial_range(p)
     r, theta = np.linspace(inner, outer, RADII), np.linspace(0, 2 * np.pi, ANGLES)
-    mesh = _draw_plane(ax, p, 1e3 * motion.deflection(i, r, theta), scale, r, theta)
+    values = 1e3 * motion.deflection(i, r, theta)
+    mesh = _draw_plane(ax, p, values, scale, r, theta)
+    if levels:
+        x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
+        ax.contour(x, y, values, levels, colors=BLACK, linewidths=0.5)
     angle = motion.slider[i]
     point = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
     ax.plot(*point, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import cycle
+from itertools import chain, cycle
 from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.data.variables import EXCLUDED
+from disc_model.data.variables import EXCLUDED, stated_in
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Axes, Figure, FigureBase, Patch, ScalarMappable, panels
@@ -241,7 +241,7 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
     """Draw a variable against one dimension, or a line for each value of a second one, with its label for a legend.
-    Marks at the upper edge, a row for each line, stand for missing values."""
+    Its marks above the panel, in a row below the reason, stand for missing values."""
     from cmcrameri import cm
 
     array = study[variable]
@@ -251,11 +251,14 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     lines = drawing.slices(drawing.as_numbers(array), by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     jump = np.inf if log or variable != "growth_rate" else LINEAR
+    look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}
+    # of lines without gaps some points are marked
+    every = 1 if words or jump < np.inf or array.isnull().any() else max(1, along.size // 12)
     for colour, (name, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
+        style = mark + "-" * (not words)
         ax.plot(
-            *drawing.broken(along, line.values, jump), mark + "-" * (not words), color=colour, label=name or None,
-            markersize=3, markerfacecolor="none", markeredgewidth=0.6, linewidth=0.7,
-        )  # fmt: skip
+            *drawing.broken(along, line.values, jump), style, color=colour, label=name or None, markevery=every, **look
+        )
     if log:
         ax.set_yscale("log")
     elif variable == "growth_rate":  # peaks of tens occur beside hundredths
@@ -266,34 +269,69 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     ax.set(xlabel=label, ylabel=fill(drawing.label_of(array)[0], 32))
     if words:
         ax.set_yticks(range(len(words)), labels=words)
-    gaps = drawing.gaps(study, array)
-    ax.margins(0.03, 0.12 if gaps else 0.03)
-    for (name, gone), mark in zip(gaps.items(), "x+|12", strict=False):
-        look: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "markersize": 3.5}
-        for i, (colour, (_, mask)) in enumerate(zip(colours, drawing.slices(gone, by), strict=True)):
-            missing = along[mask.values]
-            ax.plot(missing, np.full(missing.size, 0.98 - 0.03 * i), mark, color=colour, **look)
-        ax.plot([], [], mark, color=GREY if by else BLACK, markersize=3.5, label=name)
+    ax.margins(0.03)
+    top, above = 1.03, {"transform": ax.get_xaxis_transform(), "clip_on": False}
+    for name, gone in drawing.gaps(study, array).items():
+        for colour, (_, mask), mark in zip(colours, drawing.slices(gone, by), cycle(MARKS), strict=False):
+            if mask.any():
+                ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **above, **look)
+                top += 0.05
+        if variable == "first_separation" and name == "no value":
+            name = f"none within {stated_in(study, 'options')['horizon']:g} s"
+        drawing.say(ax, name, (0, top), (1, 1), xycoords="axes fraction", fontsize=7)
+        top += 0.1
+
+
+def name_ends(ax: Axes) -> bool:
+    """Write the names of lines beside their right ends, if all end there and apart from each other; else do nothing."""
+    low, high = ax.get_ylim()
+    lines = ax.get_legend_handles_labels()[0]
+    ends = np.array([line.get_ydata()[-1] for line in lines])
+    apart = np.diff(np.sort(ends)) / (high - low)
+    if len(lines) < 2 or not (apart > 0.05).all() or ax.get_yscale() != "linear":
+        return False
+    for line, end in zip(lines, ends, strict=True):
+        line.set_color(BLACK)
+        drawing.say(ax, line.get_label(), (1, end), (2, 0), xycoords=("axes fraction", "data"), fontsize=7)
+    return True
 
 
 class CurvePlot(General):
     """A variable against one dimension; a line for each value of a second, if wanted.
 
     limits : ends of the variable's axis, so that figures can be compared
+    panels : values of `by` in each of several panels
     """
 
     room = 12
     kind: Literal["curve"] = "curve"
     limits: tuple[Finite, Finite] | None = None
+    panels: tuple[tuple[Finite | str, ...], ...] = ()
+
+    def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
+        """Faults as of any such figure, and values of panels that `by` does not have."""
+        yield from super().faults_among(dims, variables)
+        known = dims.get(self.by or "", ())
+        for value in chain(*self.panels):
+            if not any(_same(value, other) for other in known):
+                yield Fault.of(("panels",), value, f"must be a value of by, one of {_listed(known)}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a line, or one for each value of a second dimension."""
-        figure, [ax] = panels(drawing.COLUMN, 2.9)
-        draw_lines(ax, drawing.picked(study, self.at), self.variable, self.x, self.log)
+        study = drawing.picked(study, self.at)
+        parts = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
+        figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
+        for ax, part in zip(axes, parts, strict=True):
+            draw_lines(ax, part, self.variable, self.x, self.log)
+            ax.label_outer()
         if self.limits is not None:
-            ax.set_ylim(self.limits)
-        if labels := ax.get_legend_handles_labels()[1]:
-            # names of more letters do not fit there
-            beside = len(labels) > 4 and max(map(len, labels)) < 25
-            figure.legend(loc="outside right upper" if beside else "outside lower right", ncols=1 if self.by else 2)
+            axes[0].set_ylim(self.limits)
+        drawing.letters(axes)
+        for ax in axes:
+            handles, labels = ax.get_legend_handles_labels()
+            if labels and not name_ends(ax):
+                # names of more letters do not fit there
+                beside = len(labels) > 4 and max(map(len, labels)) < 25 and not self.panels
+                where = "outside right upper" if beside else "outside lower right"
+                figure.legend(handles, labels, loc=where, ncols=1 if self.by else 2)
         return figure

@@ -303,12 +303,10 @@ def crossings(curve: Curve, load: float) -> Array:
     return np.unique(curve.Omega[indices] + share * (curve.Omega[indices + 1] - curve.Omega[indices]))
 
 
-def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: Sequence[xr.Dataset]) -> list[Line2D]:
+def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list[Line2D]:
     """Draw the curves of each panel, numbered if they have a label; returns legend entries of lines and numbers.
 
     Numbers ascend with speed, equal labels share one, and they stand beyond the upper end, where they cover no line.
-
-    data : the curves' datasets, with the number of places at which continuation failed
     """
     labelled = [curve for of_panel in curves for curve in of_panel if curve.label]
     labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
@@ -325,10 +323,6 @@ def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]], data: S
     handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [drawing.sample(marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
-    lost = [int(dataset["n_continuation_failures"].sum()) for dataset in data]
-    if any(lost):
-        counts = [f"{count} in ({'abcdef'[i]})" if len(lost) > 1 else f"{count}" for i, count in enumerate(lost)]
-        handles.append(drawing.sample(linestyle="", label=f"continuation failed: {', '.join(counts)}"))
     return handles
 
 

@@ -209,7 +209,7 @@ class RootLocus(Plot):
 
 AGREEMENTS = {
     "stable_quiet": Look("stable, and the motion quiet", "#f3f6f8"),
-    "stable_grows": Look("stable, but the motion leaves the quiet cycle in contact", "#86a0b8"),
+    "stable_grows": Look("stable, but the motion leaves the quiet cycle in contact", "#86a0b8", 3 * "|"),
     "stable_separates": Look("stable, but the motion separates", "#2b4f74", 3 * "x"),
     "unstable_quiet": Look("unstable, but the motion stays quiet", "#f2c14e", 3 * "."),
     "unstable_grows": Look("unstable, and the motion grows in contact", "#e3906a"),
@@ -238,25 +238,26 @@ class SlidingOutcome(Plot):
         return {"sliding": Role("sliding", (self.y,), {"parameter": self.x}, required=True)}
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each normalization; the numbers of points are in the legend."""
+        """Draw a panel for each normalization; shares of the points of each are in the legend."""
         norms = drawing.normalizations(study)
         figure, axes = panels(PAGE, 3.4, 1, len(norms), sharex=True, sharey=True)
-        used: dict[str, int] = {}
+        each: list[np.ndarray] = []
         for ax, norm in zip(axes, norms, strict=True):
             plane = drawing.of(study, norm).transpose(self.y, self.x, ...)
             linear = drawing.of(overlays["sliding"], norm).rename(value=self.x).transpose(self.y, self.x, ...)
             plane, linear = common_points(plane, linear, (self.x, self.y))
             words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
             fill(ax, edges_of(plane["outcome"]), words, AGREEMENTS)
-            for word, count in zip(*np.unique(words, return_counts=True), strict=True):
-                used[str(word)] = used.get(str(word), 0) + int(count)
+            each.append(words)
             ax.set(xlabel=drawing.axis_of(self.x)[0], ylabel=drawing.axis_of(self.y)[0])
             ax.label_outer()
         drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
-        total = sum(used.values())
-        shares = {word: f"{AGREEMENTS[word].label} ({count / total:.0%})" for word, count in used.items()}
-        looks = {word: look._replace(label=shares[word]) for word, look in AGREEMENTS.items() if word in used}
-        figure.legend(handles=patches(looks, used), loc="outside lower center", ncols=2, title="Steady sliding is")
+        names, looks = ("(a) ", "(b) ") if len(each) > 1 else ("",), {}
+        for word, look in AGREEMENTS.items():
+            shares = [f"{letter}{np.mean(words == word):.0%}" for letter, words in zip(names, each, strict=False)]
+            looks[word] = look._replace(label=f"{look.label}: {', '.join(shares)}")
+        handles = patches(looks, {*np.concatenate(each, axis=None)})
+        figure.legend(handles=handles, loc="outside lower center", ncols=1, title="Steady sliding is")
         return figure
 
 

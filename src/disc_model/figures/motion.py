@@ -169,16 +169,21 @@ def draw_sections(
     masks = stages(time, samples["phase"].values, first, float(since))
     slider, disc = axes
     for ax, name in ((slider, "psi"), (disc, "w_point")):
-        coordinates, shares = [], []
+        coordinates, shares, units = [], [], []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
             label, factor, _ = drawing.sampled(variable, samples)
             coordinates.append(samples[variable].values * factor)
+            units.append(label.rpartition("(")[2].rstrip(")"))
             shown = np.concatenate([section[variable] for section in (samples, *compared)]) * factor
             low, high = float(shown.min()), float(shown.max())
             margin = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)  # room for the marks
             ax.set(**{f"{axis}label": label, f"{axis}lim": (low - margin, high + margin)})
             shares.append(np.ptp(coordinates[-1]) / (high - low + 2 * margin))
-        closer = [ax.inset_axes((0.66, 0.68, 0.34, 0.32))] if max(shares) < SMALL else []
+        # away from the bar of the thickness, which has the scale of the panel
+        closer = [ax.inset_axes((0.66, 0.2, 0.34, 0.32))] if max(shares) < SMALL else []
+        for panel in closer:
+            panel.set_xlabel(units[0], fontsize=7, labelpad=1)
+            panel.set_ylabel(units[1], fontsize=7, labelpad=1)
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
             mask = getattr(masks, stage)
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}

@@ -22,11 +22,15 @@ PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}  # the marker 
 
 
 class Mark(Strict):
-    """A case of the paper: where it lies, and what the paper says of it."""
+    """A case of the paper: where it lies, and what the paper says of it.
+
+    assumed : whether the paper does not state where, so that nothing is said of its start
+    """
 
     x: Finite
     y: Finite
     paper_outcome: Literal["quiet", "growing", "separation"]
+    assumed: bool = False
 
 
 class RegionMap(Plot):
@@ -98,7 +102,7 @@ def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
         along = {"Omega": curve.Omega, "N": curve.N}
         inside = [values == np.clip(values, *span(data[name].values)) for name, values in along.items()]
         paths.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
-    return draw_curves([ax], [paths], [])
+    return draw_curves([ax], [paths])
 
 
 def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
@@ -141,6 +145,8 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
         return
     data = drawing.of(study, "as_published")
     for name, mark in plot.marks.items():
+        if mark.assumed:
+            continue
         point = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(point["outcome"])), float(point["growth_rate"])
         label = OUTCOME_LOOKS[outcome].label

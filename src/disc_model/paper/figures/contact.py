@@ -244,9 +244,10 @@ class Instants(CasePlot):
         losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
         first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
         scale = scale_of(motion)
+        levels = [share * scale.vmax for share in (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)]
         for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
             i = first + j * (last - first) // len(discs)
-            mesh = draw_disc(ax, motion, i, scale)
+            mesh = draw_disc(ax, motion, i, scale, levels)
             after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
             ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
             draw_circle(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
@@ -255,6 +256,7 @@ class Instants(CasePlot):
         circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
         circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
         circle.margins(y=0.08)
+        drawing.show_thickness(circle, cases[0], "y")
         circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
         circle.set_title("(e)", loc="left", x=-0.06)
         return figure

@@ -17,8 +17,8 @@ from disc_model.figures.kind import Plot, Role, Roles
 
 SCALES = ("as_published", "orthonormal")
 LABELS = ("as published", "by Eq. (17)")
-CELLS = ("white", "#f2b69c", "#b9d3ea", "#c9c9c9")
-"""Neither separates; only as published; only by Eq. (17); both."""
+CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
+"""Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
 
 
 class Scales(Plot):
@@ -81,6 +81,7 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
     cells = apart[0] + 2 * apart[1].astype(int)
     across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
     ax.pcolormesh(across, up, cells, cmap=ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
+    ax.pcolor(across, up, np.ma.masked_where(cells != 2, cells), facecolor="none", hatch=8 * "/", linewidth=0)
     for name, (of, point) in SEPARATING.items():
         if of == "map_N":
             cell = tuple(np.searchsorted(study[axis], point[axis] - 1e-6) for axis in ("N", "Omega"))
@@ -88,9 +89,11 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
             ax.plot(point["Omega"], point["N"], "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
             side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
             drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
-    places = {"only as\npublished": (0.68, 0.2), "both": (0.68, 0.62), "only by\nEq. (17)": (0.29, 0.93)}
-    for words, corner in places.items():
+    for words, corner in {"only as\npublished": (0.53, 0.19), "both": (0.68, 0.62)}.items():
         ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
+    line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+    look = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
+    ax.annotate("only by\nEq. (17)", (0.27, 0.75), (0.12, 0.68), "axes fraction", "axes fraction", **look)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 
