@@ -23,10 +23,8 @@ from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 
 RIGHT, WRONG, SILENT = AnswerVerdict
 
-# ----------------------------------------------------------------------------------------------------
-# The runner
 
-
+# ------------------------------------------------------------------------ The runner
 def test_points_are_measured_in_turn_on_one_core(monkeypatch: pytest.MonkeyPatch, caplog) -> None:
     variables = {"size": ["m", "how big"], "state": ["1", "what it is"], "other": ["s", "never measured"]}
     monkeypatch.setitem(study.TABLES, "made_up", variables)
@@ -57,10 +55,7 @@ def test_points_are_measured_in_turn_on_one_core(monkeypatch: pytest.MonkeyPatch
     assert getattr(os, "sched_getaffinity", lambda _: None)(0) == before
 
 
-# ----------------------------------------------------------------------------------------------------
-# Speed against accuracy
-
-
+# ------------------------------------------------------------------------ Speed against accuracy
 def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict[str, Known]) -> None:
     rk4 = dataset.sel(scene="stick_slip", solver="RK4")
     assert rk4["order_event"] == pytest.approx(4.0, abs=1e-3)
@@ -102,10 +97,7 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     assert table(dataset.sel(solver=["RK4"]))["times_series"].isna().all()
 
 
-# ----------------------------------------------------------------------------------------------------
-# Questions
-
-
+# ------------------------------------------------------------------------ Questions
 def test_to_deny_what_there_is_is_wrong_and_to_give_up_is_not() -> None:
     for value, status, right, expected in (
         (54.45, AnswerStatus.FOUND, 54.4, RIGHT),
@@ -139,10 +131,7 @@ def test_the_engine_gives_the_right_answers() -> None:
     assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in (*answers.CYCLE_SETTINGS, answers.DEFAULT))
 
 
-# ----------------------------------------------------------------------------------------------------
-# Costs of answers, and maps
-
-
+# ------------------------------------------------------------------------ Costs of answers, and maps
 def column(dataset: xr.Dataset, line: str, name: str) -> list:
     return dataset[name].values[dataset["line"].values == line].tolist()
 
@@ -183,10 +172,7 @@ def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_pa
     save(figure, tmp_path / "maps.png")
 
 
-# ----------------------------------------------------------------------------------------------------
-# Numbers of modes
-
-
+# ------------------------------------------------------------------------ Numbers of modes
 @pytest.mark.compiled
 def test_what_truncation_does_to_a_study(tmp_path):
     dataset = contact_study(((4, 0), (6, 0)), {"paper": {"N": 385.0, "Omega": 15.1}}, horizon=60.0)

@@ -30,10 +30,7 @@ def judged(title: str, *cases: CaseView, **grids: xr.Dataset) -> Answer:
     return BY_TITLE[title].judge({case.name: case for case in cases} | views)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Grids
-
-
+# ------------------------------------------------------------------------ Grids
 def growth(*rates: float) -> xr.Dataset:
     return grid(POINTS, growth_rate=np.reshape(rates, (2, 3)))
 
@@ -122,10 +119,7 @@ def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdi
     assert judged(title, **grids).verdict == verdict
 
 
-# ----------------------------------------------------------------------------------------------------
-# Cases
-
-
+# ------------------------------------------------------------------------ Cases
 def case(
     *widths: float,
     N: float = 200,
@@ -181,10 +175,7 @@ def test_conclusions_about_cases(title: str, cases: Sequence[CaseView], verdict:
     assert judged(title, *cases).verdict == verdict
 
 
-# ----------------------------------------------------------------------------------------------------
-# Models
-
-
+# ------------------------------------------------------------------------ Models
 def test_each_model_is_judged_by_its_own_data() -> None:
     """One map of growth for all: separations from a stable cycle in one of them only."""
     models = {}

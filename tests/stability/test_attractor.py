@@ -28,10 +28,7 @@ def paradox() -> tuple[Parameters, State]:
     return p, start.replace(phase="slip", direction=1, f=10.0, b=np.array([0.0, -2.0]))
 
 
-# ----------------------------------------------------------------------------------------------------
-# One motion
-
-
+# ------------------------------------------------------------------------ One motion
 TEXTS = yaml.safe_load(Path(__file__).with_name("outcomes.yaml").read_text(encoding="utf-8"))
 OUTCOMES = TEXTS["each outcome"]
 
@@ -89,10 +86,7 @@ def test_shortcuts_agree_with_brute_force() -> None:
     assert simulated < 0.5 * points * horizon
 
 
-# ----------------------------------------------------------------------------------------------------
-# Many of a case
-
-
+# ------------------------------------------------------------------------ Many of a case
 def kick_energy(p: Parameters, state: State, start: State) -> float:
     """Of the difference of two states: the modes', that of the slider's mass and of its spring."""
     omega = mode_arrays(p).omega

@@ -9,7 +9,7 @@ import yaml
 
 from disc_model import Parameters
 from disc_model.simulation.case import Window
-from disc_model.studies.study import Study, StudyError, load_study, parse_study, study_from_config
+from disc_model.studies.study import StudyError, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
@@ -29,11 +29,6 @@ CASES: dict[str, Any] = {
         "B": {"title": "b", "parameters": {"Omega": 15.1, "N": 50}, "t_end": 1, "tol": "1e-8"},
     },
 }
-
-
-def with_case(name: str = "A", **changes: Any) -> Study:
-    """The cases with one changed."""
-    return parse_study(CASES | {"cases": CASES["cases"] | {name: CASES["cases"].get(name, CASE) | changes}})
 
 
 # ---- kinds of studies
