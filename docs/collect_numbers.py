@@ -215,15 +215,17 @@ class Sources:
         """Points of the map over speed and preload at which the static start separates."""
         return int((flag_names(self.grid("map_N")["outcome"].sel(normalization=normalization)) == "separation").sum())
 
-    def quiet_cycle(self) -> tuple[float, float]:
-        """Least speed of the stable quiet cycle at 385 N, and its fold; it is the cycle of least range at 14 rad/s."""
+    def quiet_cycle(self) -> tuple[float, float, float]:
+        """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there, Hz; it is the cycle of
+        least range at 14 rad/s."""
         grid = self.grid("branches")
         speed, stable = grid["value"].values, grid["growth_rate"].values < 0
         ranges = np.where(stable & (abs(speed - 14) < 0.2), grid["range"].values, np.inf)
         branch, point = np.unravel_index(ranges.argmin(), ranges.shape)
         unstable = np.flatnonzero(~stable[branch])
         ends = unstable[unstable < point].max() + 1, unstable[unstable > point].min() - 1
-        return min(speed[branch, ends]), np.nanmax(speed[branch])
+        fold = np.nanargmax(speed[branch])
+        return min(speed[branch, ends]), speed[branch, fold], 2 / grid["period"].values[branch, fold]
 
     def least_separating_speed(self) -> float:
         """Least speed with a stable cycle that separates at 385 N."""
@@ -243,11 +245,11 @@ class Sources:
     def critical_speed(self, N: float, horizon: float = 1000) -> float:
         return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
 
-    def all_critical_speeds(self, horizon: float) -> np.ndarray:
-        """Critical speeds at all preloads, with published and with orthonormal modes."""
-        studies = [self.grid(name)["critical_speed"] for name in ("critical_speed", "critical_speed_orthonormal")]
-        speeds = np.concatenate([np.ravel(study.sel(horizon=horizon)) for study in studies])
-        return speeds[np.isfinite(speeds)]
+    def lowest_speeds(self) -> np.ndarray:
+        """Lowest speeds of the map with separation, at the preloads that have some, with either scale of the modes."""
+        outcome = self.grid("map_N")["outcome"]
+        lowest = outcome["Omega"].where(outcome.copy(data=flag_names(outcome) == "separation")).min("Omega").values
+        return lowest[np.isfinite(lowest)]
 
     def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
         """Range of the slider late in the motion on the brake-like disc, in thicknesses."""
