@@ -216,7 +216,7 @@ class Sources:
         return int((flag_names(self.grid("map_N")["outcome"].sel(normalization=normalization)) == "separation").sum())
 
     def quiet_cycle(self) -> tuple[float, float, float]:
-        """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there, Hz; it is the cycle of
+        """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there, Hz; it has the
         least range at 14 rad/s."""
         grid = self.grid("branches")
         speed, stable = grid["value"].values, grid["growth_rate"].values < 0
