@@ -285,12 +285,10 @@ def canonical_json(value: Any) -> str:
     """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
 
     def plain(item: Any) -> Any:
-        if isinstance(item, Mapping):
-            return {str(key): plain(value) for key, value in item.items()}
-        if isinstance(item, list | tuple):
-            return [plain(value) for value in item]
         if isinstance(item, float):
             return item + 0.0 if math.isfinite(item) else str(item)
-        return item
+        if isinstance(item, list | tuple):
+            return [plain(value) for value in item]
+        return {str(key): plain(value) for key, value in item.items()} if isinstance(item, Mapping) else item
 
     return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
