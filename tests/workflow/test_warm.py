@@ -41,9 +41,8 @@ def test_a_job_is_what_it_would_be_by_itself(tmp_path: Path) -> None:
         assert server.poll() is None
         time.sleep(0.1)
     warm = [job(way) for way in ways]
-    assert server.stdin is not None
-    server.stdin.close()
-    assert server.wait(60) == 0
+    server.communicate(timeout=60)
+    assert server.returncode == 0
     assert [code for code, *_ in warm] == [0, 3, 1, 1, 1]
     assert [out for _, out, _ in warm[:4]] == [out.replace("False", "True") for _, out, _ in alone[:4]]
     assert warm[4][2] == "to stderr\nkilled, perhaps for want of memory\n"

@@ -8,6 +8,8 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from weakref import finalize
 
 from snakemake.exceptions import WorkflowError
 from snakemake.io import IOFile
@@ -22,6 +24,40 @@ WORKFLOW = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).pare
 SOURCES = (WORKFLOW.parent / "src").resolve()
 if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
+
+
+def put_first(variable, folder):
+    """Let jobs search a folder before the others of a variable of the environment."""
+    os.environ[variable] = os.pathsep.join(
+        filter(None, [str(folder), os.environ.get(variable)])
+    )
+
+
+# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
+if not CONDA:
+    put_first("PATH", Path(sys.executable).parent)
+if CONDA or str(SOURCES) in sys.path:
+    put_first("PYTHONPATH", SOURCES)
+os.environ.update(PYTHONUTF8="1")  # in any locale
+# Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
+SCRIPTS = str(WORKFLOW / "scripts")
+SOCKETS = TemporaryDirectory(prefix="disc_model", ignore_cleanup_errors=True)
+WARM = [f"{SCRIPTS}/warm.py", f"{SOCKETS.name}/warm"]
+PREFIX = f'set -euo pipefail; job() {{ python -IS {shlex.join(WARM)} {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
+shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
+
+# Copies of this process run jobs, with one thread as they have. It starts early, to be ready when the first job is,
+# and ends with this one, which holds its input.
+MAIN = getattr(workflow, "is_main_process", True)
+LOCAL = MAIN and not (CONDA or workflow.output_settings.dryrun or workflow.nodes)
+if LOCAL and sys.platform == "linux":
+    LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "VECLIB", "NUMEXPR")
+    ONE = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES}
+    NULL = subprocess.DEVNULL
+    PIPES = {"stdin": subprocess.PIPE, "stdout": NULL, "stderr": NULL}
+    warm = subprocess.Popen([sys.executable, *WARM], env=os.environ | ONE, **PIPES)
+    finalize(workflow, warm.kill)
+
 try:
     from disc_model.display import StudyProgress
     from disc_model.figures.kind import Plot
@@ -71,38 +107,17 @@ try:
 except DiscModelError as error:
     raise WorkflowError(str(error)) from None
 
-MAIN = getattr(workflow, "is_main_process", True)
 if MAIN:
     for checked in [STUDY, *(GRIDS[name] for name in ASKED)]:
         for doubt in checked.doubts:
             logger.warning(f"{checked.name}: warning: {doubt}")
 
 RESULTS = f"results/{STUDY.name}"
-SCRIPTS = str(WORKFLOW / "scripts")
 
 if CONDA and not SOURCES.is_dir():
     raise WorkflowError(
         "With conda the workflow is run from a clone of its repository, where the package's sources are."
     )
-
-
-def put_first(variable, folder):
-    """Let jobs search a folder before the others of a variable of the environment."""
-    os.environ[variable] = os.pathsep.join(
-        filter(None, [str(folder), os.environ.get(variable)])
-    )
-
-
-# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
-if not CONDA:
-    put_first("PATH", Path(sys.executable).parent)
-if CONDA or str(SOURCES) in sys.path:
-    put_first("PYTHONPATH", SOURCES)
-os.environ.update(PYTHONUTF8="1")  # in any locale
-# Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
-WARM = [f"{SCRIPTS}/warm.py", str(workflow.snakemake_tmp_dir / "warm")]
-PREFIX = f'set -euo pipefail; job() {{ python -IS {shlex.join(WARM)} {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
-shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
 
 wildcard_constraints:

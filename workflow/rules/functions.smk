@@ -9,12 +9,14 @@ LABELS = json.dumps(STUDY.labels, sort_keys=True)
 PAGE_TITLE = json.dumps(STUDY.title or STUDY.name)
 
 
+@cache
 def case_made_of(case):
     spec = STUDY.specs[case]
     chosen = ["mode_choice"] if spec.modes else []
     return made_of("simulate_case", *chosen, of=spec.canonical)
 
 
+@cache
 def cases_made_of():
     return made_of(
         "merge_cases", of=[PAGE_TITLE, LABELS, *map(case_made_of, sorted(STUDY.specs))]
@@ -39,10 +41,12 @@ def merge_plan(study):
     return json.dumps(plan, sort_keys=True)
 
 
+@cache
 def batch_made_of(study):
     return made_of("compute_batch", *GRIDS[study].sources)
 
 
+@cache
 def grid_made_of(study):
     return made_of("merge_batches", of=[merge_plan(study), batch_made_of(study)])
 
@@ -85,6 +89,7 @@ def motions_of(study):
     return [motion_file(study, key) for key in GRIDS[study].motions]
 
 
+@cache
 def motions_made_of(study):
     return made_of("compute_motions", *GRIDS[study].sources, of=[*GRIDS[study].motions])
 
@@ -153,14 +158,3 @@ def refuse_unrecorded(wildcards):
             " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
     return []
-
-
-def start_warm():
-    """Start the process whose copies run jobs, with one thread as they have; it ends with this one, which holds its input."""
-    libraries = ("OMP", "GOTO", "OPENBLAS", "MKL", "VECLIB", "NUMEXPR")
-    one = {f"{name}_NUM_THREADS": "1" for name in libraries}
-    silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    command = [sys.executable, *WARM]
-    return subprocess.Popen(
-        command, stdin=subprocess.PIPE, env=os.environ | one, **silent
-    )

@@ -16,29 +16,52 @@ ALONE = {"measure.py"}
 
 def serve(address):
     """Run scripts for those who connect; each in a copy of this process, with their files, folder and environment."""
-    import importlib
     import select
+
+    steps = prepare()
+    next(steps)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the copies, and for Snakemake
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for them
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(address)
+        listener.listen(64)
+        wait = 0
+        while 0 not in (ready := select.select([0, listener], [], [], wait)[0]):  # its standard input has not ended
+            if not ready:
+                wait = next(steps, None)
+                continue
+            connection = listener.accept()[0]
+            if os.fork() == 0:
+                listener.close()
+                run(connection)
+            connection.close()
+
+
+def prepare():
+    """Import what all jobs need; then, a step at a time, what many load by themselves, and draw an empty picture."""
+    from importlib import import_module
+    from io import BytesIO
 
     for name in (
         "disc_model.simulation.api",  # first of those that import numba, since it sets the cache's folder
         "disc_model.studies.run",
         "disc_model.data.texts",
         "disc_model.figures.kind",
-        "matplotlib.backends.backend_agg",
-        "matplotlib.backends.backend_pdf",
     ):
-        importlib.import_module(name)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the copies, and for Snakemake
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for them
-    with socket.socket(socket.AF_UNIX) as listener:
-        listener.bind(address)
-        listener.listen(64)
-        while 0 not in select.select([0, listener], [], [])[0]:  # its standard input has not ended
-            connection = listener.accept()[0]
-            if os.fork() == 0:
-                listener.close()
-                run(connection)
-            connection.close()
+        import_module(name)
+    yield 0
+    for name in ("scipy.special", "pint", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"):
+        import_module(name)
+        yield 0
+    from disc_model.figures.drawing import panels, styled
+
+    for form in ("png", "pdf"):
+        with styled():
+            panels(1, 1)[0].savefig(BytesIO(), format=form)
+        yield 0
+    for name in ("cmcrameri.cm", "scipy.signal"):
+        import_module(name)
+        yield 0
 
 
 def run(connection):
