@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -166,7 +165,7 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     rows, withheld = [], []
     for free, bonded in pairs(cases):
         held = in_the_end(course(free.parameters, free["time_reached"]))
-        kept = at_width(course(bonded.parameters, bonded["time_reached"]), held.width)
+        kept = at_width(course(bonded.parameters, bonded["time_reached"], held.width), held.width)
         cycle = float(free.intervals("separation").mean())
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
         rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
@@ -345,9 +344,8 @@ def _waves(angle: Array, most: int) -> Array:
     return np.concatenate([np.ones((1, angle.size)), np.cos(orders), np.sin(orders)])
 
 
-@lru_cache(maxsize=16)
-def course(p: Parameters, until: float) -> tuple[Powers, ...]:
-    """Powers at `STAGES` times of the motion from the static start, up to a time in s."""
+def course(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
+    """Powers at `STAGES` times of the motion from the static start, up to a time in s or beyond a width in m."""
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Window
 
@@ -359,7 +357,9 @@ def course(p: Parameters, until: float) -> tuple[Powers, ...]:
         run = simulate(p, end, windows, initial_state=state).raise_for_status()
         state = run.final_state
         courses.append(powers(p, run.u_0, theta, [*run.samples.values()]))
-    return tuple(courses)
+        if len(courses) > 1 and courses[-1].width > widest:
+            break
+    return courses
 
 
 def in_the_end(courses: Sequence[Powers]) -> Powers:
