@@ -270,22 +270,23 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     if words:
         ax.set_yticks(range(len(words)), labels=words)
     ax.margins(0.03)
-    top, above = 1.03, {"transform": ax.get_xaxis_transform(), "clip_on": False}
+    top = 1.03  # of the next row, as a share of the panel
+    look |= {"transform": ax.get_xaxis_transform(), "clip_on": False}
     for name, gone in drawing.gaps(study, array).items():
         for colour, (_, mask), mark in zip(colours, drawing.slices(gone, by), cycle(MARKS), strict=False):
             if mask.any():
-                ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **above, **look)
+                ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **look)
                 top += 0.05
         if variable == "first_separation" and name == "no value":
             name = f"none within {stated_in(study, 'options')['horizon']:g} s"
-        drawing.say(ax, name, (0, top), (1, 1), xycoords="axes fraction", fontsize=7)
+        drawing.say(ax, name, (0, top - 0.02), (1, 1), xycoords="axes fraction", fontsize=7)
         top += 0.1
 
 
 def name_ends(ax: Axes) -> bool:
     """Write the names of lines beside their right ends, if all end there and apart from each other; else do nothing."""
     low, high = ax.get_ylim()
-    lines = ax.get_legend_handles_labels()[0]
+    lines: list[Any] = ax.get_legend_handles_labels()[0]
     ends = np.array([line.get_ydata()[-1] for line in lines])
     apart = np.diff(np.sort(ends)) / (high - low)
     if len(lines) < 2 or not (apart > 0.05).all() or ax.get_yscale() != "linear":
@@ -326,12 +327,14 @@ class CurvePlot(General):
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)
+            if axes[0].get_yscale() == "linear":  # longer labels that come with the layout would not find room
+                axes[0].locator_params(axis="y", steps=[1, 2, 5, 10])
         drawing.letters(axes)
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
             if labels and not name_ends(ax):
                 # names of more letters do not fit there
                 beside = len(labels) > 4 and max(map(len, labels)) < 25 and not self.panels
-                where = "outside right upper" if beside else "outside lower right"
-                figure.legend(handles, labels, loc=where, ncols=1 if self.by else 2)
+                look: dict[str, Any] = {"loc": "outside right upper" if beside else "outside lower right"}
+                figure.legend(handles, labels, ncols=1 if self.by else 2, **look)
         return figure

@@ -60,10 +60,10 @@ class Campbell(Plot):
             if crossing is None:
                 continue
             of_cycle = flag_names(crossing["crossing_line"]) == "stick_slip"
-            multiple, point = float(crossing["crossing_multiple"]), crossing[["crossing_Omega", "crossing_frequency"]]
+            multiple = float(crossing["crossing_multiple"])
             line = multiple * study["stick_slip_frequency" if of_cycle else "rotation_frequency"]
             top.plot(speeds, line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
-            place = tuple(float(value) for value in point.values())
+            place = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
             top.plot(*place, **DOT)
             name = rf"{multiple:g} ${'f_s' if of_cycle else 'f_Ω'}$"
             drawing.say(top, name, place, (4, -3), fontsize=7, path_effects=drawing.halo())
@@ -71,7 +71,7 @@ class Campbell(Plot):
         for ax in (top, bottom):
             for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
-        low, high = float(np.nanmin(rate)), float(np.nanmax(rate))
+        low, high = (float(end.reduce(rate, initial=0.0)) for end in (np.fmin, np.fmax))
         bottom.set_yscale("symlog", linthresh=LINEAR)
         bottom.yaxis.set_major_formatter("{x:g}")
         bottom.set(ylim=(min(1.3 * low, -LINEAR), max(3 * high, LINEAR)), xlabel=drawing.axis_of("Omega")[0])
@@ -153,14 +153,16 @@ class SlidingModes(Plot):
         largest = study["largest_growth_rate"]
         diverging = (largest > study["mode_growth_rate"].max("mode") + ROUNDING).values
         at_zero = [np.where(diverging, values, np.nan) for values in (0 * largest, largest)]
-        lines = [(name_of(l), mode["frequency"].values, mode["mode_growth_rate"].values) for l, mode in modes_of(study)]
+        lines: list[tuple[Any, ...]] = [
+            (name_of(l), mode["frequency"].values, mode["mode_growth_rate"].values) for l, mode in modes_of(study)
+        ]
         for name, frequency, rate in (*lines, ("0 Hz", *at_zero)):
             grows = np.nan_to_num(rate) > ROUNDING
             for ax, values in ((top, frequency), (bottom, rate)):
                 ax.plot(along, values, ".-", color=GREY, linewidth=THIN, markersize=1.2)
                 ax.plot(along, np.where(grows, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
-            for first, after in drawing.stretches(grows[:-1] & grows[1:]):
-                i = first + int(np.argmax(rate[first : after + 1]))
+            for start, after in drawing.stretches(grows[:-1] & grows[1:]):
+                i = start + int(np.argmax(rate[start : after + 1]))
                 offset = (3, 0) if i == along.size - 1 else (0, 3)
                 drawing.say(bottom, name, (along[i], rate[i]), offset, fontsize=7, path_effects=drawing.halo())
         bottom.axhline(0, color=BLACK, linewidth=0.5)

@@ -244,7 +244,7 @@ class Instants(CasePlot):
         losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
         first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
         scale = scale_of(motion)
-        levels = [share * scale.vmax for share in (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)]
+        levels = [share * (scale.vmax or 0.0) for share in (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)]
         for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
             i = first + j * (last - first) // len(discs)
             mesh = draw_disc(ax, motion, i, scale, levels)

@@ -91,8 +91,8 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
             drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
     for words, corner in {"only as\npublished": (0.53, 0.19), "both": (0.68, 0.62)}.items():
         ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    line = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-    look = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
+    line: dict[str, Any] = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
     ax.annotate("only by\nEq. (17)", (0.27, 0.75), (0.12, 0.68), "axes fraction", "axes fraction", **look)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
