@@ -48,7 +48,7 @@ def mirrored(p: Parameters, search: Callable[[Parameters], Any] = measures.cycle
     return SimpleNamespace(growth_rate=-cycle.growth_rate, stick_fraction=1.0, multipliers=(-1.1 + 0j,))
 
 
-def course(p: Parameters, until: float) -> tuple[Powers, ...]:
+def course(p: Parameters, until: float, widest: float = np.inf) -> tuple[Powers, ...]:
     """Powers in W by the square of the width in mm: separation withholds the surplus of maintained contact."""
     if p.contact == "bilateral":
         return tuple(Powers(1e-3 * x, 2.0 * x**2, 0.0, x**2, x**2) for x in range(1, 9))

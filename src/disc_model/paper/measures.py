@@ -106,22 +106,30 @@ class CaseView:
         return self["Omega"] / (2 * np.pi)
 
     @property
-    def growth(self) -> str:
-        """Growth rate of small disturbances of its cycle, in words."""
-        rate = self.growth_rate
-        return "no stick-slip cycle" if math.isnan(rate) else f"growth {rate_text(rate)}/s"
+    def contact(self) -> str:
+        """For how long contact is kept, in words."""
+        time, end = self["first_separation"], self["time_reached"]
+        return f"contact is kept for {end:g} s" if math.isnan(time) else f"contact is lost at {time:.2f} s"
+
+    @property
+    def fate(self) -> str:
+        """The same, and how disturbances of its cycle grow, as a sentence."""
+        growth = rate_text(self.growth_rate, "/s", "not defined, because there is no quiet cycle")
+        return f"At {self.place}, {self.contact}, and growth is {growth}."
 
     @property
     def motion(self) -> str:
         """Class of the in-plane motion within the stored events, in words."""
         times, motion = self.intervals(), self.late_motion()
         if not motion.period:
-            rate = f"{1 / times.mean():.1f} releases/s"
-            return f"{motion}: {rate}, no period of up to {motion.longest} releases, 0-1 test {motion.chaos:.2f}"
+            return (
+                f"{motion}: there are {1 / times.mean():.1f} releases per second, they have no period of up to "
+                f"{motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f}"
+            )
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
-        return f"periodic, repeats after {after} ({length:.6g} s) to within {motion.closure:.0e} s"
+        return f"periodic: it repeats after {after} ({length:.6g} s), each time within {motion.closure:.0e} s"
 
     @property
     def early(self) -> Range:
@@ -206,11 +214,6 @@ class CaseView:
             return ask(self.node, *args, **options)
         except Missing as reason:
             raise Missing(f"case {self.name} {reason}") from None
-
-    def first_separation(self) -> str:
-        """Time of the first separation in words."""
-        time, end = self["first_separation"], self["time_reached"]
-        return f"no separation in {end:g} s" if math.isnan(time) else f"first separation at {time:.2f} s"
 
     def late_range(self, name: str) -> Range:
         """Range over the last 20 s of the run."""
@@ -323,11 +326,13 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
-    """Cases with separation, each with the case that ignores separation, if there is one."""
+    """Cases with separation, each with the case that ignores separation; raises `Missing` if one has no such case."""
     free = [case for case in cases if not case.bonded]
     bonded = {case.parameters: case for case in cases if case.bonded}
-    wanted = [case.parameters.replace(contact="bilateral") for case in free]
-    return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True) if p in bonded]
+    wanted = {case.name: case.parameters.replace(contact="bilateral") for case in free}
+    if alone := [name for name, p in wanted.items() if p not in bonded]:
+        raise Missing(f"without separation there is no case with the parameters of {', '.join(alone)}")
+    return [(case, bonded[wanted[case.name]]) for case in free]
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -363,13 +368,15 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    parts = [f"does not exist up to {never[-1]:g} N"] if never.size else []
+    scanned = f"(the scan ends at {study['scan_Omega'].values[-1]:g} rad/s)"
+    parts = [f"does not exist up to {never[-1]:g} N {scanned}"] if never.size else []
     parts += [
         f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
-        f"rises to {speeds[top]:.1f} at {loads[top]:g} N",
+        f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
-    parts += [f"then lies at {extent(rest[np.isfinite(rest)]):.1f} up to {loads[-1]:g} N"] if later else []
-    return Falls(True, bool(later), ", ".join(parts))
+    if later:
+        parts += [f"is {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"]
+    return Falls(True, bool(later), f"{', '.join(parts[:-1])}, and {parts[-1]}")
 
 
 def width_ratio(case: CaseView, bonded: CaseView) -> float:

@@ -182,17 +182,10 @@ def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
     early, late = case.early, case.late
     return Answer(
         not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
-        fate=_fate(case),
+        fate=case.fate,
         ranges=(early, late),
         widths=(1e3 * case.disc.width, 1e3 * case.late_range("u").width),
     )
-
-
-def _fate(case: CaseView) -> str:
-    time = case["first_separation"]
-    end = f"contact is kept for {case['time_reached']:g} s" if math.isnan(time) else f"contact is lost at {time:.2f} s"
-    growth = measures.rate_text(case.growth_rate, "/s", "not defined, because there is no quiet cycle")
-    return f"At {case.place} {end}, and growth is {growth}."
 
 
 def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
@@ -210,7 +203,7 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
     ]
     speeds = below["Omega"], above["Omega"]
     verdict = not below.separates and above.separates
-    return Answer(verdict, fates=(_fate(below), _fate(above)), lost=lost, speeds=speeds, until=until)
+    return Answer(verdict, fates=(below.fate, above.fate), lost=lost, speeds=speeds, until=until)
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:

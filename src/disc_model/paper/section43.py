@@ -15,7 +15,7 @@ from disc_model.paper import measures
 from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, listed, mm, published, rate_text
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import moving_load
-from disc_model.paper.section41 import upward
+from disc_model.paper.section41 import _repeats, upward
 from disc_model.parameters import Parameters
 
 __all__ = ["moving_load", "upward"]  # which the texts name as well
@@ -32,24 +32,21 @@ def stays_calm(case: CaseView) -> bool:
     return not case.separates and not GREW * case.early.width < case.late.width
 
 
-def outcome_of(case: CaseView) -> str:
-    """Whether and when it separates, and how disturbances of its cycle grow, in words."""
-    return f"{case.first_separation()}, {case.growth}"
-
-
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float) -> Answer:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
     intervals = case.intervals()
     spread = irregularity(intervals)
     return Answer(
         stays_calm(case) and case.late.width < share * case["N"] and spread <= within,
-        f"{outcome_of(case).capitalize()}. P within {case.late:.2f} N in the end; {1 / intervals.mean():.3f} "
-        f"releases/s with a spread of {spread:.0e}.",
+        fate=case.fate,
+        late=case.late,
+        rate=1 / intervals.mean(),
+        spread=spread,
     )
 
 
 def becomes_unstable(case: CaseView) -> Answer:
-    return Answer(case.separates, f"{outcome_of(case).capitalize()}.")
+    return Answer(case.separates, case.fate)
 
 
 def only_between(*cases: CaseView, largest: float) -> Answer:
@@ -61,11 +58,9 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
     ]
     holds = shown == [True, False, True]
     return Answer(
-        PART if holds and not all(stable) else holds,
-        "; ".join(f"{case['N']:g} N: {outcome_of(case)}" for case in cases) + ".",
-        f"The statement holds up to {largest:g} N, the largest preload of a figure but Fig. 15."
-        if holds and not all(stable)
-        else "",
+        PART if (part := holds and not all(stable)) else holds,
+        " ".join(case.fate for case in cases),
+        f"The statement holds up to {largest:g} N, the largest preload of the paper's figures except Fig. 15." * part,
     )
 
 
@@ -73,13 +68,9 @@ def hardly_moves(large: CaseView, huge: CaseView) -> Answer:
     """Whether the larger of two preloads holds the slider throughout a run."""
     p = huge.parameters
     released = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
-    rows = [
-        f"{case.place}: sticks {100 * case.stick_in_all:.0f} % of {case['time_reached']:g} s" for case in (large, huge)
-    ]
-    return Answer(
-        huge.stick_in_all == 1 and not huge.separates,
-        f"{'; '.join(rows)}. There the spring reaches the limit of friction after {released:.2f} s.",
-    )
+    rows = [(case.place, case.stick_in_all, case["time_reached"]) for case in (large, huge)]
+    verdict = huge.stick_in_all == 1 and not huge.separates
+    return Answer(verdict, rows=rows, released=released, held=600, needed=1e-6 * p.N * 600 / released)
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
@@ -87,15 +78,17 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     times = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
-    rows = "; ".join(f"{speed:g} rad/s: {measures.or_none(times[speed], '.0f', ' s')}" for speed in sorted(times))
+    rows = [f"{times[x]:.0f} s at {x:g} rad/s" for x in sorted(times) if not math.isnan(times[x])]
+    never = [speed for speed in sorted(times) if math.isnan(times[speed])]
     apart = times[printed] <= horizon
     least = min(speed for speed, time in times.items() if not math.isnan(time))
     return Answer(
         PART if apart and lower else apart,
-        f"First separation: {rows}.",
-        f"Within the {horizon:.0f} s that the case of Fig. 17 takes here, {min(lower):g} rad/s separates too, "
-        f"{100 * (1 - min(lower) / printed):.0f} % below the printed speed; within the whole run {least:g} rad/s, "
-        f"{100 * (1 - least / printed):.0f} % below it."
+        f"At {known['N']:g} N contact is first lost after {'; '.join(rows)}. It is not lost at {listed(never, 'g')} "
+        f"rad/s within {cases[0]['time_reached']:g} s.",
+        f"Within the {horizon:.0f} s until the case of Fig. 17 (15 rad/s) separates here, {min(lower):g} rad/s "
+        f"separates too, {100 * (1 - min(lower) / printed):.0f} % below the printed speed. Within the whole run, "
+        f"{least:g} rad/s separates, {100 * (1 - least / printed):.0f} % below it."
         if lower
         else "",
     )
@@ -104,19 +97,19 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
 def undamped_separates_lower(*cases: CaseView) -> Answer:
     undamped, damped = ([case for case in cases if (case["D_star"] == 0) == free] for free in (True, False))
     lowest = [min((case["Omega"] for case in each if case.separates), default=math.inf) for each in (undamped, damped)]
-    rows = [f"D* = {case['D_star']:g}, {case['Omega']:g} rad/s: {case.first_separation()}" for case in cases]
-    return Answer(lowest[0] < lowest[1], f"{'; '.join(rows)}.")
+    rows = [(case["D_star"], case["Omega"], case.contact) for case in cases]
+    return Answer(lowest[0] < lowest[1], rows=rows, N=cases[0]["N"], lowest=lowest)
 
 
 def twice_the_damping(*cases: CaseView) -> Answer:
     stable = [stays_calm(case) for case in cases]
-    rows = [f"{case['Omega']:g} rad/s: {outcome_of(case)}" for case in cases]
-    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, f"{'; '.join(rows)}.")
+    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, " ".join(case.fate for case in cases))
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
-    rows = [f"c_p = {each['c_p']:g} N s/m: {each.first_separation()}" for each in (without, case)]
-    return Answer(not without.separates and case.separates, f"{'; '.join(rows)}. Then {case.motion}.")
+    both = [(each["c_p"], each.contact) for each in (without, case)]
+    verdict = not without.separates and case.separates
+    return Answer(verdict, place=without.place, both=both, motion=case.motion, span=case.kept_span())
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
@@ -127,12 +120,15 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
         before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = growing + int(grows.sum()), lowered + int((grows & (after < before)).sum())
-        raised += [_place(case.parameters, int(i)) for i in np.flatnonzero(after > before)]
+        raised += [
+            f"{_place(case.parameters, int(i))} (a {'growing' if before[i] > 0 else 'stable'} cycle)"
+            for i in np.flatnonzero(after > before)
+        ]
     return Answer(
         growing == lowered > 0,
-        f"Raised from 0 in two equal steps to {values_text({name: 2 * value})}, it lowers growth at {lowered} of "
-        f"{growing} growing cycles.",
-        f"It is higher at {', '.join(raised)}." if raised else "",
+        f"The damping is raised from 0 in two equal steps to {values_text({name: 2 * value})}. Counted over both "
+        f"steps, it lowers growth at {lowered} of {growing} growing cycles.",
+        f"Growth is higher with more damping at {'; '.join(raised)}." * bool(raised),
     )
 
 
@@ -165,8 +161,9 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     rank, part = float(np.median(ranks)), float(np.mean(falls))
     return Answer(
         TRUE if part == 1 else PART if rank <= -trend else FALSE,
-        f"On the map at {facts(study)['N']:g} N, growth falls in {100 * part:.0f} % of the steps of {name}; the "
-        f"median rank correlation of growth with {name} is {rank:.2f}.",
+        f"On the map of {name} and speed at {facts(study)['N']:g} N, growth falls in {100 * part:.0f} % of the steps "
+        f"to the next larger {name}. The median over the speeds of the rank correlation between growth and {name} is "
+        f"{rank:.2f}.",
     )
 
 
@@ -175,15 +172,16 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     count = int(case["time_reached"] / (4 * STRETCH))
     if not count:
         if case.separates:  # where it was to be stopped
-            return Answer(FALSE, f"{outcome_of(case).capitalize()}.")
+            return Answer(FALSE, case.fate)
         raise Missing(f"case {case.name} ends at {case['time_reached']:g} s, {4 * STRETCH:g} s are needed")
     widths = case.last_widths("P", STRETCH, 2 * count)
     last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     return Answer(
         PART if holds and cause else holds,
-        f"{outcome_of(case).capitalize()}. The range of P is {case.early.width:.1f} N at first, {before:.1f} and "
-        f"{last:.1f} N in the last quarters, {max(widths):.0f} N at most.",
+        f"{case.fate} The range of the contact force is {case.early.width:.1f} N between 1 and 21 s. The median of its "
+        f"ranges in stretches of 20 s is {before:.1f} N in the third quarter of the run and {last:.1f} N in the last. "
+        f"The largest of these ranges is {max(widths):.0f} N.",
     )
 
 
@@ -191,7 +189,8 @@ def is_kind(case: CaseView, *, kind: str) -> Answer:
     motion = case.late_motion()
     if motion.kind is Outcome.UNDECIDED:
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    return Answer(motion.kind == kind, f"The releases are {case.motion}.")
+    span = case.kept_span()
+    return Answer(motion.kind == kind, f"From {span:g} s, the motion at {case.place} is {case.motion}.")
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:
@@ -204,9 +203,10 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
     stated = facts(study)
     return Answer(
         PART if holds and returns else holds,
-        f"{'; '.join(f'{case.place}: {case.first_separation()}' for case in cases)}.",
-        f"On the map at {stated['N']:g} N, a spring separates within {stated['horizon']:g} s and a softer one does not "
-        f"at {listed(returns, '.4g')} rad/s."
+        " ".join(f"With k = {1e-3 * case['k']:g} kN/m, {case.contact}." for case in cases)
+        + f" All these cases have {measures.place(cases[0]['N'], cases[0]['Omega'])}.",
+        f"On the map at {stated['N']:g} N, some spring separates within {stated['horizon']:g} s, but a softer one does "
+        f"not, at speeds of {listed(returns, '.4g')} rad/s."
         if returns
         else "",
     )
@@ -222,8 +222,9 @@ def stiff_enough(case: CaseView) -> Answer:
     others = [f"{N:g} N and {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
     return Answer(
         PART if calm and stable and unstable else calm and not unstable,
-        f"At {case.place}: {outcome_of(case)}. Stable at {stable} of {len(points)} loads and speeds.",
-        f"Not at {'; '.join(others)}." if others else "",
+        f"{case.fate} With this stiffness the motion is stable at {stable} of {len(points)} combinations of preload "
+        "and speed.",
+        f"It is unstable at {'; '.join(others)}." if others else "",
     )
 
 
@@ -240,16 +241,19 @@ def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
     motion = case.late_motion()
     return Answer(
         graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
-        f"{case.first_separation().capitalize()}. {points} of the last {last:g} points of the disc's section differ. "
-        f"The slider's releases are {case.motion}.",
-        f"With k 0.1 % larger they are {near.late_motion()}.",
+        fate=case.fate,
+        points=points,
+        motion=case.motion,
+        near=_repeats(near.late_motion(), "release"),
     )
 
 
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
-    rows = [f"k_p = {1e-3 * case['k_p']:g} kN/m: {outcome_of(case)}" for case in (soft, base)]
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    return Answer(graded([sooner, base.growth_rate > soft.growth_rate]), f"{'; '.join(rows)}.")
+    return Answer(
+        graded([sooner, base.growth_rate > soft.growth_rate]),
+        f"{soft.fate} {base.fate} This case has k_p = {1e-3 * base['k_p']:g} kN/m.",
+    )
 
 
 def lowest_position(case: CaseView, *, share: float) -> Answer:
@@ -266,9 +270,11 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     return Answer(
         location.kind == "at the lowest position" and above <= share,
-        f"Contact is lost in {starts.size} of {swings} swings, at {1e3 * (where - case['u_0']):.1f} mm, "
-        f"{100 * location.height:.0f} % of the swing above its lowest point, at {speed:+.2f} m/s. The lowest point of "
-        f"all is at {1e3 * height.min():.1f} mm.",
+        place=case.place,
+        counts=(starts.size, swings),
+        heights=(where - case["u_0"], height.min()),
+        part=location.height,
+        speed=speed,
     )
 
 
@@ -283,27 +289,28 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
     lost, every = measures.extent(1e3 * w[apart]), measures.extent(1e3 * w)
     return Answer(
         FALSE if lost.high <= every.low + share * every.width else PART,
-        f"In the section of Fig. 23 the points in separation lie at {lost:.1f} mm, of {every:.1f} mm. A section at the "
-        "loss of contact, as in the row before, is a Poincaré map as well, and shows it.",
+        lost=lost,
+        every=every,
     )
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
     """Whether no range grows on after separation."""
     widths = [case.last_quarters("w_point") for case in cases]
-    rows = [f"{case.place}: {mm(late)}" for case, (late, _) in zip(cases, widths, strict=True)]
+    rows = [f"{mm(late)} at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)]
     most = max(late for late, _ in widths) / cases[0]["h"]
     return Answer(
         graded(late <= factor * before for late, before in widths),
-        f"Range of the disc: {'; '.join(rows)}. That is up to {most:.0f} times its thickness.",
+        f"In the last quarter of the time after the first separation, the range of the disc is {'; '.join(rows)}. At "
+        f"most it is {most:.0f} times the thickness of the disc.",
     )
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
-    begun = {True: "", False: ", begun in a separated motion"}
-    rows = [f"{case.place}{begun[case.from_rest]}: {100 * case.stick:.1f} %" for case in cases]
-    return Answer(vanishes, f"Share of time in stick, long after the first separation: {'; '.join(rows)}.")
+    begun = [[f"{100 * x.stick:.1f} % at {x.place}" for x in cases if x.from_rest == rest] for rest in (True, False)]
+    spans = sorted({f"{case['time_reached'] - case.kept_span().low:g}" for case in cases}, key=float)
+    return Answer(vanishes, begun=begun, spans=" to ".join([spans[0], *spans[1:][-1:]]))
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
@@ -314,9 +321,12 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     never = loads[quiet & ~apart[:, 1:].any(axis=1)]
     return Answer(
         bool(newly.size) and not (never > newly[-1]).any(),
-        f"At {facts(study)['Omega']:g} rad/s, within {facts(study)['horizon']:g} s, c_p = {c_p:g} N s/m brings "
-        f"separation at {listed(newly, '.0f', 'none')} N, of {measures.extent(loads):g} N. No damper of up to "
-        f"{damping[-1]:g} N s/m does at {listed(never[never > 300], '.0f')} N above 300 N.",
+        stated=facts(study),
+        loads=measures.extent(loads),
+        newly=listed(newly, ".0f", "no preload:"),
+        c_p=c_p,
+        most=damping[-1],
+        never=listed(never[never > 300], ".0f"),
     )
 
 
@@ -343,5 +353,5 @@ def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
     """The same in words."""
     _, symbol, values = STIFFENED[name]
     by_speed = stiffened(p, name, *speeds).items()
-    rows = [f"at {speed:g} rad/s {', '.join(map(rate_text, rates))}" for speed, rates in by_speed]
-    return f"{'; '.join(rows)} per second for {name} = {', '.join(map(str, values))} {symbol}"
+    rows = [f"{', '.join(map(rate_text, rates))} per second at {speed:g} rad/s" for speed, rates in by_speed]
+    return f"for {name} = {', '.join(map(str, values))} {symbol}, in this order, growth is {', and '.join(rows)}"

@@ -11,12 +11,12 @@ from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, CaseView, facts, listed, mm, pairs, published, sliding_growth
+from disc_model.paper.measures import HIGH, LOW, CaseView, facts, listed, pairs, published, sliding_growth
 from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.paper.section2 import BASE, attached_frequencies
 from disc_model.paper.section41 import both_at_low_speed, smaller_range
-from disc_model.paper.section43 import _map, damping_stabilises, outcome_of, soft_disc, stiffened, stiffened_text
+from disc_model.paper.section43 import _map, damping_stabilises, soft_disc, stiffened, stiffened_text
 
 # which the texts name as well
 __all__ = ["attached_frequencies", "both_at_low_speed", "damping_stabilises", "smaller_range", "soft_disc"]
@@ -28,8 +28,9 @@ def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answe
     off = abs(case["first_separation"] - printed)
     return Answer(
         off <= within,
-        f"{case.first_separation().capitalize()}. The paper has {printed:g} s"
-        + (f": {off:.2f} s or {100 * off / printed:.2f} % away." if case.separates else "."),
+        f"{case.contact.capitalize()}, where the paper has {printed:g} s. "
+        + f"The difference is {off:.2f} s or {100 * off / printed:.2f} %. " * case.separates
+        + f"The case has {case.place}.",
     )
 
 
@@ -38,8 +39,8 @@ def rest_late(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     moved = [_drift(each) for each in (case, bonded)]
     return Answer(
         PART if moved[0] <= within else TRUE,
-        f"While the vibration grows lines move. From 100 to 110 s the lines of {case.place} move by {moved[0]:.0e} Hz "
-        "at most, so that the usual spectrum is sharp.",
+        f"At {case.place}, spectral lines drift while the vibration grows. From 100 to 110 s, long after the first "
+        f"separation at {case['first_separation']:.2f} s, they drift by at most {moved[0]:.0e} Hz.",
     )
 
 
@@ -54,8 +55,8 @@ def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -
     """Whether lines come to rest, and not without separation."""
     drift, other = _drift(case), _drift(bonded)
     verdict = FALSE if drift > within else PART if other <= within else TRUE
-    text = f"From 100 to 110 s lines move by {drift:.0e} Hz at most with separation, and by {other:.0e} Hz without."
-    return Answer(verdict, text)
+    text = f"At {case.place}, lines drift from 100 to 110 s by at most {drift:.0e} Hz with separation"
+    return Answer(verdict, f"{text}, and by at most {other:.0e} Hz without.")
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
@@ -72,41 +73,50 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     rows = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
     return Answer(
         off.max() <= bound and chance * len(lines) <= 1e-3,
-        f"{rows} Hz, with f_s = {stick_slip_rate(case):.2f} Hz: {off.max():.2f} Hz away at most. {named} of "
-        f"{len(lines)} are combinations of the stick-slip rate and the drive's frequency.",
-        f"As strong as the weakest of them, but not in the table: {listed(others)} Hz." if others else "",
+        f"At {case.place} from 0 to 10 s, the {len(lines)} lines differ from the printed ones by at most "
+        f"{off.max():.2f} Hz. {named} "
+        "of them are combinations of the stick-slip rate, or number of releases per second, "
+        f"f_s = {stick_slip_rate(case):.2f} Hz and the drive's frequency f_Ω. The lines lie at {rows} Hz.",
+        f"Lines at {listed(others)} Hz are as strong as the weakest of these, but are not in Table 2." * bool(others),
     )
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
-    rows, off, away = [], [], []
+    rows, off = [], []
+    away: list[float] = []
+    drives: list[float] = []
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
         off += [_from_combination(case, line, rate) for line in lines]
         natural = natural_frequencies(case)
-        away += [float(np.min(np.abs(natural - line.frequency))) / case.drive for line in lines]
-        stated = f"k_p = {1e-3 * case['k_p']:g} kN/m, Ω = {case['Omega']:g} rad/s"
-        rows.append(f"{stated}, f_s = {rate:.2f} Hz: {listed((line.frequency for line in lines), '.1f')} Hz")
+        far = [float(np.min(np.abs(natural - line.frequency))) for line in lines]
+        away += far
+        drives += [each / case.drive for each in far]
+        stated = f"with k_p = {1e-3 * case['k_p']:g} kN/m at {measures.place(case['N'], case['Omega'])}"
+        shown = listed((line.frequency for line in lines), ".1f")
+        rows.append(f"The six strongest lines {stated}, where f_s = {rate:.2f} Hz, lie at {shown} Hz.")
     combined = [each <= within for each in off]
     return Answer(
-        max(away) <= 4 and not any(combined),
-        f"The lines follow the stick-slip rate f_s: with other in-plane springs and speeds, too, {sum(combined)} of "
-        f"{len(combined)} lie within {max(off):.2f} Hz of n f_s + m f_Ω. Natural frequencies do not change, and are up "
-        f"to {max(away) * cases[0].drive:.0f} Hz away.",
-        f"{'; '.join(rows)}.",
+        max(drives) <= 4 and not any(combined),
+        "The lines follow the stick-slip rate f_s when the in-plane spring or the speed is changed. "
+        f"{sum(combined)} of {len(combined)} lines lie within {max(off):.2f} Hz of n f_s + m f_Ω, where n and m are "
+        "integers and f_Ω is the drive's frequency. The natural frequencies do not change, and the lines are up to "
+        f"{max(away):.0f} Hz away from the nearest of them.",
+        *rows,
     )
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
     rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
-    slower = f"It is the rate of stick and slip. Sticking makes it slower than the spring's own {free:.2f} Hz."
+    slower = f"Sticking makes f_s lower than the frequency of the slider on its in-plane spring, {free:.2f} Hz."
     pair, holds = table_2(case).iloc[1:3], abs(rate - printed) <= within
     return Answer(
         graded([[*pair["ours_is"]] == ["f_s − f_Ω", "f_s + f_Ω"], holds]),
-        f"The lines at {listed(pair['ours_Hz'], '.2f')} Hz are {' and '.join(pair['ours_is'])}: the in-plane "
-        f"vibration, split by the rotation. The slider vibrates at f_s = {rate:.2f} Hz.",
+        f"The lines at {' and '.join(f'{x:.2f}' for x in pair['ours_Hz'])} Hz are {' and '.join(pair['ours_is'])}. "
+        f"They come from the in-plane vibration, whose frequency is f_s = {rate:.2f} Hz, and which the rotation with "
+        f"the drive's frequency f_Ω = {case.drive:.2f} Hz splits. The case has {case.place}.",
         "" if holds else slower,
     )
 
@@ -115,13 +125,12 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
     far = np.abs(nearest - computed) > within
-    rows = ", ".join(f"{f:.1f} ({n:.1f})" for f, n in zip(computed, nearest, strict=True))
+    rows = ", ".join(f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True))
     return Answer(
         TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE,
-        f"{rows} Hz, in brackets the nearest natural frequency: {far.sum()} of {far.size} are more than {within:g} Hz "
-        "away.",
-        f"Twice the stick-slip rate is {2 * stick_slip_rate(case):.2f} Hz, near the coupled mode at {natural[0]:.2f} "
-        "Hz."
+        f"{far.sum()} of {far.size} lines are more than {within:g} Hz away from the nearest natural frequency at "
+        f"{case.place}. The lines, with this natural frequency in brackets, are {rows}.",
+        f"Twice the stick-slip rate is {2 * stick_slip_rate(case):.2f} Hz. The coupled mode has {natural[0]:.2f} Hz."
         if 0 < far.sum() < far.size
         else "",
     )
@@ -141,11 +150,14 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
             for each in (case, bonded)
         )
         rises.append([after > max(factor * before, floor), control > max(factor * ignored, floor)])
-        rows.append(f"{case.place}: {before:.1e} before, {after:.1e} after; without separation {control:.1e} then")
+        rows.append(
+            f"At {case.place} it is {before:.1e} from {low:g} s to the first separation at {first:.2f} s, and "
+            f"{after:.1e} from there to {high:g} s. Without separation it is {control:.1e} in the later window."
+        )
     rise, alone = zip(*rises, strict=True)
     return Answer(
         FALSE if not all(rise) else PART if any(alone) else TRUE,
-        f"Power above {HIGH:g} Hz, of that above {LOW:g} Hz. {'. '.join(rows)}.",
+        f"What is compared is the share of the power above {LOW:g} Hz that lies above {HIGH:g} Hz. {' '.join(rows)}",
     )
 
 
@@ -153,11 +165,8 @@ def fuzz_goes(*pair: CaseView, share: float) -> Answer:
     """Whether lines fill less of the spectrum of the disc later; the control without separation is told."""
     filled = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
     (before, after), (ignored, control) = filled
-    return Answer(
-        after < share * before,
-        f"Lines fill {100 * before:.1f} % of 20 to 300 Hz from 38 to 48 s, and {100 * after:.1f} % from 100 to 110 s. "
-        f"Without separation they fill {100 * ignored:.1f} % and {100 * control:.1f} %.",
-    )
+    each = before, after, ignored, control
+    return Answer(after < share * before, place=pair[0].place, filled=each)
 
 
 def explained_by_slider(*pair: CaseView, share: float) -> Answer:
@@ -169,19 +178,15 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
         [case.signal(window, begin, begin + length, "psi").filled for window, begin in begins] for case in pair
     )
     cleared, alike = after < share * before, min(control, late) < share * ignored
-    return Answer(
-        PART if cleared and alike else cleared,
-        f"Lines of ψ fill {100 * before:.1f} % of 20 to 300 Hz before the first separation and {100 * after:.1f} % "
-        f"after it. Without separation they fill {100 * ignored:.1f} and {100 * control:.1f} % then, and "
-        f"{100 * late:.1f} % from 100 s on.",
-    )
+    filled = before, after, ignored, control, late
+    return Answer(PART if cleared and alike else cleared, place=pair[0].place, length=length, filled=filled)
 
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
     return Answer(
         case.late_motion().period > 0,
-        f"The motion is {case.motion}.",
-        f"Without separation it is {bonded.motion}." if bonded.late_motion().period else "",
+        f"At {case.place}, from {case.kept_span():g} s, the motion is {case.motion}.",
+        f"Without separation the motion is {bonded.motion}." if bonded.late_motion().period else "",
     )
 
 
@@ -194,22 +199,17 @@ def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
     peak = int(np.argmax(rates))
     slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
     last = case.slope("w_point", first - 3, first)
-    return Answer(
-        sharp > max(factor * slow, least) and last < sharp,
-        f"Growth of the range: {slow:.4f}/s over the first half, {sharp:.3f}/s at {starts[peak] + 2.5:.0f} s, "
-        f"{last:.3f}/s just before separation, {case.slope('w_point', end - 20, np.inf):z.4f}/s in the end.",
-    )
+    rates_told = slow, sharp, last, case.slope("w_point", end - 20, np.inf)
+    verdict = sharp > max(factor * slow, least) and last < sharp
+    return Answer(verdict, place=case.place, rates=rates_told, when=starts[peak] + 2.5, first=first)
 
 
 def fuzz_stays(*pair: CaseView, share: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
     (before, after), (ignored, control) = ([case.signal(*span).filled for span in spans] for case in pair)
-    return Answer(
-        after >= share * before,
-        f"Lines fill {100 * before:.0f} % of 20 to 300 Hz before the first separation and {100 * after:.0f} % after "
-        f"it; without separation {100 * ignored:.0f} and {100 * control:.0f} %.",
-    )
+    filled = before, after, ignored, control
+    return Answer(after >= share * before, place=pair[0].place, filled=filled, first=first)
 
 
 def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
@@ -218,12 +218,8 @@ def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
     first, last = (case.signal(*span).power_above(omega / (2 * np.pi)) for span in spans)
     quiet = max(first, last) < share
     right = abs(omega - printed) <= 0.01
-    return Answer(
-        TRUE if quiet and right else PART if quiet else FALSE,
-        f"Power above the highest natural frequency, of that above {LOW:g} Hz: {first:.0e} from 465 to 475 s, "
-        f"{last:.0e} from 1490 to 1500 s. That frequency is {omega:.1f} rad/s for this disc; {printed:g} rad/s "
-        "belongs to 150 GPa.",
-    )
+    verdict = TRUE if quiet and right else PART if quiet else FALSE
+    return Answer(verdict, place=case.place, shares=(first, last), omega=omega, base=BASE.E)
 
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
@@ -231,11 +227,8 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
     made = [line for line in lines if _from_combination(case, line, rate) <= COMBINED]
     theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, lines))
-    return Answer(
-        theirs / power > share,
-        f"{case.place}, 0 to 10 s: {len(made)} of {len(lines)} lines above {LOW:g} Hz, with "
-        f"{100 * theirs / power:.0f} % of their power, are n f_s + m f_Ω with f_s = {rate:.2f} Hz.",
-    )
+    part, counts = theirs / power, (len(made), len(lines))
+    return Answer(part > share, place=case.place, counts=counts, rate=rate, drive=case.drive, part=part)
 
 
 def natural_frequencies(case: CaseView) -> measures.Array:
@@ -254,10 +247,10 @@ def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
-    rows = [f"{case.place}: {case.first_separation()}" for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
-    most = f"{max(smooth):.0e}/s" if any(smooth) else "0, that of the undamped in-plane mode"
-    return Answer(apart, f"{'; '.join(rows)}. Without friction the largest growth rate is {most}.")
+    rows = [f"At {case.place}, {case.contact}." for case in cases]
+    most = f"{max(smooth):.0e}/s" if any(smooth) else "0, which is that of the undamped in-plane mode"
+    return Answer(apart, " ".join([*rows, f"Without friction, the largest growth rate of steady sliding is {most}."]))
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:
@@ -266,11 +259,8 @@ def very_different(*cases: CaseView, factor: float) -> Answer:
         shares = case.stick, bonded.stick
         narrow = measures.width_ratio(case, bonded) * factor <= 1
         differ.append(narrow and max(shares) >= factor * min(shares))
-        rows.append(
-            f"{case.place}: sticks {100 * shares[0]:.1f} instead of {100 * shares[1]:.1f} % of the time, and the range "
-            f"of the disc is {mm(case.disc.width)} instead of {mm(bonded.disc.width)}"
-        )
-    return Answer(any(differ), f"With separation instead of without: {'; '.join(rows)}.")
+        rows.append((case.place, *shares, case.disc.width, bonded.disc.width))
+    return Answer(any(differ), rows=rows)
 
 
 def not_monotonous(*evidence: Any) -> Answer:
@@ -284,15 +274,17 @@ def not_monotonous(*evidence: Any) -> Answer:
     p = cases[0].parameters.replace(N=300)
     rates = stiffened(p, "k_p", 50)[50]
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
-    preloads = "; ".join(f"{case['N']:g} N: {outcome_of(case)}" for case in cases)
+    p_text = " ".join(case.fate for case in cases)
     return Answer(
         [case.separates for case in cases] == [False, True, False]
         and newly.any()
         and lowered.any()
         and {-1, 1} <= signs,
-        f"Preload at {cases[0]['Omega']:g} rad/s: {preloads}. In-plane damping of up to {damping[-1]:g} N s/m brings "
-        f"separation at {listed(loads[newly], '.0f')} N and lowers growth at {lowered.sum()} of {growing.sum()} "
-        f"preloads with a growing cycle. In-plane stiffness at 300 N: growth {stiffened_text(p, 'k_p', 50)}.",
+        f"Preload acts both ways. {p_text} In-plane damping acts both ways, too. On a map at "
+        f"{facts(study)['Omega']:g} rad/s, some damper of up to {damping[-1]:g} N s/m brings separation at "
+        f"{listed(loads[newly], '.0f')} N, but the largest damper lowers growth at {lowered.sum()} of {growing.sum()} "
+        f"preloads with a growing cycle. In-plane stiffness acts both ways as well. At {p.N:g} N, "
+        f"{stiffened_text(p, 'k_p', 50)}.",
     )
 
 
@@ -306,10 +298,10 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
     lower = int((both & (growth[:, -1] < growth[:, 0])).sum())
     return Answer(
         bool(large.size),
-        f"At {facts(study)['Omega']:g} rad/s, some damper of up to {damping[-1]:g} N s/m brings separation at "
-        f"{listed(large, '.0f', 'no')} N.",
-        f"Elsewhere it damps: growth is lower at {lower} of {both.sum()} preloads with a cycle both without and with "
-        "it.",
+        f"On a map at {facts(study)['Omega']:g} rad/s, some in-plane damper of up to {damping[-1]:g} N s/m brings "
+        f"separation at {listed(large, '.0f', 'no')} N.",
+        f"At {both.sum()} preloads there is a cycle without a damper and with one of {damping[-1]:g} N s/m. With it, "
+        f"growth is lower at {lower} of them.",
     )
 
 
@@ -318,7 +310,7 @@ def stiffer_inplane(case: CaseView) -> Answer:
     results = stiffened(case.parameters, "k_p", 20, 50).values()
     known = [rates[np.isfinite(rates)] for rates in results]
     rising = [bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0)) for rates in known]
-    return Answer(all(rising), f"At {case['N']:g} N growth is {stiffened_text(case.parameters, 'k_p', 20, 50)}.")
+    return Answer(all(rising), f"At {case['N']:g} N, {stiffened_text(case.parameters, 'k_p', 20, 50)}.")
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -331,10 +323,10 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     at_slow = apart[E <= BASE.E / 1e9][:, Omega == slow]
     return Answer(
         bool(quiet.size) and bool(some.any()) and not softer.size,
-        f"At {stated['N']:g} N, within {stated['horizon']:g} s, {listed(quiet, '.4g', 'no')} GPa separate at no "
-        "speed of the map. " + (f"Softer discs do: {listed(softer, '.4g')} GPa." if softer.size else ""),
-        f"At the {slow:g} rad/s of Fig. 21 the base disc does not separate either, so that figure shows nothing about "
-        "softness."
+        f"At {stated['N']:g} N, within {stated['horizon']:g} s, discs of {listed(quiet, '.4g', 'no')} GPa separate at "
+        "no speed of the map. " + (f"Softer discs of {listed(softer, '.4g')} GPa do." if softer.size else ""),
+        f"At {slow:g} rad/s, the speed of Fig. 21, no disc of up to {1e-9 * BASE.E:g} GPa separates, so this figure "
+        "shows nothing about softness."
         if at_slow.size and not at_slow.any()
         else "",
     )
@@ -351,24 +343,21 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         follows.append(rise / of_mode)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
-        rows.append(
-            f"{pair[0].place} {rates[0]:.2f} times a second; the mode in which it moves with the disc has "
-            f"{modes[0]:.2f} Hz"
-        )
+        rows.append(f"At {pair[0].place} the slider leaves the disc {rates[0]:.2f} times per second.")
     p = cases[0].parameters
     free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
     level = max(_level(case, free) for case in cases[::2])
     by_mode = all(abs(each - 1) <= within for each in follows)
     return Answer(
         AMBIGUOUS if by_mode else all(abs(each - 1) <= within for each in alone),
-        f"Only the vertical branch is judged. The slider leaves the disc at {'. At '.join(rows)}. At sqrt(k/m) = "
-        f"{free:.1f} Hz there is no line.",
-        f"With k 0.1 % larger the rate rises by {listed(follows, '.3f')} of what that mode's frequency does. The "
-        f"spring has {100 * spring:.0f} % of the stiffness of the mode. At {free:.1f} Hz the disc's spectrum has "
-        f"{level:.0e} of its strongest line or less.",
-        "If the branch is this mode, the sentence is true. If it is the slider on its spring alone, it is false."
-        if by_mode
-        else "",
+        f"{' '.join(rows)} The coupled mode has {modes[0]:.2f} Hz. At the frequency of the slider on its vertical "
+        f"spring alone, sqrt(k/m) = {free:.1f} Hz, the disc's spectrum has no line.",
+        f"If k is 0.1 % larger, the rate of separations rises by {' and '.join(f'{x:.3f}' for x in follows)} of the "
+        f"rise of the coupled mode's frequency in these cases. The spring provides {100 * spring:.0f} % of the "
+        f"stiffness of this mode. At {free:.1f} Hz the amplitude of the disc is at most {level:.0e} of that of "
+        "the strongest line.",
+        "If the vertical branch is the coupled mode, the sentence is true. If it is the slider on its spring alone, "
+        "the sentence is false." * by_mode,
     )
 
 
