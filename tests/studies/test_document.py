@@ -48,7 +48,8 @@ GRID = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes":
 def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
     wrong = [(raw, words) for raw, words in STUDIES if re.search("unknown|required|mapping|axes.mus", words)]
     assert len(wrong) > 4
-    known = {"axes.Omega required"}  # or a zip, or base
+    known = {"axes.Omega required", "axes required one axis"}  # or a zip, or base
+    known |= {"figures.f.overlays.sliding required"}  # of that kind
     known |= {"figures.f.overlays.growth unknown", "figures.f.at.k required by"}  # of that kind, and variable
     assert {words for raw, words in wrong if CHECK.is_valid(raw)} == known
 

@@ -19,84 +19,15 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.study import StudyError, check_targets, closing_lines, parse_study, read_yaml
+from disc_model.studies.study import StudyError, check_owner, check_targets, closing_lines, parse_study, read_yaml
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
-GRID: dict[str, Any] = {"study": "s", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200}}
-GRID |= {"axes": {"Omega": [10, 20], "k": [4e4, 5e4]}}
-SAMPLED = {"quantity": "sensitivity", "base": {"Omega": 15}, "axes": {"N": [200]}}
-WINDOWS = {"windows": {"late": {"rate": 100}}}
-CASE: dict[str, Any] = {"title": "", "t_end": 1, "parameters": {"N": 1, "Omega": 1}, "record": WINDOWS}
-MAP = {"kind": "heat_map", "variable": "outcome", "x": "Omega", "y": "k"}
-
-LINE = {"kind": "curve", "variable": "outcome", "x": "Omega"}
-
-
-def axes(**others: Any) -> dict[str, Any]:
-    return {"axes": {"Omega": [10, 20], **others}}
-
-
-def sampled(name: str, low: float, high: float) -> dict[str, Any]:
-    distribution = {"distribution": "uniform", "low": low, "high": high, "relative": True}
-    return SAMPLED | {"options": {"distributions": {name: distribution}, "samples": 8}}
-
-
-def figure(**changes: Any) -> dict[str, Any]:
-    return {"figures": {"f": MAP | changes}}
-
-
-GRIDS: list[tuple[dict[str, Any], str]] = [
-    ({"study": "1s"}, "study '1s' letters"),
-    ({"quantity": "flocet"}, "quantity 'flocet' unknown floquet"),
-    ({"options": {"horizon": 2, "evaluation_time": 3}}, "options evaluation_time <= horizon"),
-    ({"base": {"N": "200,5"}}, "base.N '200,5' decimal point"),
-    ({"base": {"N": 200, "E": "150 kg"}}, "base.E '150 kg' Pa"),
-    ({"base": {"N": 200, "k": 5e4}}, "base.k 50000 axis not both"),
-    ({"axes": {"k": [1]}}, "axes.Omega required"),
-    (axes(mus=[1]), "axes.mus mu_s"),
-    (axes(mu_k=[1.0]), "axes.mu_k 1 <= mu_s"),
-    (axes(a=[0.01, 0.06], r_0=[0.05, 0.1]), "axes.a 0.06 r_0 where"),
-    (axes(c={"start": 0, "stop": 1, "step": 0.3}), "axes.c multiple step"),
-    (axes(disc=["no.csv"]), "axes.disc 'no.csv' table"),
-    ({"zip": {"c": [1], "c_p": [1, 2]}}, "zip equal length"),
-    ({"where": "__import__('os').system('true') == 0"}, "where compare mu_k <= mu_s"),
-    (sampled("normalization", 0.9, 1.1), "options.distributions.normalization number"),
-    (figure(y="E"), "figures.f.y 'E' dimension Omega"),
-    ({"figures": {"f": {"kind": "critical_speed"}}}, "figures.f.kind 'critical_speed' quantity"),
-    ({"base": {"N": 200, "mu_k": 0.1, "mu_k_over_mu_s": 0.5}}, "base.mu_k_over_mu_s mu_k"),
-    ({"base": {"N": 200, "n_diameters": "auto", "n_circles": 1}}, "base.n_circles"),
-    (
-        {"quantity": "branches", "options": {"scan": {"start": 1, "stop": 2, "count": 2}, "dwell": 60}},
-        "axes.Omega varied",
-    ),
-    ({"quantity": "regions"} | {"batch": {"over": ["k"]}}, "batch.over plane"),
-    ({"quantity": "floquet", "options": {}} | axes(perturbation_u=[1e-3]), "axes.perturbation_u no motion"),
-    (axes(c={"start": 0, "stop": 1, "count": 3, "scale": "log"}), "axes.c logarithmic > 0"),
-    (axes(c={"start": 0, "stop": 1, "count": 9000}, k={"start": 1, "stop": 2, "count": 9000}), "axes points 162000000"),
-    (axes(n_diameters=["auto"]), "axes.n_diameters 'auto' base"),
-    ({"batch": {"over": ["c"]}}, "batch.over 'c' Omega k"),
-    (sampled("k", -0.1, 1.1), "options.distributions.k -5000 >= 0"),
-    (figure(units={"speed": "rpm"}), "figures.f.units.speed unit"),
-    (figure(at={"k": 4e4}), "figures.f.at.k no dimension remains"),
-    ({"figures": {"f": {"kind": "curve", "variable": "outcome", "x": "Omega"}}}, "figures.f.at.k required by"),
-    ({"figures": {"f": LINE | {"by": "k"}}} | axes(k={"start": 1, "stop": 2, "count": 60}), "figures.f.by 60 values"),
-    ({"figures": {"f": LINE | {"by": "k", "panels": [[4e4, 6e4]]}}}, "figures.f.panels 60000 value by"),
-    ({"figures": {"f": LINE | {"x": "k"}}} | axes(k=[1]), "figures.f.x two values"),
-    (figure(overlays={"growth": "s"}), "figures.f.overlays.growth unknown"),
+FAULTS = yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text(encoding="utf-8"))
+GRID, CASE = FAULTS["grid"], FAULTS["case"]
+STUDIES = [
+    (whole | change, words) for whole, name in ((GRID, "grids"), (CASE, "cases")) for change, words in FAULTS[name]
 ]
-CASES: list[tuple[dict[str, Any], str]] = [
-    ({"cases": {"A": CASE | {"parameters": {"N": -5, "Omega": 1}}}}, "cases.A.parameters.N -5 >= 0"),
-    ({"cases": {"A": CASE | {"record": {"events": {"start": 2}}}}}, "cases.A.record.events within run"),
-    ({"figures": ["fig99"]}, "figures mapping"),
-    ({"figures": {"f": {"kind": "history", "case": "A", "window": "all"}}}, "figures.f.window 'all' late"),
-    ({"cases": {"A": 3}}, "cases.A 3 mapping"),
-    ({"cases": {"A": CASE | {"parameters": {"N": 1, "Omega": 1, "mu_k": 2}}}}, "cases.A.parameters.mu_k 2 <="),
-    ({"cases": {"status": CASE}}, "cases.status name"),
-    ({"figures": {"f": {"kind": "history", "case": "B", "window": "late"}}}, "figures.f.case 'B' A"),
-]
-STUDIES = [(GRID | change, words) for change, words in GRIDS]
-STUDIES += [({"study": "s", "cases": {"A": CASE}, **change}, words) for change, words in CASES]
 STUDIES.append(({"study": "s"}, "study what compute"))
 BAD_TABLE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,3\n2,-1,3\n"
 
@@ -112,20 +43,12 @@ def test_a_fault_of_a_study_is_named(raw: dict[str, Any], words: str) -> None:
 
 
 def test_the_faults_of_a_study_come_in_one_error() -> None:
-    faults = faults_of(parse_study, GRID | {"base": {"N": -1, "m": "x", "mu": 1}} | figure(kind="heat"))
+    faults = faults_of(parse_study, GRID | {"base": {"N": -1, "m": "x", "mu": 1}, "figures": {"f": {"kind": "heat"}}})
     for words in ("base.N -1", "base.m 'x' number", "base.mu mu_s", "figures.f.kind"):
         assert_named(faults, words)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("a: [", "line 1"),
-        ("a: 1\nb: 2\n c: 3", "line 3"),
-        ("a: !!timestamp x", "tag"),
-        ("{study: s, quantity: floquet, base: {N: 200,5, Omega: 20}, axes: {k: [1]}}", "base.5 decimal point"),
-    ],
-)
+@pytest.mark.parametrize(("text", "words"), FAULTS["texts"])
 def test_text_that_is_no_study_is_located(text: str, words: str) -> None:
     assert_named(faults_of(lambda: parse_study(read_yaml(text))), words)
 
@@ -134,10 +57,16 @@ def p(**changes: Any) -> dm.Parameters:
     return dm.Parameters(**{"N": 200, "Omega": 50, "n_diameters": 1} | changes)
 
 
+PAPER = dm.Parameters(N=200, Omega=50)
+
+
 def disc(**changes: Any) -> dm.Disc:
     return dm.Disc(
         **{"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]} | changes
     )
+
+
+RESIDUAL = PAPER.replace(disc=disc(diameters=[0, 1, 2]), contact_compliance="residual")
 
 
 def ramp(**changes: Any) -> dm.Ramp:
@@ -170,6 +99,16 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: from_state(phase="stick", f=1.0), "initial_state.f=1 0 stick"),
     (lambda: dm.floquet(p(n_diameters=-1)), "n_diameters=-1 modes"),
     (lambda: lyapunov_exponents(p(), 1.0, count=9), "count=9 8"),
+    (lambda: dm.Window(rate=1, start=2, stop=1), "start=2 < stop=1"),
+    (lambda: ramp(start=3, end=2), "start=3 < end=2"),
+    (lambda: dm.simulate(p(N=0), 1.0, ramps=(ramp(),)), "N=0 ramps"),
+    (lambda: disc(radii=[0.1], shapes=[[1]] * 3), "radii two or more"),
+    (lambda: p(h=1e120), "h=1e+120 E h^3/12/(1-nu^2)"),
+    (lambda: dm.simulate(RESIDUAL, 1.0), "disc.static_compliance None"),
+    (lambda: dm.sweep(dm.floquet, p(), Omega=[]), "Omega one value"),
+    (lambda: dm.sweep(dm.floquet, p(), Omega=["x"]), "Omega 'x' number"),
+    (lambda: dm.deflection(p(), [dm.snapshots(PAPER, 0.1)[0]], 0.1, 0.0), "states.0 modes"),
+    (lambda: dm.continue_cycle(p(N=0), "Omega", (1, 60)), "p cycle"),
 ]
 
 
@@ -183,23 +122,7 @@ def test_a_fault_of_a_table_names_its_column_and_mode(tmp_path: Path) -> None:
     assert_named(faults_of(dm.Disc.from_csv, path), "disc.csv.frequency_Hz '-1' mode 2")
 
 
-RUN = "run --N 385 --Omega 15.1 --t-end 1 "
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ("run", "N required Omega t_end"),
-        (RUN + "--window late:last=0,rate=1", "window.late.last='0' > 0"),
-        (RUN + "--save no/such/r.nc", "save folder"),
-        ("run --Omga 3", "--Omga --Omega"),
-        (RUN + "--ramp Omega", "ramp='Omega' KEY=VALUE"),
-        (RUN + "--plot x.txt", "plot='x.txt' png"),
-        ("modes --n-diameters auto --truncation-tolerance x", "truncation_tolerance='x' number"),
-        ("list colours config/paper.yaml", "'colours' studies figures"),
-        ("study no_such.yaml", "no_such.yaml read"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "words"), FAULTS["commands"])
 def test_a_wrong_command_line_is_named(arguments: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         cli.main(arguments.split())
@@ -266,7 +189,7 @@ def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None
 
 
 def test_a_file_of_a_name_that_nothing_has_is_refused() -> None:
-    study = parse_study(GRID | {"cases": {"A": CASE}})
+    study = parse_study(GRID | {"cases": CASE["cases"]})
     grids, figures = study.grids()[0], {"s": ["f"]}
     check_targets(["all", "results/s/figures/f.png", "results/s/cases/A.nc", "out.txt"], study, grids, figures)
     for target, words in (
@@ -277,6 +200,16 @@ def test_a_file_of_a_name_that_nothing_has_is_refused() -> None:
     ):
         with pytest.raises(dm.DiscModelError, match=words):
             check_targets([target], study, grids, figures)
+
+
+def test_results_of_another_study_of_the_same_name_are_kept(tmp_path: Path) -> None:
+    mine, other, owner = (tmp_path / name for name in ("mine.yaml", "other.yaml", "owner"))
+    for path in (mine, other):
+        path.write_text("study: s")
+    owner.write_text(str(mine))
+    check_owner("s", "results/s", [str(mine), str(other)], owner)  # in other detail
+    with pytest.raises(dm.DiscModelError, match=r"study = 's': is also the name of the study in .*mine.yaml"):
+        check_owner("s", "results/s", [str(other)], owner)
 
 
 def test_a_run_says_in_the_end_what_has_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
