@@ -1,11 +1,11 @@
-"""Motions are named rightly for signals whose nature is known."""
+"""Motions are named rightly for signals whose nature is known; whether a record shows that one has settled."""
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from disc_model.analysis import classify
-from disc_model.analysis.classify import motion_of, separation_location, share, zero_one
+from disc_model.analysis.classify import Settled, motion_of, separation_location, settling, share, stages, zero_one
 from disc_model.data.variables import Outcome
 
 
@@ -128,3 +128,108 @@ def test_what_is_unknown_counts_against_both_ends() -> None:
     assert found.low == share(9, 45).low < share(9, 40).low
     assert found.high == share(14, 45).high > share(9, 40).high
     assert share(0, 0, unknown=3)[1:] == (0, 1)
+
+
+# ---- whether a record shows that a motion has settled
+
+TIME = np.arange(0.0, 1000.0, 0.05)
+BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))
+NOISE = np.random.default_rng(1).standard_normal(TIME.size)
+
+
+@pytest.mark.parametrize(
+    ("values", "answer"),
+    [
+        (BEAT, Settled.SETTLED),
+        (0.3 + 0.0 * TIME, Settled.SETTLED),
+        (np.tile([1.0, 2.0], TIME.size // 2), Settled.SETTLED),
+        (1 + 1e-5 * BEAT * np.exp(-TIME / 100), Settled.SETTLED),  # what changes is 1e-5 of the value
+        (BEAT * np.exp(-5e-4 * TIME), Settled.CHANGING),
+        (BEAT * np.exp(5e-4 * TIME), Settled.CHANGING),
+        (BEAT + 1e-3 * TIME, Settled.CHANGING),
+        (NOISE * np.sin(2 * np.pi * TIME / 400), Settled.UNDECIDED),  # slower than the windows
+    ],
+)
+def test_what_settled_means(values: np.ndarray, answer: Settled) -> None:
+    found = settling(TIME, values)
+    assert found.answer is answer
+    assert found.least >= 0.01 / np.ptp(TIME) * (1 - 1e-12)
+
+
+def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
+    """At 200 N the motion decays at 0.009/s; two segments of 1.5 s were alike, and it was called steady."""
+    decay, short = BEAT * np.exp(-0.009 * TIME), TIME < 3
+    assert settling(TIME[short], decay[short]).answer is Settled.UNDECIDED
+    found = settling(TIME[TIME < 100], decay[TIME < 100])
+    assert (found.answer, found.rate) == (Settled.CHANGING, pytest.approx(-0.006, rel=0.2))  # of the greatest width
+
+
+def test_events_that_become_rarer_are_a_change() -> None:
+    assert settling(1e4 * np.log1p(TIME / 1e4), BEAT).answer is Settled.CHANGING
+
+
+@pytest.mark.parametrize("rate", [-10 * classify.SLOWEST, 10 * classify.SLOWEST])
+def test_changes_are_found_in_irregular_motions_and_their_absence_is_not_taken_for_one(rate: float) -> None:
+    rng = np.random.default_rng(1)
+    found = [settling(TIME, rng.standard_normal(TIME.size) * np.exp(rate * TIME)).answer for _ in range(30)]
+    assert found.count(Settled.CHANGING) >= 28
+    still = [settling(TIME, rng.standard_normal(TIME.size)).answer for _ in range(30)]
+    assert still.count(Settled.CHANGING) <= 2
+
+
+def test_a_motion_has_settled_since_its_transient_is_over() -> None:
+    found = settling(TIME, np.where(TIME < 400, 2.0, 1.0) * BEAT)
+    assert found.answer is Settled.SETTLED
+    assert 350 <= found.since <= 500
+
+
+# ---- sections of known motions, and the stages of a run
+
+PHASE = np.array([0, 1, 2, 1, 2, 0], dtype=np.int8)
+SIX = np.arange(6.0)
+
+
+def test_stages_before_and_after_the_first_separation() -> None:
+    found = stages(SIX, PHASE, 1.5, 6.0)
+    assert found.divided_by_separation
+    assert list(np.flatnonzero(found.early)) == [0, 1]
+    assert list(np.flatnonzero(found.later)) == [3, 5]
+    assert list(np.flatnonzero(found.separated)) == [2, 4]
+
+
+def test_stages_without_separation_tell_what_has_settled() -> None:
+    found = stages(SIX, np.zeros(6, dtype=np.int8), np.nan, 3.0)
+    assert not found.divided_by_separation
+    assert list(np.flatnonzero(found.early)) == [0, 1, 2]
+    assert list(np.flatnonzero(found.later)) == [3, 4, 5]
+    assert not found.separated.any()
+    assert stages(SIX, np.zeros(6, dtype=np.int8), np.nan, np.nan).early.all()
+
+
+def around(turns: float, count: int) -> np.ndarray:
+    """Points of an ellipse, so many turns apart."""
+    angle = 2 * np.pi * turns * np.arange(count)
+    return np.column_stack([np.cos(angle), 30 * np.sin(angle)]) + 1e-5
+
+
+@pytest.mark.parametrize(
+    ("points", "least", "most"),
+    [
+        (np.empty((0, 2)), 0, 0),
+        *((around(1 / period, 500), period, period) for period in (1, 2, 5)),
+        (around(0.618034, 3000), 151, 399),
+        (np.random.default_rng(0).random((3000, 2)), 1001, 3000),
+    ],
+    ids=["none", "period 1", "period 2", "period 5", "closed curve", "cloud"],
+)
+def test_a_section_has_as_many_points_as_its_motion_shows(points: np.ndarray, least: int, most: int) -> None:
+    assert least <= classify.distinct_points(points) <= most
+
+
+def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> None:
+    curve, turns = around(0.618034, 3000), np.arange(3000)
+    spiral = (1 + 0.5 * np.exp(-turns / 100))[:, None] * curve
+    # 0.5 exp(-t) falls to the tolerance between 0.01 of the curve's width and 0.01 of its radius, two and one
+    assert 100 * np.log(0.5 / 0.02) - 50 < classify.first_settled(spiral) <= 100 * np.log(0.5 / 0.01)
+    assert classify.first_settled(curve) == 0
+    assert classify.first_settled(spiral, 2000) == 2000

@@ -1,7 +1,8 @@
-"""Links between pages lead somewhere, and names of the package that texts mention exist."""
+"""Links between pages lead somewhere; files, layers and names of the package that texts mention exist."""
 
 import pydoc
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,11 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "results" / "READM
 PAGES += sorted(path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts)
 TEXTS = [*PAGES, *sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.*"))]
 TEXTS = [path for path in TEXTS if "__pycache__" not in path.parts]
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+PATHS = sorted(set(re.findall(r"`([\w./-]+(?:/|\.(?:py|yaml|smk|toml)))`", PAGE)))
+sys.path.insert(0, str(ROOT / "docs" / "drawings"))
+import layers  # noqa: E402
+
 NO_MODULES = {"yaml", "mplstyle", "post", "egg"}
 """What follows the package's name in names of files."""
 
@@ -53,3 +59,18 @@ def test_names_of_the_package_exist():
             if dotted.split(".")[1] not in NO_MODULES and not exists(dotted):
                 wrong.append(f"{name(path)}: {dotted}")
     assert not wrong
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_every_path_exists(path):
+    found = (ROOT / path, ROOT / "src" / "disc_model" / path)
+    assert any(place.is_dir() if path.endswith("/") else place.is_file() for place in found)
+
+
+def test_every_layer_is_in_the_picture():
+    """In the order in which `lint-imports` holds them; `make drawings` draws it anew."""
+    drawn = re.findall(
+        r'class="name"[^>]*>(\w+)<', (ROOT / "docs" / "drawings" / "layers.svg").read_text(encoding="utf-8")
+    )
+    assert drawn == [part for layer in layers.layers() for part in layer]
+    assert drawn == re.findall(r'class="name"[^>]*>(\w+)<', layers.draw())

@@ -1,4 +1,4 @@
-"""Where the machine and the flights of the return map cannot go on, and that they say so."""
+"""Where the machine and the flights of the return map cannot go on, and that they say so; samples on a switch."""
 
 import math
 
@@ -6,11 +6,13 @@ import numba
 import numpy as np
 import pytest
 
-from disc_model import Parameters, plate_modes, simulate
+from disc_model import Parameters, Window, plate_modes, simulate
 from disc_model.engine import layout, transitions
 from disc_model.errors import DiscModelError
+from disc_model.simulation.result import EVENT_KINDS, PHASES
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
+from tests.references import printed
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
 
@@ -98,3 +100,27 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     here.x[layout.U] = w + gap
     transitions.lose_contact(case.model, here)
     assert here.x[layout.KNOWN] == known
+
+
+def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
+    """Moved by less than rounding moves a switch it still does; moved by more it shows the side after."""
+    p = printed.P.replace(N=100.0)  # it lands, sticks, is released and lets go again
+    start = printed.lively("separation", p=p)
+    events = simulate(p, 0.02, initial_state=start).events
+    before = [start.phase, *events["phase"].iloc[:-1]]
+    apart = np.diff(events["time"], prepend=0.0, append=1.0) > 1e-6
+    seen = set()
+    for i in np.flatnonzero(apart[1:] & apart[:-1]):
+        t, kind, after = events["time"].iloc[i], events["kind"].iloc[i], events["phase"].iloc[i]
+        if after == before[i]:
+            continue
+        seen.add(kind)
+        offsets = (-1e-10, *(2.0**-52 * t * np.array([-200, -1, 0, 1, 200])), 1e-10)
+        windows = {f"w{offset:+}": Window(start=t + offset, stop=t + offset + 1e-3, rate=999) for offset in offsets}
+        samples = simulate(p, t + 2e-3, windows, initial_state=start).samples.values()
+        phases = [PHASES[int(sample["phase"][0])] for sample in samples]
+        assert phases == [before[i]] * 6 + [after], kind
+        # what is continuous on either side changes by its rate times 1e-10 s: P by less than 1e7 N/s
+        forces = [sample["P"][0] for sample in samples]
+        np.testing.assert_allclose(forces[1:6], forces[0], rtol=0, atol=1e-3)
+    assert seen == set(EVENT_KINDS) - {"slip_reversal"}, "a kind of switch that changes the phase is missing"

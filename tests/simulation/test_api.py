@@ -1,9 +1,11 @@
-"""How simulations end, and what they take."""
+"""How simulations end, and what they take; in several threads they share nothing that they change."""
+
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
-from disc_model import Execution, Parameters, simulate
+from disc_model import Execution, Parameters, Result, simulate
 from disc_model.errors import ParameterError, StepLimit
 from tests.simulation.equal import same
 
@@ -48,3 +50,19 @@ def test_a_duration_begins_at_the_initial_state():
     for times, rule in (({}, ": is required, or duration"), ({"t_end": 1, "duration": 1}, "=1: must be left out")):
         with pytest.raises(ParameterError, match=f"t_end{rule}"):
             simulate(P, **times)
+
+
+def test_runs_in_threads_equal_runs_in_turn() -> None:
+    def content(result: Result) -> tuple[bytes, str]:
+        return result.event_rows.tobytes(), repr(result.final_state)
+
+    # few cases, so that runs in different threads share their constants and reuse each other's workspaces
+    cases = [Parameters(N=100.0 + 150.0 * (i % 4), Omega=15.1 + i % 3) for i in range(48)]
+
+    def run(p: Parameters) -> tuple[bytes, str]:
+        return content(simulate(p, 0.5))
+
+    with ThreadPoolExecutor(8) as threads:
+        together = list(threads.map(run, cases))
+    assert together == list(map(run, cases))
+    assert any(rows for rows, _ in together)

@@ -1,14 +1,20 @@
-"""Grid studies: what files may say, and how grids become batches."""
+"""Grid studies: what files may say, how grids become batches, and what of a grid is left out."""
 
 import json
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model import floquet
+from disc_model.data.variables import flag_names
+from disc_model.figures import drawing
 from disc_model.mode_choice import choose_modes
 from disc_model.studies.grid import GridStudy
+from disc_model.studies.merge import failures, merge_batches
+from disc_model.studies.run import run_batch
 from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
 
@@ -114,3 +120,20 @@ def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
     assert set(before) < set(more)
     changed = texts({"apart": after | {"perturbation": {"f": 1}}}, ["static", "apart"])
     assert len(set(before) & set(changed)) == 1
+
+
+def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:
+    figure = {"kind": "heat_map", "variable": "period", "x": "mu_s", "y": "mu_k"}
+    raw = {"study": "s", "quantity": "floquet", "base": {"N": 200, "Omega": 20, "n_diameters": 1}}
+    raw |= {"axes": {name: [0.1, 0.2, 0.3] for name in ("mu_s", "mu_k")}, "where": "mu_k <= mu_s"}
+    grid = parse_grid(raw | {"figures": {"f": figure, "g": figure | {"variable": "growth_rate"}}})
+    batches = [run_batch(text) for text in grid.batches.values()]
+    study = merge_batches(batches, grid.grid, grid.attrs)
+    left_out = study["mu_k"] > study["mu_s"]
+    status = flag_names(study["status"])
+    assert ((status == "excluded") == left_out.transpose(*study["status"].dims)).all()
+    assert np.isfinite(study["period"]).equals(~left_out.transpose(*study["period"].dims))
+    assert not list(failures(study))
+    assert list(drawing.gaps(study, study["period"])) == []
+    for name, plot in grid.plots.items():
+        plot.draw(study, {}).savefig(tmp_path / f"{name}.png")

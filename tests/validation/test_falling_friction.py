@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, ParameterError, Parameters, continue_cycle, floquet, simulate, steady_sliding
-from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.engine import transitions
 from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import COUPLE, COUPLED, FALLING
 from tests.references import stored, taylor
-from tests.references.growth import couple, steady_eigenvalues
+from tests.stability.test_return_map import central_differences
+from tests.validation.test_friction_couple import compare_sliding
 
 P = Parameters(N=385, Omega=15.1, n_diameters=1)
 EACH_LAW = [pytest.param(name, marks=() if name == "vertical_falling" else pytest.mark.slow) for name in FALLING]
@@ -39,16 +38,9 @@ def test_events_are_those_of_the_reference_and_the_energy_balances(law):
 @pytest.mark.parametrize("law", FALLING)
 @pytest.mark.parametrize("decay", [0.0, 0.5, 20.0])
 def test_growth_rates_of_steady_sliding(law, decay):
-    """All eigenvalues at three speeds, to 1e-8 of a growth rate of 1/s."""
+    """All eigenvalues at three speeds."""
     for Omega in (2.0, 15.1, 50.0):
-        p = Parameters(N=385, Omega=Omega, **FALLING[law] | {"friction_decay": decay})
-        modes, values = mode_arrays(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
-        arm = couple(taylor.surface_of(p)[0], modes.psi, modes.diameters, p.r_0)
-        wanted, (_, R, _) = steady_eigenvalues(values, modes.omega, modes.psi, modes.diameters, modal_damping(p), arm)
-        sliding = steady_sliding(p)
-        assert sliding.contact_force == pytest.approx(R, rel=1e-10)
-        apart = np.abs(sliding.eigenvalues[:, None] - wanted)
-        assert max(apart.min(axis=0).max(), apart.min(axis=1).max()) < 1e-8
+        compare_sliding(Parameters(N=385, Omega=Omega, **FALLING[law] | {"friction_decay": decay}))
 
 
 @pytest.mark.compiled
@@ -56,12 +48,7 @@ def test_growth_rates_of_steady_sliding(law, decay):
 def test_multipliers_are_those_of_differences_of_motions(decay):
     """To 1e-6; differences of fourth order over 1e-3 of the deflection are known to some 1e-10."""
     map_ = ReturnMap(P.replace(Omega=10, c=5, friction_decay=decay))
-    x = map_.static
-    jacobian, h = np.empty((map_.size, map_.size)), 1e-3 * map_.deflection
-    for i, along in enumerate(np.eye(map_.size)):
-        ends = [map_.evaluate(x + step * h * along, tangent=False).end for step in (-2, -1, 1, 2)]
-        jacobian[:, i] = np.array([1, -8, 8, -1]) @ ends / (12 * h)
-    own = map_.evaluate(x).jacobian
+    own, jacobian = map_.evaluate(map_.static).jacobian, central_differences(map_, map_.static)
     assert np.abs(own - jacobian).max() < 1e-7
     values = [np.sort_complex(np.linalg.eigvals(matrix)) for matrix in (own, jacobian)]
     np.testing.assert_allclose(*values, rtol=0, atol=1e-6)
@@ -80,16 +67,6 @@ def test_fast_decay_comes_to_the_paper_s_law():
     assert np.ptp(rates) < 0.01 * rates[0]
     flat = P.replace(mu_s=0.24)
     assert simulate(flat.replace(friction_decay=1.0), 0.05).events.equals(simulate(flat, 0.05).events)
-
-
-@pytest.mark.compiled
-def test_cycles_with_falling_friction_come_to_the_paper_s():
-    """The whole disc: growth rate and period of the stick-slip cycle."""
-    p = Parameters(N=300, Omega=20)
-    cycles = [floquet(p.replace(friction_decay=decay)) for decay in (1e5, 1e7, np.inf)]
-    for name, size in (("growth_rate", 3.0), ("period", 0.01)):
-        first, second, last = (getattr(cycle, name) for cycle in cycles)
-        assert abs(second - last) < 0.02 * abs(first - last) < 1e-4 * size
 
 
 @pytest.mark.compiled

@@ -12,6 +12,11 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, plate_modes, simulate
+from disc_model.analysis.classify import CLOSES, shortest_period
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.methods.base import Problem
+from disc_model.paper.model import paper_cases
+from disc_model.paper.paper_tables import motion_to
 from tests.contact_laws import LAWS
 from tests.references import stored, taylor
 from tests.references.literal import from_slider_frame
@@ -88,6 +93,20 @@ def test_violent_motion():
     gaps = np.array(gaps)
     assert (gaps == 0).sum() > 10  # contact lost again in the instant of the impact
     assert ((gaps > 0) & (gaps < 1e-5)).sum() >= 3
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("name", "releases", "length"), [("F02", 180, 30.0), ("F07", 45, 10.0), ("F22", 280, 28.0)])
+def test_the_papers_method_finds_the_same_period(name: str, releases: int, length: float) -> None:
+    """Long periods are no artefact of the engine. Errors of these steps are far below what intervals repeat to."""
+    case = paper_cases()[name]
+    p = Parameters(**case["parameters"], normalization="as_published")
+    motion, state = motion_to(p, case["t_end"])
+    assert motion.period == releases
+    run = METHODS["RK4"].solve(Problem(p, state, state.time + length), 2e-5)
+    intervals = np.diff(run.times[np.array(run.kinds) == "stick_to_slip"])
+    assert len(intervals) >= 2 * releases
+    assert shortest_period(intervals, CLOSES) == releases
 
 
 # ------------------------------------------------------------------------ the references themselves

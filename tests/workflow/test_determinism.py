@@ -15,7 +15,7 @@ import pytest
 
 from tests import THREADS, instruction_sets
 from tests.processes import python
-from tests.workflow.conftest import Project
+from tests.workflow.conftest import TEXTS, Project, copy_repository
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
@@ -62,3 +62,30 @@ def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
     for file, variable, difference in instruction_sets.differences(tmp_path / "none", tmp_path / "cold"):
         # residuals of the energy are rounding themselves
         assert difference < (0.5 if "energy" in variable else 1e-10), (file, variable, difference)
+
+
+COUNTS = """
+import atexit, gc
+
+def count():
+    kernels = [one for one in gc.get_objects() if type(getattr(one, "_cache", None)).__name__ == "KernelCache"]
+    with open(FILE, "a") as file:
+        for kernel in kernels:
+            for signature in kernel.stats.cache_misses:
+                print(kernel.__name__, signature, file=file)
+
+atexit.register(count)
+"""
+"""Imported by each Python that starts: it writes down which kernels it compiled."""
+KINDS = (TEXTS / "kinds.yaml").read_text()
+
+
+def test_jobs_at_the_same_time_compile_each_kernel_once(tmp_path: Path) -> None:
+    counted = tmp_path / "compiled.txt"
+    environment = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    project = copy_repository(tmp_path / "project", {"config/kinds.yaml": KINDS}, **environment)
+    (project.folder / "src" / "sitecustomize.py").write_text(f"FILE = {str(counted)!r}\n{COUNTS}")
+    replace(project, config="config/kinds.yaml").complete("-j2", "all", "explorer")
+    kernels = counted.read_text().splitlines()
+    assert kernels
+    assert sorted(kernels) == sorted(set(kernels))
