@@ -13,6 +13,7 @@ import pytest
 import disc_model
 from disc_model import Parameters, cli, simulate
 from disc_model.cli.case import option_name
+from disc_model.stability.sliding import sliding_modes
 from disc_model.studies.study import load_study
 from tests.processes import run
 
@@ -104,6 +105,7 @@ def test_windows_and_ramps_are_saved_as_they_were_asked_for(command: Command, tm
 
 @pytest.mark.compiled
 def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
+    assert re.fullmatch(r"kernels compiled and cached: \d+\.\d s\n", command.out("compile"))
     rate = disc_model.floquet(Parameters(N=385, Omega=15)).growth_rate
     out = command.out("floquet", "--N", "385", "--Omega", "15")
     assert f"growth rate         {rate:.6g} 1/s (small disturbances die out)" in out
@@ -111,6 +113,30 @@ def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert code == 1
     assert "advice" in out
     assert "steady sliding      The disc is not driven" in out  # a growth rate of nan was printed
+
+
+def test_sliding_prints_the_modes_in_the_slider_s_frame(command: Command) -> None:
+    p = Parameters(N=200, Omega=20)
+    out = command.out("sliding", "--N", "200", "--Omega", "20")
+    modes = sliding_modes(p, disc_model.steady_sliding(p))
+    assert all(f"{frequency:.4f}" in out for frequency in modes.frequency)
+    assert out.count("in the plane") == (modes.diameters < 0).sum() == 1
+    assert "modes chosen" in command.out("modes", "--n-diameters", "auto", "--normalization", "orthonormal")
+    code, out, _ = command.run("sliding", "--N", "0", "--Omega", "0")
+    assert (code, "The disc is not driven" in out) == (1, True)
+
+
+def test_a_run_is_drawn_and_one_that_does_not_end_is_told(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "run.png"
+    drawn = ("--window", "late:last=0.02,rate=1e4", "--plot")
+    assert f"figure              {path}\n" in command.out(*SHORT, *drawn, str(path))
+    assert path.read_bytes().startswith(b"\x89PNG")
+    assert "must be the name of a file" in command.error(*SHORT, "--save", str(tmp_path))
+    (nowhere := tmp_path / "nowhere.png").symlink_to(tmp_path / "no" / "such.png")
+    code, _, err = command.run(*SHORT, *drawn, str(nowhere))
+    assert (code, err) == (2, f"error: plot='{nowhere}': cannot be written (No such file or directory)\n")
+    code, out, _ = command.run(*SHORT, "--max-steps", "3")
+    assert (code, "status              step_limit" in out) == (1, True)
 
 
 STUDY = (Path(__file__).parent / "workflow" / "studies" / "braces.yaml").read_text()

@@ -105,5 +105,5 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
         monkeypatch.setattr(answers, name, function)
     monkeypatch.setattr(answers, "_richest", lambda: dict(ask({"n_diameters": 8})))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
-    parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6), asked=("first_separation",))]
+    parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))]
     return answers.merged([*parts, answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))])

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, installed
+from disc_model.benchmarks.methods import METHODS, Method, MethodUnavailable, installed
 from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
@@ -18,6 +18,9 @@ from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively
 
 SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
+EACH_SHORT = pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.compiled] * (name == "CVODE")) for name in SHORT]
+)
 BASE = Parameters(N=385.0, Omega=15.1)
 UP = np.sign(Physics(P).shape)
 """Amplitudes that lift the disc under the slider."""
@@ -60,7 +63,7 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
         assert result.final.a.shape == problem(scene).start.a.shape
 
 
-@pytest.mark.parametrize("name", [pytest.param(x, marks=[pytest.mark.compiled] * (x == "CVODE")) for x in SHORT])
+@EACH_SHORT
 @pytest.mark.parametrize(
     ("phase", "direction", "span", "p", "lifted"),
     [
@@ -71,15 +74,38 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
 )
 def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lifted):
     start = lively(phase, direction, p)
-    motion = Problem(p, start.replace(a=start.a + lifted * UP), span)
+    motion = Problem(p, start.replace(a=start.a + lifted * UP), span, watched=True)
     result = METHODS[name].solve(motion, 2e-6 if METHODS[name].setting == "step" else 1e-9)
     assert (result.outcome, result.kinds) == (RunStatus.FINISHED, ())
     printed = Printed(p, motion.start)
     assert bool(lifted) == (printed.force() < 0)
     end = printed.at(motion.t_end)
+    # w rises or falls all the time; the range of RK4 begins a step later
+    heights, left_out = np.sort([printed.at(0.0)["w"], end["w"]]), 2e-6 / span
+    np.testing.assert_allclose(result.heights, heights, rtol=0, atol=1.1 * left_out * np.ptp(heights))
     for quantity in ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"):
         size = max(np.max(np.abs(end[quantity])), 1e-12)
         np.testing.assert_allclose(getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size)
+
+
+@EACH_SHORT
+def test_a_method_gives_up_when_its_time_is_over(name):
+    start = lively("slip", 1, P)
+    result = METHODS[name].solve(Problem(P, start, 2e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 0.0)
+    assert (result.outcome, result.kinds) == (RunStatus.TOO_SLOW, ())
+    assert result.final.time < 2e-4
+
+
+@pytest.mark.parametrize("name", [name for name in SHORT if name != "CVODE"])
+def test_a_state_that_overflows_is_no_answer(name):
+    start = lively("slip", 1, P).replace(f=1e160)
+    result = METHODS[name].solve(Problem(P, start, 1e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 1.0)
+    assert result.outcome in (RunStatus.NON_FINITE, RunStatus.FAILED)
+
+
+def test_a_method_that_is_not_installed_says_what_brings_it():
+    with pytest.raises(MethodUnavailable, match="x needs no_such: install the extra"):
+        Method(name="x", label="x", function="", settings={}, requires=("no_such",)).solve(problem("stick_slip"), 1.0)
 
 
 @pytest.mark.parametrize("name", [*SHORT, "LSODA", "Radau", "regularised"])

@@ -1,4 +1,4 @@
-"""The studies of the benchmark, and the runner that measures their points."""
+"""The studies of the benchmark, the runner that measures their points, and figures."""
 
 import json
 import logging
@@ -12,14 +12,17 @@ import xarray as xr
 
 from disc_model.benchmarks import answers, figures, maps, study
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
-from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.methods import METHODS, Method
+from disc_model.benchmarks.methods.base import MethodResult, RunStatus
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.benchmarks.truncation import contact_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import save
+from disc_model.simulation.api import simulate
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
+from tests.figures.reading import labels
 
 RIGHT, WRONG, SILENT = AnswerVerdict
 
@@ -121,14 +124,65 @@ def test_the_engine_gives_the_right_answers() -> None:
         assert replies[name].value == pytest.approx(answers.reference(name).value, abs=tolerance)
     # sampled 20,000 times a second
     assert replies["disc_range"].value == pytest.approx(answers.reference("disc_range").value, rel=2e-4)
-    # what a deviation of finite size adds to the rate at which an infinitesimal one grows
-    rate = answers.cycle_growth_rate(answers.GROWING, 1e-12).value
-    assert rate == pytest.approx(answers.reference("growth_rate").value, abs=2e-5)
-    assert answers.cycle_onset(answers.SEPARATING, 1e-12).value == pytest.approx(15.0949, abs=5e-5)
-    no_cycle = answers.cycle_onset(answers.SEPARATING.replace(n_diameters=0), 1e-10)
-    assert no_cycle[2:4] == (AnswerStatus.NONE, "no fold from 14.5 to 16 rad/s")
     # the rule broke off at a tolerance that the search for a cycle refuses
     assert not any(limits_faults("tol", tol, CYCLE_TOLERANCES) for tol in (*answers.CYCLE_SETTINGS, answers.DEFAULT))
+
+
+@pytest.mark.compiled
+def test_models_answer_by_their_own_motions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the modes of the references all is right; without pairs of modes nothing ever grows."""
+    monkeypatch.setattr(answers, "RICHEST", {})
+    replies = dict(answers.ask_model({}))
+    assert (replies.pop("region").value, answers.QUESTIONS.keys() - replies) == (0, {"region"})
+    assert {verdict(name, reply, answers.reference(name).value) for name, reply in replies.items()} == {RIGHT}
+    # what a deviation of finite size adds to the rate at which an infinitesimal one grows
+    assert replies["growth_rate"].value == pytest.approx(answers.reference("growth_rate").value, abs=2e-5)
+    assert replies["onset"].value == pytest.approx(15.0949, abs=5e-5)
+    none = dict(answers.ask_model({"n_diameters": 0}))
+    assert none["onset"][2:4] == (AnswerStatus.NONE, "no fold from 14.5 to 16 rad/s")
+    assert none["period"][2:4] == (AnswerStatus.NONE, "no separation within 400 s")
+    assert none["region"].value > 0
+    assert "no cycle to follow" in answers.cycle_onset(answers.SEPARATING.replace(N=0), 1e-10).message
+
+
+def separating_above(speed: float) -> answers.Solve:
+    """A method that takes 0.1 s a run, and finds a separation from this speed on."""
+
+    def solve(problem, budget):
+        late, apart = budget <= 0.1, problem.parameters.Omega >= speed
+        kinds = ("separation",) * (apart and not late)
+        outcome = RunStatus.TOO_SLOW if late else RunStatus.FINISHED
+        return MethodResult(np.ones(len(kinds)), kinds, problem.start, 0.1, 1, outcome)
+
+    return solve
+
+
+def test_the_onset_is_enclosed_between_two_speeds() -> None:
+    found = answers.onset(separating_above(15.1), 12.0)["onset"]
+    assert found.low < 15.1 <= found.high <= found.low + answers.ONSET_WITHIN
+    assert found[:2] == (pytest.approx((found.low + found.high) / 2), pytest.approx(0.8))  # two ends, six halves
+    for speed, message in ((16.0, "no separation at 15.6 rad/s"), (14.0, "a separation already at 14.6 rad/s")):
+        assert answers.onset(separating_above(speed), 12.0)["onset"][2:4] == (AnswerStatus.NONE, message)
+    given_up = answers.onset(separating_above(15.1), 0.45)["onset"]
+    assert (given_up.status, given_up.high - given_up.low) == (AnswerStatus.TOO_SLOW, pytest.approx(0.25))
+
+
+def test_a_region_is_judged_by_as_many_cells_as_the_budget_allows() -> None:
+    stored = np.array([[letter == "1" for letter in row] for row in answers.stored("answers")["region"]])
+    wrong = float(np.mean(stored != (np.linspace(14, 34, 32) >= 24)))
+    budgets = (0.05, 1.0, 8.0, 200.0)
+    slow, few, some, whole = (answers.region(separating_above(24.0), budget)["region"] for budget in budgets)
+    assert (slow.status, few.status) == (AnswerStatus.TOO_SLOW,) * 2
+    assert (slow.cells, few.cells, some.cells, whole.cells) == (0, 4, 64, 1024)
+    assert (few.seconds, some.seconds, whole.seconds) == pytest.approx((102.4, 102.4, 102.4))
+    assert some.low < wrong < some.high
+    assert whole.value == whole.low == whole.high == pytest.approx(wrong)
+
+
+def test_no_question_is_answered_by_a_method_that_gives_up() -> None:
+    for function, _ in answers.ASKED.values():
+        assert {reply.status for reply in function(separating_above(0), 0.05).values()} == {AnswerStatus.TOO_SLOW}
+    assert all(math.isnan(answers.growth(releases)) for releases in (np.arange(9.0), np.arange(99.0)))
 
 
 # ------------------------------------------------------------------------ Costs of answers, and maps
@@ -172,6 +226,19 @@ def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_pa
     save(figure, tmp_path / "maps.png")
 
 
+def test_a_map_of_answers_tries_no_finer_setting_after_one_that_is_too_slow(late: Method) -> None:
+    answered = maps.answer_map(late.name, (1, 4), (1.0, 1e-2, 1e-6, 1e-7))
+    cases = [maps.CASE.replace(n_diameters=count) for count in (1, 4)]
+    right = [simulate(p, maps.HORIZON, stop_at="first_separation").first_separation for p in cases]
+    np.testing.assert_allclose(answered["right"], right, atol=1e-7)
+    assert answered["status"].values.tolist() == [[1, 0, 2, 2]] * 2
+    assert answered["verdict"].values.tolist() == [[WRONG, WRONG, SILENT, SILENT]] * 2
+    settings = [1e-2, 1e-4, 1e-6, 1e-7, 1e-9, 1e-11]
+    assert maps.answer_map(late.name, (0,))["value"].values == pytest.approx(settings)
+    assert maps.answer_map("series", (1,), (1e-6,))["verdict"] == RIGHT
+    assert figures.answer_maps(answered).axes[0].get_title(loc="left") == "(a) late"
+
+
 # ------------------------------------------------------------------------ Numbers of modes
 @pytest.mark.compiled
 def test_what_truncation_does_to_a_study(tmp_path):
@@ -181,3 +248,20 @@ def test_what_truncation_does_to_a_study(tmp_path):
     assert (rigid["frequency_error"].diff("model") < 0).all()
     assert np.isnan(dataset["growth_rate"]).all()  # the quiet cycle ends at a lower speed
     save(figures.contact_truncation(dataset), tmp_path / "truncation.png")
+
+
+# ------------------------------------------------------------------------ Figures
+def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
+    figure = figures.overview(dataset)
+    expected = {METHODS[name].label for name in ("series", "RK4", "Radau")}
+    assert set(labels(figure)) == expected | {f"{METHODS['RK4'].label}, without Python"}
+    assert [text.get_text() for text in figure.axes[0].texts] == ["wrong\nevents"]
+    save(figure, tmp_path / "overview.png")
+
+
+def test_a_cell_of_prices_names_its_setting(priced: xr.Dataset) -> None:
+    texts = [text.get_text() for text in figures.prices(priced).axes[0].texts]
+    assert texts == ["2 s", "tol 1e-2", "wrong at 2", "0.4 ms", "tol 1e-6", "wrong"]
+    figure = figures.answers(priced)
+    assert labels(figure) == ["late", "series, modes, rigid contact", "series, from the cycle itself"]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["8", "4"]

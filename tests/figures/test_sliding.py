@@ -18,9 +18,10 @@ def over_mu() -> xr.Dataset:
     return computed(quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200]})
 
 
-@pytest.mark.parametrize("kind", ["sliding_modes", "root_locus"])
-def test_modes_are_drawn_along_the_parameter(kind: str, over_mu: xr.Dataset) -> None:
-    figure = kind_of(kind)(kind=kind).render({"study": xr.DataTree(over_mu)})
+@pytest.mark.parametrize(("kind", "more"), [("sliding_modes", {"highest": 900.0}), ("root_locus", {})])
+def test_modes_are_drawn_along_the_parameter(kind: str, more: dict[str, float], over_mu: xr.Dataset) -> None:
+    figure = kind_of(kind)(kind=kind, **more).render({"study": xr.DataTree(over_mu)})
+    assert (figure.axes[0].get_ylim()[1] == 900) == bool(more)
     axes = figure.axes[0] if kind == "root_locus" else figure.axes[1]
     shown = axes.collections if kind == "root_locus" else axes.lines
     assert len(shown) >= 4

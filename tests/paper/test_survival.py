@@ -102,6 +102,12 @@ BESIDE = (-0.1, -0.2, 0.1, -0.1, -0.05, NAN)
         (FOLD, at_fold(curves("fold", 15.0, 15.34), 15.1), FALSE),  # at 15.17
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1), NOT_COMPUTED),  # one of them may be the fold
         (FOLD, at_fold(curves("neutral", 14.9, 15.2, missed=2), 15.1, rate=0.1), FALSE),  # the cycle goes on, unstable
+        (ONSET, onset("xqsqgs", *BESIDE), NOT_COMPUTED),
+        (ONSET, onset("qqsqgs", *BESIDE) | {"growth": growth(*BESIDE).isel(N=[0])}, NOT_COMPUTED),
+        (FOLD, at_fold(curves("fold", 14.9, 15.2)), NOT_COMPUTED),  # separation begins nowhere
+        (FOLD, at_fold(curves("fold", 14.9, 15.2), 40.0), NOT_COMPUTED),  # where no growth rate is known
+        (FOLD, at_fold(curves("fold", 14.9, 15.2).assign(grid({}, status="failed")), 15.1), NOT_COMPUTED),
+        (IN_PLANE, damping("c", GROWING, GROWING), NOT_COMPUTED),  # of the other damper
         (CRITICAL, critical(30.0, 20.0, 12.0, NAN), TRUE),
         (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), PART),  # at the end of the scan it falls again
         (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FALSE),  # no more than speeds are known to
@@ -165,6 +171,7 @@ SMALLER, STICK, PERIODIC = "Smaller vibration", "Stick vanishes", "Not periodic 
         (SMALLER, (case(1, 1, 4, 4), BONDED), FALSE),
         (SMALLER, (case(1, 1, 1, 1), case(1, 1, 1, 3, first=0, status="paradox")), TRUE),  # it grew until the end
         (STICK, (case(stick=5e-4),), TRUE),
+        (STICK, (case(stick=5e-4, status="failed"),), NOT_COMPUTED),
         (STICK, (case(stick=5e-4, before=5e-4),), FALSE),  # it never stuck
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=DRIFTING)), TRUE),
         (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=REPEATING)), FALSE),

@@ -2,13 +2,13 @@
 
 import re
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, SimpleNamespace
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.paper import SCANS, SURVIVAL_GRIDS, survival
+from disc_model.paper import SCANS, SURVIVAL_GRIDS, paper_tables, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
@@ -50,6 +50,25 @@ def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
     assert row["longest_ms"] == pytest.approx(1e3 * case.separation_durations()[0].max(), rel=1e-12)
     assert np.isnan(table["rate_Hz"].iloc[-1])
     assert "separation" in table["releases"].iloc[-1]
+
+
+def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Known to an eighth: of a motion of period 45 from 0.01 rad/s below to 0.02 above, none beyond 0.05."""
+
+    class Case(dict[str, float]):
+        parameters = Parameters(N=300, Omega=20)
+
+    def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: object = None) -> tuple[object, object]:
+        if abs(change := p.Omega - 20) > 0.05:
+            raise ValueError("too few releases")
+        period = 45 * (-0.01 < change < 0.02 and p.n_diameters != 8)
+        return SimpleNamespace(period=period, kind="irregular"), SimpleNamespace(time=t_end)
+
+    monkeypatch.setattr(paper_tables, "motion_to", motion_to)
+    table = paper_tables.periods(dict.fromkeys(("F02", "F07", "F22"), Case(t_end=100.0)))
+    assert table["case"].tolist() == [*["300 N, 20 rad/s"] * 2, "300 N, 20 rad/s, k_p = 20 kN/m"]
+    assert (set(table["one nodal circle"]), set(table["8 nodal diameters"])) == ({"45"}, {"irregular"})
+    assert 0.03 * 7 / 8 < table["width"][0] < 0.03
 
 
 @pytest.mark.compiled

@@ -13,6 +13,7 @@ from disc_model.studies.motions import SAMPLES, run_motions
 from disc_model.studies.quantity import quantity_of
 from tests.studies.refused import parse_grid
 
+LATE = (15.1, {"horizon": 60})
 AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
 
 
@@ -53,7 +54,7 @@ def test_samples_are_those_of_the_motion():
 @pytest.mark.compiled
 @pytest.mark.parametrize(
     ("quantity", "Omega", "options"),
-    [("floquet", 14.0, {}), ("outcome", 14.0, {"horizon": 5}), ("outcome", 15.1, {"horizon": 60})],
+    [("floquet", 14.0, {}), *((name, *at) for name in ("outcome", "regions") for at in ((14.0, {"horizon": 5}), LATE))],
 )
 def test_a_quantity_shows_the_motion_that_it_tells_of(quantity: str, Omega: float, options: dict[str, float]) -> None:
     motion = histories(quantity, [385], [Omega], **options).isel(point=0)

@@ -256,8 +256,6 @@ def growth(releases: Array) -> float:
     # of the whole spectrum: a slow drift stands highest where it would be cut off
     peaks = find_peaks(spectrum)[0]
     peaks = peaks[peaks >= 8]
-    if not peaks.size:
-        return math.nan
     line = peaks[np.argmax(spectrum[peaks])]
     omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
 

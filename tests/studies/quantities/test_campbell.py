@@ -84,5 +84,8 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert effects(made_up(growth_rate=np.full(401, -0.05))) == ["mode_rises"]
     flat = made_up(growth_rate=np.full(401, -0.1), cycle_growth_rate=np.full((401, 1), -0.1))
     assert effects(flat) == ["no_rise"]
+    lost = np.abs(peak["Omega"].values - 10.05) < 0.01
+    assert effects(made_up(growth_rate=np.where(lost, np.nan, rate))) == ["no_cycle"]
+    assert effects(made_up(cycle_growth_rate=np.full((401, 1), np.nan))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
