@@ -115,7 +115,7 @@ coverage: $(VENV)/.bench
 	$(BIN)/pytest -m "not slow and not workflow" --cov --cov-report=
 	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -m "not slow and not workflow and not compiled" tests/engine tests/validation \
 	  tests/stability/test_return_map.py tests/benchmarks/test_methods.py \
-	  --cov --cov-append --cov-fail-under=95 --durations=5
+	  --cov --cov-append --cov-fail-under=97 --durations=5
 
 # The whole pipeline on a study of a few seconds.
 test-study: env

@@ -39,7 +39,7 @@ UP = np.sign(Physics(P).shape)
         ("LSODA", "stick_slip", 1e-6, 1e-5),
         ("Radau", "stick_slip", 1e-4, 1e-4),
         ("heyoka", "stick_slip", 1e-10, 1e-10),
-        ("CVODE", "stick_slip", 1e-8, 1e-7),
+        ("CVODE-BDF", "stick_slip", 1e-8, 1e-7),
         # with roots of its own where a separation begins: triple ones
         ("heyoka", "separating", 1e-10, 1e-10),
         ("CVODE", "separating", 1e-11, 1e-9),

@@ -262,6 +262,6 @@ def test_cost_against_accuracy_is_drawn(dataset: xr.Dataset, tmp_path) -> None:
 def test_a_cell_of_prices_names_its_setting(priced: xr.Dataset) -> None:
     texts = [text.get_text() for text in figures.prices(priced).axes[0].texts]
     assert texts == ["2 s", "tol 1e-2", "wrong at 2", "0.4 ms", "tol 1e-6", "wrong"]
-    figure = figures.answers(priced)
+    figure = figures.draw("answers", [priced])
     assert labels(figure) == ["late", "series, modes, rigid contact", "series, from the cycle itself"]
     assert [text.get_text() for text in figure.axes[0].texts] == ["8", "4"]

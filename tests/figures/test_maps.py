@@ -58,7 +58,7 @@ def lengths(ax: Any) -> list[int]:
 @ON_EACH_SCALE
 def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[float], scale: str, tmp_path) -> None:
     marks = {"F2": mark(values[0], 100, "quiet"), "b": mark(values[-1], 400, "separation")}
-    figure = draw("region_map", made_up(x, values, NORMS), x=x, y="N", marks=marks)
+    figure = draw("region_map", made_up(x, values, NORMS), x=x, y="N", marks=marks, title="All")
     shown, _, growth, _ = figure.axes[:4]
     assert shown.get_xscale() == scale
     # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
@@ -67,7 +67,7 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
     # between two that are alike
     assert len(_hatched(shown)[0]) == 1
     named = {"quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
-    named |= {"paper: quiet", "paper: separation", "no cycle found", "unresolved"}
+    named |= {"All", "paper: quiet", "paper: separation", "no cycle found", "unresolved"}
     assert named <= set(labels(figure))
     contradicted = "b: paper: “separation”, static start: undecided."
     assert f"Within 900 s of the static start.\n{contradicted}" in labels(figure)

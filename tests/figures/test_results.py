@@ -54,6 +54,10 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
     run().plot_poincare(ax=axes[1])
     assert figure.get_suptitle() == ""
+    ranges = dm.simulate(P, 0.1, {"all": dm.Window(rate=1e4, envelope=100)})
+    for draw in (ranges.plot_phase_portrait, ranges.plot_spectrum):
+        with pytest.raises(dm.ParameterError, match="window='all': must hold samples, not their ranges"):
+            draw("all")
     with pytest.raises(dm.ParameterError, match=r"ax=2 axes: must be 6, one for each panel"):
         run().plot(ax=axes[0])
 

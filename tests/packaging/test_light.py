@@ -30,7 +30,7 @@ sys.meta_path.insert(0, Hidden())
 USE = """\
 import disc_model as dm
 
-for name in dm.__all__:
+for name in dir(dm):
     getattr(dm, name)
 p = dm.Parameters(N=200, Omega=20, n_diameters=1, normalization="orthonormal")
 result = dm.simulate(p, 0.02, {"late": dm.Window(last=0.01, rate=1000)})

@@ -29,7 +29,6 @@ STUDIES = [
     (whole | change, words) for whole, name in ((GRID, "grids"), (CASE, "cases")) for change, words in FAULTS[name]
 ]
 STUDIES.append(({"study": "s"}, "study what compute"))
-BAD_TABLE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,2,3\n2,-1,3\n"
 
 
 def assert_named(faults: list[str], words: str) -> None:
@@ -57,16 +56,13 @@ def p(**changes: Any) -> dm.Parameters:
     return dm.Parameters(**{"N": 200, "Omega": 50, "n_diameters": 1} | changes)
 
 
-PAPER = dm.Parameters(N=200, Omega=50)
-
-
 def disc(**changes: Any) -> dm.Disc:
     return dm.Disc(
         **{"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]} | changes
     )
 
 
-RESIDUAL = PAPER.replace(disc=disc(diameters=[0, 1, 2]), contact_compliance="residual")
+RESIDUAL = dm.Parameters(N=200, Omega=50, disc=disc(diameters=[0, 1, 2]), contact_compliance="residual")
 
 
 def ramp(**changes: Any) -> dm.Ramp:
@@ -107,7 +103,7 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: dm.simulate(RESIDUAL, 1.0), "disc.static_compliance None"),
     (lambda: dm.sweep(dm.floquet, p(), Omega=[]), "Omega one value"),
     (lambda: dm.sweep(dm.floquet, p(), Omega=["x"]), "Omega 'x' number"),
-    (lambda: dm.deflection(p(), [dm.snapshots(PAPER, 0.1)[0]], 0.1, 0.0), "states.0 modes"),
+    (lambda: dm.deflection(p(), [dm.snapshots(p(n_diameters=2), 0.1)[0]], 0.1, 0.0), "states.0 modes"),
     (lambda: dm.continue_cycle(p(N=0), "Omega", (1, 60)), "p cycle"),
 ]
 
@@ -117,9 +113,10 @@ def test_a_wrong_argument_is_named(call: Callable[[], object], words: str) -> No
     assert_named(faults_of(call), words)
 
 
-def test_a_fault_of_a_table_names_its_column_and_mode(tmp_path: Path) -> None:
-    (path := tmp_path / "disc.csv").write_text(BAD_TABLE)
-    assert_named(faults_of(dm.Disc.from_csv, path), "disc.csv.frequency_Hz '-1' mode 2")
+@pytest.mark.parametrize(("text", "words"), FAULTS["tables"])
+def test_a_fault_of_a_table_is_named(text: str, words: str, tmp_path: Path) -> None:
+    (path := tmp_path / "disc.csv").write_text(text)
+    assert_named(faults_of(dm.Disc.from_csv, path), words)
 
 
 @pytest.mark.parametrize(("arguments", "words"), FAULTS["commands"])
