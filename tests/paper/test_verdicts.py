@@ -86,7 +86,8 @@ WORLDS = {
         "T2e", coupled_natural_frequencies=lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])
     ),
     "friction that changes nothing": World(
-        functions={precursor: {"sliding_growth": lambda p: p.Omega - 1000.0}}, rows=("A98i", "A98r")
+        functions={precursor: {"sliding_growth": lambda p: p.Omega - 1000.0, "growths": precursor.growths.__wrapped__}},
+        rows=("A98i", "A98r"),
     ),
     "the stiff disc": a_disc("F29", plate_modes=lambda p: plate_modes(p.replace(E=150e9))),
 }
