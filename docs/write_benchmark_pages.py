@@ -29,7 +29,7 @@ SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
 PAGES = ("README.md", "docs/method.md", "docs/benchmark.md")
 """Pages with passages."""
-FIGURES = ("overview", "failure_maps", "prices", "answer_maps", "contact_truncation")
+FIGURES = ("overview", "failure_maps", "prices", "answer_maps", "contact_truncation", "scaling")
 """Figures that are shown in docs/gallery."""
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Panel letters of the scenes in the overview."""
@@ -112,6 +112,15 @@ def _cycle(found: pd.DataFrame) -> Rows:
     return [{"ms": 1e3 * seconds} for seconds in right["seconds"].nsmallest(1)]
 
 
+def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
+    """Rows of `disc_model.benchmarks.scaling`, with the ms of a point, by what varies and the quantity."""
+    numbers: dict[str, Any] = {}
+    for row in scaling.to_dataframe().to_dict("records"):
+        row["ms"] = 1e3 * row["seconds"] / row["points"]
+        numbers.setdefault(row.pop("varies"), {}).setdefault(row.pop("quantity"), []).append(row)
+    return numbers
+
+
 # ----------------------------------------------------------------------------------------------------
 # Passages
 
@@ -171,10 +180,13 @@ def main(bench: str = "results/bench", root: str = "") -> None:
     measured = {name: folder / f"{name}.nc" for name in sorted(SPEED)}
     there = {name: load(path).to_dataset() for name, path in measured.items() if path.is_file()}
     stored = top / "docs" / "benchmark.json"
+    run = json.loads(stored.read_text(encoding="utf-8"))
     if there.keys() == SPEED:
-        run = speed_numbers(there["work_precision"], there["work_precision_avx2"], there["answers"])
-        stored.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    known = passages(json.loads(stored.read_text(encoding="utf-8")))
+        run |= speed_numbers(there["work_precision"], there["work_precision_avx2"], there["answers"])
+    if (scaling := folder / "scaling.nc").is_file():
+        run["scaling"] = scaling_numbers(load(scaling).to_dataset())
+    stored.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    known = passages(run)
     for page in (top / name for name in PAGES):
         page.write_text(fill(page.read_text(encoding="utf-8"), known), encoding="utf-8")
     for name in FIGURES:

@@ -37,7 +37,7 @@ def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -
     assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
     assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
     assert run["cycle"] == []  # conftest's cycle has no growth rate
-    text = "".join(pages.passages(run | {"cycle": [{"ms": 1.23}]}).values())
+    text = "".join(pages.passages(run | {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}).values())
     assert "1.2 ms" in text
     assert "| heyoka | 630 | - |" in text
     assert "restarts heyoka between two phases, accounts for 25 % for" in text

@@ -14,6 +14,7 @@ from disc_model.benchmarks import answers, figures, maps, study
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import MethodResult, RunStatus
+from disc_model.benchmarks.scaling import scaling
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.benchmarks.truncation import contact_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
@@ -248,6 +249,16 @@ def test_what_truncation_does_to_a_study(tmp_path):
     assert (rigid["frequency_error"].diff("model") < 0).all()
     assert np.isnan(dataset["growth_rate"]).all()  # the quiet cycle ends at a lower speed
     save(figures.contact_truncation(dataset), tmp_path / "truncation.png")
+
+
+@pytest.mark.compiled
+def test_cost_is_that_of_all_processes():
+    """Four outcomes take 0.3 s, which two processes of their own compute; this one takes 0.03 s beside them."""
+    dataset = scaling(((1, 1), (1, 2), (2, 2)), ((1, 0), (4, 0)), (1.0, 500.0), several=(2, 2))
+    assert dataset["points"].values.tolist() == [2, 4, 1, 2, *[4] * 6]
+    assert dataset["modes"].values.tolist() == [9, 9, 9, 9, 3, 9, 3, 9, 9, 9]
+    assert dataset["seconds"][-1] > 0.1
+    assert [len(ax.lines) for ax in figures.draw("scaling", [dataset]).axes] == [2, 2, 1]
 
 
 # ------------------------------------------------------------------------ Figures

@@ -21,11 +21,13 @@ STUDIES = {
     "answers": "answers.answers",
     "answer_maps": "maps.answer_map",
     "failure_maps": "maps.failure_map",
+    "scaling": "scaling.scaling",
 }
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
     "failure_maps": collect(f"{BENCH}/failure_maps/{{map}}.nc", map=FAILURE_MAPS),
     "contact_truncation": f"{BENCH}/contact_truncation.nc",
+    "scaling": f"{BENCH}/scaling.nc",
     "answers": f"{BENCH}/answers.nc",
     "prices": f"{BENCH}/answers.nc",
     "answer_maps": collect(f"{BENCH}/answer_maps/{{method}}.nc", method=QUESTIONED),
@@ -52,7 +54,7 @@ rule measure:
     log:
         f"{BENCH}/logs/measure/{{part}}{{target}}.log",
     wildcard_constraints:
-        part="work_precision|contact_truncation|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
+        part="work_precision|contact_truncation|scaling|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
         target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"

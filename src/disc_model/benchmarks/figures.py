@@ -196,6 +196,38 @@ def _seconds(value: float) -> str:
     return f"{value:.2g} s" if value < 100.0 else f"{value:.0f} s"
 
 
+# ---- How cost grows
+MAPS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    "floquet": ("growth rate", {"color": BLUE, "marker": "o"}, {"xytext": (5, -4), "va": "top"}),
+    "outcome": ("outcome", {"color": ORANGE, "marker": "s", "linestyle": "--"}, {"xytext": (-5, 4), "ha": "right"}),
+}
+"""Name of each map, look of its line, and position of the name beside it."""
+
+
+def scaling(dataset: xr.Dataset) -> Figure:
+    """Processor time of maps over their number of points, and of a point over the number of modes and the horizon."""
+    rows = dataset.to_dataframe()
+    rows["each"] = 1e3 * rows["seconds"] / rows["points"]
+    figure, axes = panels(PAGE, 2.4, 1, 3)
+    heads = {
+        "points": ("Points", "seconds", "Processor time of a map (s)"),
+        "modes": ("Real modes", "each", "Processor time of a point (ms)"),
+        "horizon": ("Horizon (s)", "each", "Processor time of a point (ms)"),
+    }
+    for ax, (varies, (xlabel, shown, ylabel)), letter in zip(axes, heads.items(), "abc", strict=True):
+        for quantity, part in rows[rows["varies"] == varies].groupby("quantity"):
+            name, look, beside = MAPS[str(quantity)]
+            ax.plot(part[varies], part[shown], markersize=3.5, **look)
+            x, y = (part[column].iloc[2 * len(part) // 3] for column in (varies, shown))
+            ax.annotate(name, (x, y), color=look["color"], textcoords="offset points", **beside)
+        ax.margins(0.08)
+        ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
+        ax.set_ylim(bottom=10.0 ** math.floor(math.log10(ax.get_ylim()[0])))
+        ax.yaxis.set_minor_formatter(NullFormatter())
+        drawing.letter(ax, letter)
+    return figure
+
+
 # ---- Where methods fail
 
 
@@ -343,7 +375,7 @@ def _against_modes(lines: Sequence[Line], labels: Sequence[str], further: Line2D
 # ---- All of them
 DRAWN: dict[str, Callable[..., Figure]] = {
     function.__name__: function
-    for function in (overview, answers, prices, contact_truncation, failure_maps, answer_maps)
+    for function in (overview, answers, prices, contact_truncation, scaling, failure_maps, answer_maps)
 }
 
 

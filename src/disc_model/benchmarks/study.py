@@ -1,4 +1,4 @@
-"""The runner of all studies of the benchmark: it measures points on one core and makes a dataset of the results."""
+"""The runner of all studies of the benchmark: it measures points and makes a dataset of the results."""
 
 import enum
 import logging
@@ -30,25 +30,27 @@ def words(flags: type[enum.IntEnum]) -> tuple[str, ...]:
     return tuple(flag.name.lower() for flag in flags)
 
 
-def run(
+def run(  # noqa: PLR0913
     table: str,
     points: Sequence[Row],
     measure: Callable[..., Iterable[Row]],
     dims: Sequence[str] = (),
     *,
     rounds: int = 1,
+    cores: int = 1,
     summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),
     flags: Flags | None = None,
     unmeasured: Mapping[str, int] | None = None,
     **about: Any,
 ) -> xr.Dataset:
-    """Measure points on one core, and log what comes out.
+    """Measure points on one core or on several, and log what comes out.
 
     table : of the variables in ``variables.toml``
     points : coordinates and settings by name
     measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point
     dims : coordinates that become dimensions; without any, the dataset has a ``row`` for each result
     rounds : number of times that all points are measured in turn, so that a disturbance affects all alike
+    cores : number of cores on which this process and its children run
     summarise : of the results grouped by ``dims``: one row a point
     flags, unmeasured : meanings of flags, and their values where nothing was measured; other variables are nan there
     about : attributes of the dataset beside machine and versions
@@ -59,7 +61,7 @@ def run(
         for name, (units, long_name) in TABLES[table].items()
     }
     rows = []
-    with one_core():
+    with few_cores(cores):
         for _ in range(rounds):
             for point in points:
                 for result in measure(**point):
@@ -81,13 +83,13 @@ def run(
 
 
 @contextmanager
-def one_core() -> Iterator[None]:
-    """Restrict this process, and the threads begun meanwhile, to one of its cores; release it afterwards."""
+def few_cores(count: int) -> Iterator[None]:
+    """Restrict this process, and threads and processes begun meanwhile, to so many cores; release it afterwards."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
     before = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {max(before)})
+    os.sched_setaffinity(0, sorted(before)[-count:])
     try:
         yield
     finally:

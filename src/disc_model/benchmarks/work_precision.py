@@ -91,10 +91,11 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
         seconds = groups["seconds"]
         return pd.DataFrame(groups.median()).assign(seconds_spread=seconds.max() - seconds.min(), repeats=groups.size())
 
+    described: dict[str, Any] = {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     dataset = run(
         "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, summarise=summarise,
         flags={"verdict": Verdict}, unmeasured={"verdict": Verdict.NOT_RUN}, title="Speed against accuracy",
-        Conventions="CF-1.11", **{f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings},
+        Conventions="CF-1.11", **described,
     )  # fmt: skip
     solvers = [name for name in METHODS if name in dataset["solver"]]
     dataset = dataset.drop_vars("point").sel(solver=solvers)
