@@ -151,7 +151,8 @@ def plant(tree: Any, value: Any, data: st.DataObject) -> Any:
 @given(st.dictionaries(st.sampled_from([*dm.Parameters.model_fields, "n", ""]), VALUES, max_size=8))
 def test_any_parameters(values: dict[str, Any]) -> None:
     with contextlib.suppress(dm.ParameterError):
-        assert all(math.isfinite(x) for x in dm.Parameters(**values).model_dump().values() if isinstance(x, float))
+        numbers = dm.Parameters(**values).model_dump(exclude={"friction_decay"})  # which is infinite if friction drops
+        assert all(math.isfinite(x) for x in numbers.values() if isinstance(x, float))
 
 
 @given(st.data())
