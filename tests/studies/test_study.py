@@ -25,7 +25,7 @@ CASES: dict[str, Any] = {
     "base": {"N": 385, "c": 0.1},
     "record": {"windows": {"history": {"rate": 100}}, "events": {"last": 2}},
     "cases": {
-        "A": {"title": "a", "parameters": {"Omega": 15}, "t_end": 10},
+        "A": {"parameters": {"Omega": 15}, "t_end": 10},
         "B": {"title": "b", "parameters": {"Omega": 15.1, "N": 50}, "t_end": 1, "tol": "1e-8"},
     },
 }
@@ -37,8 +37,8 @@ CASES: dict[str, Any] = {
 def test_a_file_can_say_both_and_figures_of_both() -> None:
     both = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "history"}}
     study = parse_study(CASES | GRID | {"base": {"N": 200, "Omega": 20}, "figures": both})
-    assert study.grid is not None
-    assert list(study.grid.plots) == ["growth"]
+    assert [text["title"] for text in study.labels.values()] == ["A", "b"]
+    assert list(study.grids()[0]["small"].plots) == ["growth"]
     entries = study.entries(study.grids()[0])
     assert [(name, [*entry.inputs]) for (_, name), entry in entries.items()] == [("growth", ["study"]), ("seen", ["A"])]
 

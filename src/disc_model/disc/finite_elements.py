@@ -87,7 +87,9 @@ def disc_of_section(
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
+    is_mesh = isinstance(mesh, skfem.MeshQuad)
     require(
+        (is_mesh, "section", mesh, "must be rectangles, with their size of an element, or a mesh of quadrilaterals"),
         (is_point, "slider", slider, "must be two numbers, r and z"),
         (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
     )
@@ -100,17 +102,15 @@ def disc_of_section(
     nearest = int(np.argmin(np.hypot(*(basis.doflocs[:, circular] - np.array(slider)[:, None]))))
     measured = np.array([vertical[int(np.argmin(apart))], circular[nearest], *vertical[level[first]]])
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
-    pieces = _pieces(mesh)
     require(
         (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
         (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
-        (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
+        ((pieces := _pieces(mesh)) == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
     warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
-    highest = math.tau * highest_Hz
     rows: list[tuple[float, int, int, float, float, list[float]]] = []
     for l in range(61):
-        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, highest)
+        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, math.tau * highest_Hz)
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
         # the sine of a mode has the displacement -v(sin(l theta) to cos(l theta)) along theta

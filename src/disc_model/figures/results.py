@@ -148,7 +148,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         there, available = file and file.absolute().parent.is_dir(), not writer or writers.is_available(writer)
         rules += [
             (there, "path", str(path), "must be in a folder that exists"),
-            (writer, "path", str(path), "must end in .gif or .mp4"),
+            (writer, "path", str(path), "must end in .gif or .mp4; a window is given by window="),
             (available, "path", str(path), f"needs the program {writer}"),
         ]
     require(*rules)

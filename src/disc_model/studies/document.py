@@ -196,7 +196,7 @@ SomeSpan = TypeVar("SomeSpan", bound=Span)
 class NamedCase(Strict):
     """One named simulation of a study."""
 
-    title: str
+    title: str = ""
     reference: str = ""
     parameters: Annotated[
         tuple[Parameters, ModeRequest | None], PlainValidator(_of_case, json_schema_input_type=GivenParameters)

@@ -166,7 +166,7 @@ class Study:
     @property
     def labels(self) -> dict[str, dict[str, str]]:
         """Texts about the cases, which do not change their results."""
-        return {name: {"title": case.title, "reference": case.reference} for name, case in self.cases.items()}
+        return {name: {"title": case.title or name, "reference": case.reference} for name, case in self.cases.items()}
 
     def entries(self, grids: Mapping[str, GridStudy]) -> dict[tuple[str, str], FigureEntry]:
         """All figures of the file and of grids, by the study in whose folder they are and their names."""
