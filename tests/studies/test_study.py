@@ -38,7 +38,7 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
     both = GRID["figures"] | {"seen": {"kind": "history", "case": "A", "window": "history"}}
     study = parse_study(CASES | GRID | {"base": {"N": 200, "Omega": 20}, "figures": both})
     assert [text["title"] for text in study.labels.values()] == ["A", "b"]
-    assert list(study.grids()[0]["small"].plots) == ["growth"]
+    assert list(study.grids()[0][study.name].plots) == ["growth"]
     entries = study.entries(study.grids()[0])
     assert [(name, [*entry.inputs]) for (_, name), entry in entries.items()] == [("growth", ["study"]), ("seen", ["A"])]
 
