@@ -320,7 +320,7 @@ class Disc(Checked):
 
         Parameters
         ----------
-        r_0 : m, the slider's radius, for its mark; in the middle of the known radii if not given
+        r_0 : m, the slider's radius; the middle of the known radii if not given, with a false ring if that is wrong
         most : number of modes that are drawn, by ascending frequency
         ax : axes to draw on, one for each mode
 
