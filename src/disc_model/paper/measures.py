@@ -368,15 +368,15 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    scanned = f"(the scan ends at {study['scan_Omega'].values[-1]:g} rad/s)"
-    parts = [f"does not exist up to {never[-1]:g} N {scanned}"] if never.size else []
-    parts += [
+    above = f"lies above {study['scan_Omega'].values[-1]:g} rad/s, if there is one, up to "
+    begin = f"{above}{never[-1]:g} N; then it " if never.size else ""
+    parts = [
         f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
         parts += [f"is {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"]
-    return Falls(True, bool(later), f"{', '.join(parts[:-1])}, and {parts[-1]}")
+    return Falls(True, bool(later), f"{begin}{', '.join(parts[:-1])}, and {parts[-1]}")
 
 
 def width_ratio(case: CaseView, bonded: CaseView) -> float:

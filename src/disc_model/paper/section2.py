@@ -68,8 +68,8 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
         lowest=lowest,
         critical=critical,
         first=[
-            f"{or_none(was, '.0f', ' s')} and "
-            f"{or_none(now, '.0f', ' s', f'not within {horizons[figure]:g} s ({kinds[figure]})')} in {figure}"
+            f"{figure}, {or_none(was, '.0f', ' s')} and "
+            f"{or_none(now, '.0f', ' s', f'none within {horizons[figure]:g} s ({kinds[figure]})')}"
             for figure, was, now in times.itertuples()
         ],
         points=(apart[0].size, *np.sum(apart, axis=(1, 2))),
@@ -118,12 +118,11 @@ def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
         for case in (evidence[0], *evidence[3:])
     )
     more, *circles = [bool(np.allclose(norm, nine, rtol=share)) for norm in others]
-    names = ("nine modes", "up to 8 nodal diameters", "up to one nodal circle", "up to two nodal circles")
     return Answer(
         TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE,
         change=["hardly change" if same else "change" for same in (more, all(circles))],
         place=evidence[0].place,
-        rows=[(name, *values) for name, values in zip(names, (nine, *others), strict=True)],
+        rows=[nine, *others],
         first=first,
     )
 

@@ -147,16 +147,16 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     first, others = both[: int(shown)], both[int(shown) :]
     rows = [
         f"At {case.place} the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
-        f"without, and their ratio is {part:.2f}."
+        f"without; the ratio is {part:.2f}."
         for (case, bonded), part in first
     ]
     over = measures.extent(1 / part for part in parts)
     return Answer(
         max(parts[: int(shown)]) < ratio,
         " ".join(rows),
-        f"In the other pairs it is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
+        f"In the other pairs the ratio is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
         * bool(others),
-        f"Ignoring separation overestimates the range by a factor of {over:.1f} in these pairs.",
+        f"In these pairs, ignoring separation overestimates the range by factors of {over:.1f}.",
     )
 
 
@@ -213,7 +213,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     falls, last = all(each.falls for each in lowest), lowest[-1]
     return Answer(
         PART if falls and last.again else falls,
-        f"The lowest speed with separation within {float(study['horizon'][-1]):g} s {last.words}.",
+        f"With rising preload, the lowest speed with separation within {float(study['horizon'][-1]):g} s {last.words}.",
     )
 
 
