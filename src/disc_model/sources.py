@@ -77,7 +77,7 @@ def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]], frozenset[s
     """What `_parse` finds in a file, which takes 8 ms: kept in a file whose name is the hash of all that decides it."""
     source = path.read_bytes()
     name = hashlib.sha256(b"\0".join((source, sys.version.encode(), _PARSER))).hexdigest()
-    cache = Path(os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("disc_model"), "sources", name)
+    cache = cache_folder() / "sources" / name
     try:
         known = json.loads(zlib.decompress(cache.read_bytes()))
     except (OSError, zlib.error):  # also if another process is writing it: the compression contains a checksum
@@ -89,6 +89,11 @@ def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]], frozenset[s
 
 
 _PARSER = Path(__file__).read_bytes()
+
+
+def cache_folder() -> Path:
+    """The folder of what is made once on a machine, kernels too: numba's if it has one, or the user's for caches."""
+    return Path(os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("disc_model"))
 
 
 def _parse(tree: ast.Module) -> tuple[str, list[tuple[int, str, str]], list[str]]:

@@ -52,10 +52,14 @@ MAIN = getattr(workflow, "is_main_process", True)
 LOCAL = MAIN and not (CONDA or workflow.output_settings.dryrun or workflow.nodes)
 if LOCAL and sys.platform == "linux":
     LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "VECLIB", "NUMEXPR")
-    ONE = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES}
-    NULL = subprocess.DEVNULL
-    PIPES = {"stdin": subprocess.PIPE, "stdout": NULL, "stderr": NULL}
-    warm = subprocess.Popen([sys.executable, *WARM], env=os.environ | ONE, **PIPES)
+    ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES}
+    SILENT = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    warm = subprocess.Popen(
+        [sys.executable, *WARM],
+        stdin=subprocess.PIPE,
+        env=os.environ | ONE_THREAD,
+        **SILENT,
+    )
     finalize(workflow, warm.kill)
 
 try:

@@ -197,11 +197,11 @@ def _seconds(value: float) -> str:
 
 
 # ---- How cost grows
-MAPS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
-    "floquet": ("growth rate", {"color": BLUE, "marker": "o"}, {"xytext": (5, -4), "va": "top"}),
-    "outcome": ("outcome", {"color": ORANGE, "marker": "s", "linestyle": "--"}, {"xytext": (-5, 4), "ha": "right"}),
+MAPS: dict[str, tuple[str, dict[str, Any], tuple[float, float]]] = {
+    "floquet": ("growth rate", {"color": BLUE, "marker": "o"}, (5, -4)),
+    "outcome": ("outcome", {"color": ORANGE, "marker": "s", "linestyle": "--"}, (-5, 4)),
 }
-"""Name of each map, look of its line, and position of the name beside it."""
+"""Name of each map, look of its line, and offset of the name from it, in points."""
 
 
 def scaling(dataset: xr.Dataset) -> Figure:
@@ -216,10 +216,10 @@ def scaling(dataset: xr.Dataset) -> Figure:
     }
     for ax, (varies, (xlabel, shown, ylabel)), letter in zip(axes, heads.items(), "abc", strict=True):
         for quantity, part in rows[rows["varies"] == varies].groupby("quantity"):
-            name, look, beside = MAPS[str(quantity)]
+            name, look, offset = MAPS[str(quantity)]
             ax.plot(part[varies], part[shown], markersize=3.5, **look)
             x, y = (part[column].iloc[2 * len(part) // 3] for column in (varies, shown))
-            ax.annotate(name, (x, y), color=look["color"], textcoords="offset points", **beside)
+            drawing.say(ax, name, (x, y), offset, color=look["color"])
         ax.margins(0.08)
         ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
         ax.set_ylim(bottom=10.0 ** math.floor(math.log10(ax.get_ylim()[0])))

@@ -76,7 +76,8 @@ def list_(
     elif what == "cases":
         heads = ("case", "title", "parameters", "t_end (s)")
         texts = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
-        rows = [(name, case.title or name, texts[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
+        labels = chosen.labels
+        rows = [(name, labels[name]["title"], texts[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
     else:
         heads, entries = ("figure", "kind", "title"), chosen.entries(grids).items()
         rows = [(name, x.plot.kind, x.title) for (study, name), x in entries if study in (chosen.name, *requested)]

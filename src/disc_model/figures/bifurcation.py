@@ -250,13 +250,8 @@ class LateRange(Plot):
             if str(name) in self.shaded:
                 low, high = self.shaded[str(name)]
                 ax.axvspan(low, high, facecolor="none", edgecolor=GREY, hatch=5 * "/", linewidth=0, zorder=0)
-                written: dict[str, Any] = {
-                    "fontsize": 6,
-                    "path_effects": drawing.halo(2.0),
-                    "ha": "center",
-                    "va": "bottom",
-                }
-                ax.text((low + high) / 2, SMALLEST, "surface faster\nthan drive:\nlaw not valid", **written)
+                centred: dict[str, Any] = {"ha": "center", "va": "bottom", "path_effects": drawing.halo(2.0)}
+                ax.text((low + high) / 2, SMALLEST, "surface faster\nthan drive:\nlaw not valid", fontsize=6, **centred)
             for load, colour in zip(loads, LOAD_COLOURS, strict=False):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}

@@ -224,7 +224,7 @@ class RampedSpeeds(Plot):
             folds = [crossings(curve, load) for curve in curves_of(overlays["curves"]) if curve.kind == "fold"]
             if below := [speed for speed in chain(*folds) if speed <= np.fmin.reduce(onset)]:
                 ax.axhline(max(below), **drawing.BORDERS["fold"], zorder=0)
-                drawing.say_beside(ax, max(below), f"{max(below):.2f}")
+                drawing.say_beside(ax, max(below), f"{max(below):.2f}", fontsize=6, color=drawing.GREY)
         drawing.mark_failed(ax, rates[gone])
         ax.set_xscale("log")
         ax.margins(x=0.04)

@@ -377,9 +377,9 @@ def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
     say(ax, text, (x, 1), (0, 2), xycoords=("data", "axes fraction"), **look)
 
 
-def say_beside(ax: Axes, height: float, text: str) -> None:
-    """Write a line's name at its right end, outside the panel."""
-    say(ax, text, (1, height), (2, 0), xycoords=("axes fraction", "data"), fontsize=6, color=GREY)
+def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:
+    """Write a line's name at its right end, outside the panel, after a gap in points."""
+    say(ax, text, (1, height), (gap, 0), xycoords=("axes fraction", "data"), **look)
 
 
 def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:

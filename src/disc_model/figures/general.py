@@ -293,7 +293,7 @@ def name_ends(ax: Axes) -> bool:
         return False
     for line, end in zip(lines, ends, strict=True):
         line.set_color(BLACK)
-        drawing.say(ax, line.get_label(), (1, end), (2, 0), xycoords=("axes fraction", "data"), fontsize=7)
+        drawing.say_beside(ax, end, line.get_label(), fontsize=7)
     return True
 
 

@@ -49,7 +49,7 @@ class Campbell(Plot):
         of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
         for part, name in named_modes(of_disc, ends["sliding_frequency"].values, 0.035 * highest):
             height = float(ends["sliding_frequency"][part].mean())
-            drawing.say(top, name, (1, height), (3, 0), xycoords=("axes fraction", "data"), fontsize=7)
+            drawing.say_beside(top, height, name, 3, fontsize=7)
         # so large a step leads to another cycle
         bottom.plot(*drawing.broken(speeds, rate, LINEAR), ".-", color=BLACK, linewidth=0.8, markersize=1.6)
         bottom.axhline(0, color=GREY, linewidth=0.5, zorder=0)
@@ -63,10 +63,10 @@ class Campbell(Plot):
             multiple = float(crossing["crossing_multiple"])
             line = multiple * study["stick_slip_frequency" if of_cycle else "rotation_frequency"]
             top.plot(speeds, line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
-            place = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
-            top.plot(*place, **DOT)
+            meeting = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
+            top.plot(*meeting, **DOT)
             name = rf"{multiple:g} ${'f_s' if of_cycle else 'f_Ω'}$"
-            drawing.say(top, name, place, (4, -3), fontsize=7, path_effects=drawing.halo())
+            drawing.say(top, name, meeting, (4, -3), fontsize=7, path_effects=drawing.halo())
             drawing.say(bottom, name, (speeds[i], rate[i]), (2, 3), fontsize=7, path_effects=drawing.halo())
         for ax in (top, bottom):
             for low, high in gaps(study):
@@ -87,15 +87,15 @@ def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
     speeds, rate = study["Omega"].values, np.nan_to_num(study["growth_rate"].values, nan=-np.inf)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * np.ptp(speeds)
     tops = np.flatnonzero((rate >= LINEAR) & (rate == np.where(beside, rate, -np.inf).max(axis=1)))
-    found: list[tuple[int, xr.Dataset | None]] = []
+    highest: list[tuple[int, xr.Dataset | None]] = []
     for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
         leads = study["mode"][int(np.nanargmax(study["cycle_growth_rate"].values[i]))]
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
         other = np.where(study["crossing_mode"] == leads, 0.0, np.ptp(speeds))
         known = np.flatnonzero(apart <= NEAR * np.ptp(speeds))
         nearest = known[np.argsort((apart + other)[known])[:1]]
-        found.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
-    return found
+        highest.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
+    return highest
 
 
 def name_of(*diameters: int) -> str:
@@ -170,8 +170,8 @@ class SlidingModes(Plot):
         top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=along[[0, -1]], ylim=(0, highest))
         first = study.isel(value=0)
         for part, name in named_modes(first["diameters"].values, first["frequency"].values, 0.03 * highest):
-            place = along[0], float(first["frequency"][part].mean())
-            drawing.say(top, name, place, (3, 0), fontsize=7, bbox={"fc": "white", "lw": 0, "pad": 1})
+            left_end = along[0], float(first["frequency"][part].mean())
+            drawing.say(top, name, left_end, (3, 0), fontsize=7, bbox={"fc": "white", "lw": 0, "pad": 1})
         # the sign matters: decay of high modes may be much faster
         low, top_rate = float(study["mode_growth_rate"].min()), max(float(largest.max()), 0.1)
         bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -top_rate), 1.1 * top_rate))
@@ -200,8 +200,8 @@ class RootLocus(Plot):
         ax.plot(first["mode_growth_rate"], first["frequency"], "o", color=BLACK, markersize=4, markerfacecolor="white")
         apart = 0.03 * float(study["frequency"].max())
         for part, name in named_modes(first["diameters"].values, first["frequency"].values, apart):
-            place = float(first["mode_growth_rate"][part].mean()), float(first["frequency"][part].max())
-            drawing.say(ax, name, place, (0, 3), fontsize=7, path_effects=drawing.halo(), zorder=3)
+            ring = float(first["mode_growth_rate"][part].mean()), float(first["frequency"][part].max())
+            drawing.say(ax, name, ring, (0, 3), fontsize=7, path_effects=drawing.halo(), zorder=3)
         ax.axvline(0, color=BLACK, linewidth=0.6)
         ax.margins(x=0.02)
         ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")

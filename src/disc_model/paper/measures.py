@@ -404,6 +404,11 @@ def counted(count: int, name: str) -> str:
     return f"{count} {name}{'s' if count != 1 else ''}"
 
 
+def repeats(motion: Motion, name: str) -> str:
+    """After how many events of this name a motion repeats, or else its class, in words."""
+    return f"repeats after {counted(motion.period, name)}" if motion.period else f"is {motion}"
+
+
 def place(N: float, Omega: float) -> str:
     """Preload and speed in words."""
     return f"{N:g} N, {Omega:g} rad/s"

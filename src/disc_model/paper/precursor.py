@@ -18,13 +18,13 @@ def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array
 
     They are without friction, with it, and with it and a damper; for modes as published, then for modes by Eq. (17).
     """
-    found = []
+    rates = []
     for scale in ("as_published", "orthonormal"):
         p = Parameters(N=1, Omega=1, contact="bilateral", normalization=scale).replace(**friction)
         cases = p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)
         points = [[[each.replace(N=N, Omega=speed) for speed in SPEEDS] for N in loads] for each in cases]
-        found.append(np.array([[[*map(sliding_growth, row)] for row in rows] for rows in points]))
-    return found
+        rates.append(np.array([[[*map(sliding_growth, row)] for row in rows] for rows in points]))
+    return rates
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import Motion, irregularity
+from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
@@ -126,18 +126,13 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     motions = [case.late_motion() for case in shown]
     if any(motion.kind is Outcome.UNDECIDED for motion in motions):
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    near = [f"{_repeats(case.late_motion(), 'release')} at {case.place}" for case in stiffer]
-    other = [
-        f"{_repeats(measures.classify_intervals(tuple(case.intervals('separation'))), 'separation')} at {case.place}"
-        for case in begun
-        if case.stick <= 1e-3
-    ]
+    near = [f"{measures.repeats(case.late_motion(), 'release')} at {case.place}" for case in stiffer]
+    slips = [case for case in begun if case.stick <= 1e-3]
+    separating = [measures.classify_intervals(tuple(case.intervals("separation"))) for case in slips]
+    repeated = [measures.repeats(motion, "separation") for motion in separating]
+    other = [f"{words} at {case.place}" for words, case in zip(repeated, slips, strict=True)]
     verdict = graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions)
     return Answer(verdict, rows=[(case.place, case.motion) for case in shown], near=near, other=other)
-
-
-def _repeats(motion: Motion, name: str) -> str:
-    return f"repeats after {measures.counted(motion.period, name)}" if motion.period else f"is {motion}"
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
@@ -170,7 +165,8 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
         rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
     steady = of_windows(pairs(cases)[0][1], "field")
-    return Answer(less := min(withheld) >= share, less=less, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
+    less = min(withheld) >= share
+    return Answer(less, less=less, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
 
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general

@@ -15,7 +15,7 @@ from disc_model.paper import measures
 from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, listed, mm, published, rate_text
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import moving_load
-from disc_model.paper.section41 import _repeats, upward
+from disc_model.paper.section41 import upward
 from disc_model.parameters import Parameters
 
 __all__ = ["moving_load", "upward"]  # which the texts name as well
@@ -244,7 +244,7 @@ def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
         fate=case.fate,
         points=points,
         motion=case.motion,
-        near=_repeats(near.late_motion(), "release"),
+        near=measures.repeats(near.late_motion(), "release"),
     )
 
 

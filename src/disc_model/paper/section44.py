@@ -274,13 +274,13 @@ def not_monotonous(*evidence: Any) -> Answer:
     p = cases[0].parameters.replace(N=300)
     rates = stiffened(p, "k_p", 50)[50]
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
-    p_text = " ".join(case.fate for case in cases)
+    fates = " ".join(case.fate for case in cases)
     return Answer(
         [case.separates for case in cases] == [False, True, False]
         and newly.any()
         and lowered.any()
         and {-1, 1} <= signs,
-        f"Preload acts both ways. {p_text} In-plane damping acts both ways, too. On a map at "
+        f"Preload acts both ways. {fates} In-plane damping acts both ways, too. On a map at "
         f"{facts(study)['Omega']:g} rad/s, some damper of up to {damping[-1]:g} N s/m brings separation at "
         f"{listed(loads[newly], '.0f')} N, but the largest damper lowers growth at {lowered.sum()} of {growing.sum()} "
         f"preloads with a growing cycle. In-plane stiffness acts both ways as well. At {p.N:g} N, "

@@ -232,10 +232,9 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
         intervals = np.diff(case.times_of(kind))
         if intervals.size >= 2 * FEWEST:
             motion = measures.classify_intervals(tuple(intervals))
-            if motion.period:
-                length = float(intervals[: motion.period].sum())
-                return motion.kind, f"repeats after {measures.counted(motion.period, name)} ({length:.4g} s)"
-            return motion.kind, f"is {motion}, judged by its {name}s"
+            length = float(intervals[: motion.period].sum())
+            how = f" ({length:.4g} s)" if motion.period else f", judged by its {name}s"
+            return motion.kind, measures.repeats(motion, name) + how
     return Outcome.UNDECIDED, "switches too rarely to be judged"
 
 

@@ -7,7 +7,6 @@ file, in a folder named by a hash of the engine's code.  A file that does not fi
 
 import functools
 import hashlib
-import os
 import pickle
 import sys
 import uuid
@@ -22,7 +21,7 @@ import llvmlite
 import numba
 from numba.core import event
 
-from disc_model.sources import code_hash
+from disc_model.sources import cache_folder, code_hash
 
 SUFFIX = ".kernel"
 HELPERS = ".helpers"
@@ -41,9 +40,7 @@ def source_hash(folder: Path = Path(__file__).parents[1]) -> str:
 @functools.cache
 def folder() -> Path:
     """The folder of the compiled kernels."""
-    from platformdirs import user_cache_dir
-
-    return Path(os.environ.get("NUMBA_CACHE_DIR") or user_cache_dir("disc_model")) / f"engine-{source_hash()}"
+    return cache_folder() / f"engine-{source_hash()}"
 
 
 def versions() -> str:
