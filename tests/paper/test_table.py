@@ -84,7 +84,7 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
     expected = {"F13": TRUE, "P04": TRUE, "P07": FALSE, "eq17": FALSE}
     assert table["verdict"][list(expected)].to_dict() == expected
     assert table.loc["F13", "here"].startswith("Contact is lost at 54.42 s")
-    assert table.loc["P04", "here"].startswith("850.86, 1492.55, 1516.76, 1814.90")
+    assert "frequencies are 850.86, 1492.55, 1516.76, 1814.90, " in table.loc["P04", "here"]
     for row, reason in (("F04", "F04 is not in this study"), ("F11", "F11 ends at 1 s"), ("F16", "F16 has another N")):
         assert table.loc[row, "verdict"] == NOT_COMPUTED
         assert table.loc[row, "here"].startswith(f"case {reason}")

@@ -114,7 +114,7 @@ class CaseView:
     @property
     def fate(self) -> str:
         """The same, and how disturbances of its cycle grow, as a sentence."""
-        growth = rate_text(self.growth_rate, "/s", "not defined, because there is no quiet cycle")
+        growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near the static start")
         return f"At {self.place}, {self.contact}, and growth is {growth}."
 
     @property
@@ -123,8 +123,8 @@ class CaseView:
         times, motion = self.intervals(), self.late_motion()
         if not motion.period:
             return (
-                f"{motion}: there are {1 / times.mean():.1f} releases per second, they have no period of up to "
-                f"{motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f}"
+                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them have no "
+                f"period of up to {motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f}"
             )
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)

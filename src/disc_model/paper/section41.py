@@ -44,10 +44,8 @@ def upward(*cases: CaseView, share: float) -> Answer:
         if not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         parts.append(float(np.mean(velocity > 0)))
-        rows.append(f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():.1f} mm above equilibrium at {case.place}")
-    up = measures.extent(100 * part for part in parts)
-    text = f"The disc under the slider moves upward at {up:.0f} % of the separations in these cases"
-    return Answer(min(parts) >= share, f"{text}. Its mean velocity and mean height are then {'; '.join(rows)}.")
+        rows.append(f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():.1f} mm at {case.place}")
+    return Answer(min(parts) >= share, up=measures.extent(100 * part for part in parts), rows=rows)
 
 
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
@@ -252,11 +250,11 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     most = float(study["Omega"].max())
     return Answer(
         bool((low & unstable).any() and (low & apart).any()),
-        f"Up to {most:g} rad/s, {100 * most / critical:.1f} % of the critical speed of a moving load, "
-        f"{int(unstable.sum())} of {apart.size} combinations of speed and preload have a growing cycle, and "
-        f"{int(apart.sum())} separate.",
-        f"{int((unstable & ~apart).sum())} combinations with a growing cycle do not separate within "
-        f"{measures.facts(study)['horizon']:g} s.",
+        most=most,
+        part=most / critical,
+        counts=[int(each.sum()) for each in (unstable, apart, unstable & ~apart)],
+        size=apart.size,
+        horizon=measures.facts(study)["horizon"],
     )
 
 

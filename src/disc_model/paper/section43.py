@@ -60,7 +60,7 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
     return Answer(
         PART if (part := holds and not all(stable)) else holds,
         " ".join(case.fate for case in cases),
-        f"The statement holds up to {largest:g} N, the largest preload of the paper's figures except Fig. 15." * part,
+        f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads." * part,
     )
 
 
@@ -78,19 +78,16 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     times = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
-    rows = [f"{times[x]:.0f} s at {x:g} rad/s" for x in sorted(times) if not math.isnan(times[x])]
-    never = [speed for speed in sorted(times) if math.isnan(times[speed])]
     apart = times[printed] <= horizon
-    least = min(speed for speed, time in times.items() if not math.isnan(time))
+    least = [min(lower), min(speed for speed, time in times.items() if not math.isnan(time))] if lower else []
     return Answer(
         PART if apart and lower else apart,
-        f"At {known['N']:g} N contact is first lost after {'; '.join(rows)}. It is not lost at {listed(never, 'g')} "
-        f"rad/s within {cases[0]['time_reached']:g} s.",
-        f"Within the {horizon:.0f} s until the case of Fig. 17 (15 rad/s) separates here, {min(lower):g} rad/s "
-        f"separates too, {100 * (1 - min(lower) / printed):.0f} % below the printed speed. Within the whole run, "
-        f"{least:g} rad/s separates, {100 * (1 - least / printed):.0f} % below it."
-        if lower
-        else "",
+        N=known["N"],
+        rows=[f"{times[x]:.0f} s at {x:g} rad/s" for x in sorted(times) if not math.isnan(times[x])],
+        never=[speed for speed in sorted(times) if math.isnan(times[speed])],
+        end=cases[0]["time_reached"],
+        horizon=horizon,
+        lower=[(speed, 1 - speed / printed) for speed in least],
     )
 
 
@@ -124,12 +121,8 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
             f"{_place(case.parameters, int(i))} (a {'growing' if before[i] > 0 else 'stable'} cycle)"
             for i in np.flatnonzero(after > before)
         ]
-    return Answer(
-        growing == lowered > 0,
-        f"The damping is raised from 0 in two equal steps to {values_text({name: 2 * value})}. Counted over both "
-        f"steps, it lowers growth at {lowered} of {growing} growing cycles.",
-        f"Growth is higher with more damping at {'; '.join(raised)}." * bool(raised),
-    )
+    most = values_text({name: 2 * value})
+    return Answer(growing == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
@@ -161,9 +154,9 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     rank, part = float(np.median(ranks)), float(np.mean(falls))
     return Answer(
         TRUE if part == 1 else PART if rank <= -trend else FALSE,
-        f"On the map of {name} and speed at {facts(study)['N']:g} N, growth falls in {100 * part:.0f} % of the steps "
-        f"to the next larger {name}. The median over the speeds of the rank correlation between growth and {name} is "
-        f"{rank:.2f}.",
+        N=facts(study)["N"],
+        part=part,
+        rank=rank,
     )
 
 
@@ -179,16 +172,16 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     return Answer(
         PART if holds and cause else holds,
-        f"{case.fate} The range of the contact force is {case.early.width:.1f} N between 1 and 21 s. The median of its "
-        f"ranges in stretches of 20 s is {before:.1f} N in the third quarter of the run and {last:.1f} N in the last. "
-        f"The largest of these ranges is {max(widths):.0f} N.",
+        f"{case.fate} Between 1 and 21 s, the range of the contact force is {case.early.width:.1f} N. In stretches of "
+        f"20 s, the median of the range is {before:.1f} N in the third quarter of the run and {last:.1f} N in the last "
+        f"quarter; the largest range is {max(widths):.0f} N.",
     )
 
 
 def is_kind(case: CaseView, *, kind: str) -> Answer:
     motion = case.late_motion()
     if motion.kind is Outcome.UNDECIDED:
-        return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
+        return Answer(NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion.")
     span = case.kept_span()
     return Answer(motion.kind == kind, f"From {span:g} s, the motion at {case.place} is {case.motion}.")
 
@@ -200,15 +193,12 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
     holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
-    stated = facts(study)
     return Answer(
         PART if holds and returns else holds,
-        " ".join(f"With k = {1e-3 * case['k']:g} kN/m, {case.contact}." for case in cases)
-        + f" All these cases have {measures.place(cases[0]['N'], cases[0]['Omega'])}.",
-        f"On the map at {stated['N']:g} N, some spring separates within {stated['horizon']:g} s, but a softer one does "
-        f"not, at speeds of {listed(returns, '.4g')} rad/s."
-        if returns
-        else "",
+        place=measures.place(cases[0]["N"], cases[0]["Omega"]),
+        rows=[(1e-3 * case["k"], case.contact) for case in cases],
+        stated=facts(study),
+        returns=returns,
     )
 
 
@@ -224,7 +214,7 @@ def stiff_enough(case: CaseView) -> Answer:
         PART if calm and stable and unstable else calm and not unstable,
         f"{case.fate} With this stiffness the motion is stable at {stable} of {len(points)} combinations of preload "
         "and speed.",
-        f"It is unstable at {'; '.join(others)}." if others else "",
+        f"With this stiffness the motion is unstable at {'; '.join(others)}." if others else "",
     )
 
 
@@ -251,8 +241,7 @@ def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     return Answer(
-        graded([sooner, base.growth_rate > soft.growth_rate]),
-        f"{soft.fate} {base.fate} This case has k_p = {1e-3 * base['k_p']:g} kN/m.",
+        graded([sooner, base.growth_rate > soft.growth_rate]), fates=(soft.fate, base.fate), k_p=1e-3 * base["k_p"]
     )
 
 
@@ -297,12 +286,10 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
 def bounded(*cases: CaseView, factor: float) -> Answer:
     """Whether no range grows on after separation."""
     widths = [case.last_quarters("w_point") for case in cases]
-    rows = [f"{mm(late)} at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)]
-    most = max(late for late, _ in widths) / cases[0]["h"]
     return Answer(
         graded(late <= factor * before for late, before in widths),
-        f"In the last quarter of the time after the first separation, the range of the disc is {'; '.join(rows)}. At "
-        f"most it is {most:.0f} times the thickness of the disc.",
+        rows=[f"{mm(late)} at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)],
+        most=max(late for late, _ in widths) / cases[0]["h"],
     )
 
 
@@ -352,6 +339,8 @@ def stiffened(p: Parameters, name: str, *speeds: float) -> dict[float, measures.
 def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
     """The same in words."""
     _, symbol, values = STIFFENED[name]
-    by_speed = stiffened(p, name, *speeds).items()
-    rows = [f"{', '.join(map(rate_text, rates))} per second at {speed:g} rad/s" for speed, rates in by_speed]
-    return f"for {name} = {', '.join(map(str, values))} {symbol}, in this order, growth is {', and '.join(rows)}"
+    rows = [
+        f"at {speed:g} rad/s, {', '.join(f'{rate_text(rate)} ({x})' for rate, x in zip(rates, values, strict=True))}"
+        for speed, rates in stiffened(p, name, *speeds).items()
+    ]
+    return f"growth per second, with {name} in {symbol} in brackets, is, {'; and, '.join(rows)}"

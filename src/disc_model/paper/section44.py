@@ -39,8 +39,8 @@ def rest_late(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     moved = [_drift(each) for each in (case, bonded)]
     return Answer(
         PART if moved[0] <= within else TRUE,
-        f"At {case.place}, spectral lines drift while the vibration grows. From 100 to 110 s, long after the first "
-        f"separation at {case['first_separation']:.2f} s, they drift by at most {moved[0]:.0e} Hz.",
+        f"At {case.place}, the lines of the disc's spectrum drift while the vibration grows. The first separation is "
+        f"at {case['first_separation']:.2f} s. From 100 to 110 s the lines drift by at most {moved[0]:.0e} Hz.",
     )
 
 
@@ -55,8 +55,7 @@ def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -
     """Whether lines come to rest, and not without separation."""
     drift, other = _drift(case), _drift(bonded)
     verdict = FALSE if drift > within else PART if other <= within else TRUE
-    text = f"At {case.place}, lines drift from 100 to 110 s by at most {drift:.0e} Hz with separation"
-    return Answer(verdict, f"{text}, and by at most {other:.0e} Hz without.")
+    return Answer(verdict, place=case.place, drift=drift, other=other)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
@@ -69,15 +68,14 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
-    named = (table["ours_is"] != UNNAMED).sum()
-    rows = ", ".join(f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples())
     return Answer(
         off.max() <= bound and chance * len(lines) <= 1e-3,
-        f"At {case.place} from 0 to 10 s, the {len(lines)} lines differ from the printed ones by at most "
-        f"{off.max():.2f} Hz. {named} "
-        "of them are combinations of the stick-slip rate, or number of releases per second, "
-        f"f_s = {stick_slip_rate(case):.2f} Hz and the drive's frequency f_Ω. The lines lie at {rows} Hz.",
-        f"Lines at {listed(others)} Hz are as strong as the weakest of these, but are not in Table 2." * bool(others),
+        place=case.place,
+        off=off.max(),
+        named=(table["ours_is"] != UNNAMED).sum(),
+        rate=stick_slip_rate(case),
+        rows=[f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples()],
+        others=others,
     )
 
 
@@ -94,30 +92,30 @@ def follow(*cases: CaseView, within: float) -> Answer:
         far = [float(np.min(np.abs(natural - line.frequency))) for line in lines]
         away += far
         drives += [each / case.drive for each in far]
-        stated = f"with k_p = {1e-3 * case['k_p']:g} kN/m at {measures.place(case['N'], case['Omega'])}"
-        shown = listed((line.frequency for line in lines), ".1f")
-        rows.append(f"The six strongest lines {stated}, where f_s = {rate:.2f} Hz, lie at {shown} Hz.")
+        place = measures.place(case["N"], case["Omega"])
+        rows.append((place, 1e-3 * case["k_p"], rate, [line.frequency for line in lines]))
     combined = [each <= within for each in off]
     return Answer(
         max(drives) <= 4 and not any(combined),
-        "The lines follow the stick-slip rate f_s when the in-plane spring or the speed is changed. "
-        f"{sum(combined)} of {len(combined)} lines lie within {max(off):.2f} Hz of n f_s + m f_Ω, where n and m are "
-        "integers and f_Ω is the drive's frequency. The natural frequencies do not change, and the lines are up to "
-        f"{max(away):.0f} Hz away from the nearest of them.",
-        *rows,
+        combined=sum(combined),
+        size=len(combined),
+        off=max(off),
+        away=max(away),
+        rows=rows,
     )
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
     rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
-    slower = f"Sticking makes f_s lower than the frequency of the slider on its in-plane spring, {free:.2f} Hz."
     pair, holds = table_2(case).iloc[1:3], abs(rate - printed) <= within
     return Answer(
         graded([[*pair["ours_is"]] == ["f_s − f_Ω", "f_s + f_Ω"], holds]),
-        f"The lines at {' and '.join(f'{x:.2f}' for x in pair['ours_Hz'])} Hz are {' and '.join(pair['ours_is'])}. "
-        f"They come from the in-plane vibration, whose frequency is f_s = {rate:.2f} Hz, and which the rotation with "
-        f"the drive's frequency f_Ω = {case.drive:.2f} Hz splits. The case has {case.place}.",
-        "" if holds else slower,
+        place=case.place,
+        rate=rate,
+        drive=case.drive,
+        lines=[*pair["ours_Hz"]],
+        names=[*pair["ours_is"]],
+        free="" if holds else free,
     )
 
 
@@ -125,14 +123,14 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
     far = np.abs(nearest - computed) > within
-    rows = ", ".join(f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True))
     return Answer(
         TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE,
-        f"{far.sum()} of {far.size} lines are more than {within:g} Hz away from the nearest natural frequency at "
-        f"{case.place}. The lines, with this natural frequency in brackets, are {rows}.",
-        f"Twice the stick-slip rate is {2 * stick_slip_rate(case):.2f} Hz. The coupled mode has {natural[0]:.2f} Hz."
-        if 0 < far.sum() < far.size
-        else "",
+        place=case.place,
+        rows=[f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)],
+        far=(far.sum(), far.size),
+        within=within,
+        twice=2 * stick_slip_rate(case),
+        coupled=natural[0],
     )
 
 
@@ -151,13 +149,13 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
         )
         rises.append([after > max(factor * before, floor), control > max(factor * ignored, floor)])
         rows.append(
-            f"At {case.place} it is {before:.1e} from {low:g} s to the first separation at {first:.2f} s, and "
-            f"{after:.1e} from there to {high:g} s. Without separation it is {control:.1e} in the later window."
+            f"At {case.place} this share is {before:.1e} from {low:g} s to the first separation at {first:.2f} s, and "
+            f"{after:.1e} from then to {high:g} s. In this later window it is {control:.1e} without separation."
         )
     rise, alone = zip(*rises, strict=True)
     return Answer(
         FALSE if not all(rise) else PART if any(alone) else TRUE,
-        f"What is compared is the share of the power above {LOW:g} Hz that lies above {HIGH:g} Hz. {' '.join(rows)}",
+        f"Of the power above {LOW:g} Hz, a share lies above {HIGH:g} Hz. {' '.join(rows)}",
     )
 
 
@@ -248,9 +246,7 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
-    rows = [f"At {case.place}, {case.contact}." for case in cases]
-    most = f"{max(smooth):.0e}/s" if any(smooth) else "0, which is that of the undamped in-plane mode"
-    return Answer(apart, " ".join([*rows, f"Without friction, the largest growth rate of steady sliding is {most}."]))
+    return Answer(apart, rows=[f"At {case.place}, {case.contact}." for case in cases], most=max(smooth))
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:
@@ -274,17 +270,18 @@ def not_monotonous(*evidence: Any) -> Answer:
     p = cases[0].parameters.replace(N=300)
     rates = stiffened(p, "k_p", 50)[50]
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
-    fates = " ".join(case.fate for case in cases)
     return Answer(
         [case.separates for case in cases] == [False, True, False]
         and newly.any()
         and lowered.any()
         and {-1, 1} <= signs,
-        f"Preload acts both ways. {fates} In-plane damping acts both ways, too. On a map at "
-        f"{facts(study)['Omega']:g} rad/s, some damper of up to {damping[-1]:g} N s/m brings separation at "
-        f"{listed(loads[newly], '.0f')} N, but the largest damper lowers growth at {lowered.sum()} of {growing.sum()} "
-        f"preloads with a growing cycle. In-plane stiffness acts both ways as well. At {p.N:g} N, "
-        f"{stiffened_text(p, 'k_p', 50)}.",
+        fates=[case.fate for case in cases],
+        Omega=facts(study)["Omega"],
+        most=damping[-1],
+        newly=listed(loads[newly], ".0f"),
+        counts=(lowered.sum(), growing.sum()),
+        N=p.N,
+        stiffened=stiffened_text(p, "k_p", 50),
     )
 
 
@@ -298,10 +295,11 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
     lower = int((both & (growth[:, -1] < growth[:, 0])).sum())
     return Answer(
         bool(large.size),
-        f"On a map at {facts(study)['Omega']:g} rad/s, some in-plane damper of up to {damping[-1]:g} N s/m brings "
-        f"separation at {listed(large, '.0f', 'no')} N.",
-        f"At {both.sum()} preloads there is a cycle without a damper and with one of {damping[-1]:g} N s/m. With it, "
-        f"growth is lower at {lower} of them.",
+        Omega=facts(study)["Omega"],
+        most=damping[-1],
+        large=listed(large, ".0f", "no"),
+        both=both.sum(),
+        lower=lower,
     )
 
 
@@ -310,7 +308,7 @@ def stiffer_inplane(case: CaseView) -> Answer:
     results = stiffened(case.parameters, "k_p", 20, 50).values()
     known = [rates[np.isfinite(rates)] for rates in results]
     rising = [bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0)) for rates in known]
-    return Answer(all(rising), f"At {case['N']:g} N, {stiffened_text(case.parameters, 'k_p', 20, 50)}.")
+    return Answer(all(rising), N=case["N"], stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -319,16 +317,14 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     E, some = E / 1e9, apart.any(axis=1)
     quiet = E[~some]
     softer = E[some & (quiet.max(initial=0.0) > E)] if quiet.size else E[:0]
-    stated = facts(study)
     at_slow = apart[E <= BASE.E / 1e9][:, Omega == slow]
     return Answer(
         bool(quiet.size) and bool(some.any()) and not softer.size,
-        f"At {stated['N']:g} N, within {stated['horizon']:g} s, discs of {listed(quiet, '.4g', 'no')} GPa separate at "
-        "no speed of the map. " + (f"Softer discs of {listed(softer, '.4g')} GPa do." if softer.size else ""),
-        f"At {slow:g} rad/s, the speed of Fig. 21, no disc of up to {1e-9 * BASE.E:g} GPa separates, so this figure "
-        "shows nothing about softness."
-        if at_slow.size and not at_slow.any()
-        else "",
+        stated=facts(study),
+        quiet=listed(quiet, ".4g", "no"),
+        softer=[*softer],
+        slow=slow if at_slow.size and not at_slow.any() else "",
+        base=BASE.E,
     )
 
 
@@ -343,21 +339,20 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         follows.append(rise / of_mode)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
-        rows.append(f"At {pair[0].place} the slider leaves the disc {rates[0]:.2f} times per second.")
+        rows.append((pair[0].place, rates[0]))
     p = cases[0].parameters
     free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
     level = max(_level(case, free) for case in cases[::2])
     by_mode = all(abs(each - 1) <= within for each in follows)
     return Answer(
         AMBIGUOUS if by_mode else all(abs(each - 1) <= within for each in alone),
-        f"{' '.join(rows)} The coupled mode has {modes[0]:.2f} Hz. At the frequency of the slider on its vertical "
-        f"spring alone, sqrt(k/m) = {free:.1f} Hz, the disc's spectrum has no line.",
-        f"If k is 0.1 % larger, the rate of separations rises by {' and '.join(f'{x:.3f}' for x in follows)} of the "
-        f"rise of the coupled mode's frequency in these cases. The spring provides {100 * spring:.0f} % of the "
-        f"stiffness of this mode. At {free:.1f} Hz the amplitude of the disc is at most {level:.0e} of that of "
-        "the strongest line.",
-        "If the vertical branch is the coupled mode, the sentence is true. If it is the slider on its spring alone, "
-        "the sentence is false." * by_mode,
+        rows=rows,
+        coupled=modes[0],
+        free=free,
+        follows=follows,
+        spring=spring,
+        level=level,
+        by_mode=by_mode,
     )
 
 
