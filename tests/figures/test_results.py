@@ -69,15 +69,13 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
 
 
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
-    from disc_model.stability.continuation import continue_cycle
-
     cycle = dm.floquet(P.replace(Omega=15))
     assert "stable, growth rate -0.105/s" in cycle.plot().get_title(loc="left")
     sliding = dm.steady_sliding(P)
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     named = [text.get_text() for text in sliding.plot().texts]
     assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
-    branch = continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
     assert "fold at 15.095" in labels(branch.plot())
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (branch, "15.0949"), (P, "15.1")):
         assert text in shown._repr_html_()
@@ -114,6 +112,14 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
     with pytest.raises(dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"):
         dm.plot_sweep(plane, "perod")
+
+
+def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
+    sweep = dm.sweep(dm.basins, P, Omega=[14, 15], energies=[1e-4, 0.1], horizon=60)
+    for study, low, high in ((sweep.sel(Omega=14), [1, 0], [0, 1]), (sweep, [0.5, 0.5], [0.5, 0.5])):
+        ax = dm.plot_sweep(study)
+        assert labels(ax.figure) == ["quiet", "separating"]
+        assert [bar.get_height() for bar in ax.patches] == low + high
 
 
 def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:

@@ -18,6 +18,8 @@ from disc_model.errors import Fault, ParameterError, raise_faults, require, sugg
 from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.bifurcation import draw_branch
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, by_itself
+from disc_model.figures.maps import patches
+from disc_model.figures.uncertain import LOOKS, draw_shares, outcomes_in
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
@@ -319,7 +321,8 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
 # ---- Grids and discs
 NAMES = {*Parameters.model_fields, *RATIOS}
 # Coordinates of one value that titles state.
-PREFERRED = ("growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
+SHARES = ("basin_fraction_by_energy", "basin_fraction")
+PREFERRED = (*SHARES, "growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
 """Variables that a sweep shows first."""
 
 
@@ -369,13 +372,14 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
 def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool = False, ax: Any = None) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over two.
 
-    A second dimension of words, such as the direction of a sweep, gives a line for each.
+    A second dimension of words, such as the direction of a sweep, gives a line for each. What starts come to is drawn
+    as bars of their shares, at each energy or along a parameter.
 
     Parameters
     ----------
-    study : such as `disc_model.sweep`, `disc_model.run_study` and `disc_model.hysteresis` return; of one or two
-        dimensions of several values
-    variable : the growth rate, the outcome or the first number there is if not given
+    study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
+        several values
+    variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
     x : the dimension along the horizontal axis; the first of numbers if not given
     log : whether the scale of the variable is logarithmic
     ax : axes to draw on
@@ -402,12 +406,14 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         *zip(texts, ("variable", "x"), (variable, x), ("must be a name",) * 2, strict=True),
         (isinstance(log, bool), "log", log, "must be True or False"),
     )
-    study = study.squeeze()
+    alone = "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]  # one case
+    study = study.squeeze([dim for dim, size in study.sizes.items() if size == 1 and not (alone and dim == "energy")])
     numbers = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
     choices = [str(name) for name, values in study.items()
                if {*values.dims} & {*numbers} and {*values.dims} <= {*study.coords}]  # fmt: skip
-    first = [name for name in choices if study[name].dtype.kind in "fi"] + choices
-    named = variable or next((name for name in PREFERRED if name in choices), (*first, "")[0])
+    flat = [name for name in choices if study[name].ndim < 3]
+    first = [name for name in flat if study[name].dtype.kind in "fi"] + choices
+    named = variable or next((name for name in PREFERRED if name in flat), (*first, "")[0])
     if named not in choices:
         raise ParameterError(Fault.of(("variable",), named, f"must be one over the grid{suggestion(named, choices)}"))
     dims = [str(dim) for dim in study[named].dims]
@@ -418,7 +424,9 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         raise ParameterError(Fault.of(("x",), across, rule))
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.9)
     handles: Sequence[Any]
-    if len(dims) == 1 or len(possible) == 1:
+    if named in SHARES and not log:
+        handles = _draw_shares(axes, study[named], across)
+    elif len(dims) == 1 or len(possible) == 1:
         general.draw_lines(axes, study, named, across, log)
         handles = axes.get_legend_handles_labels()[0]
     else:
@@ -437,3 +445,15 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
         figure: Any = axes.figure
         figure.suptitle(drawing.head_text(figure.get_figwidth(), "", drawing.what_case(values)), fontsize=8)
     return axes
+
+
+def _draw_shares(axes: Axes, shares: xr.DataArray, across: str) -> Sequence[Any]:
+    """Draw shares of outcomes as bars, equally far apart for energies, which may be 0; returns entries of a legend."""
+    label, factor = drawing.label_of(shares[across])
+    along, classes = shares[across].values * factor, outcomes_in(shares)
+    places = np.arange(along.size) if across == "energy" else along
+    draw_shares(axes, shares, classes, places, 0.9 * np.diff(places).min(initial=1.0))
+    if across == "energy":
+        axes.set_xticks(places, [f"{energy:g}" for energy in along])
+    axes.set(xlabel=label, ylabel=drawing.label_of(shares)[0], xmargin=0.04)
+    return patches(LOOKS, classes)

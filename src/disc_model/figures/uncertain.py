@@ -1,7 +1,7 @@
 """Uncertain starts and parameters: basins of attraction, and probabilities of instability."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Any, Literal
 
@@ -44,16 +44,10 @@ class BasinShares(Plot):
         figure = drawing.new_figure(PAGE, 4.6)
         above, below = np.asarray(figure.subfigures(2, 1))
         axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
-        classes = [class_ for class_ in LOOKS if (study["basin_fraction"].sel(attractor_class=class_) > 0).any()]
+        classes = outcomes_in(study["basin_fraction"])
         width = 0.9 * np.diff(along).min(initial=1.0)
         for ax, energy in zip(axes, energies, strict=False):
-            shares = study["basin_fraction_by_energy"].sel(energy=energy, attractor_class=classes)
-            low = shares.cumsum("attractor_class") - shares.fillna(0)
-            for class_ in classes:
-                bars = [values.sel(attractor_class=class_) for values in (shares, low)]
-                look = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
-                ax.bar(along, bars[0], width, bars[1], linewidth=0.4, **look)
-            ax.set(ylim=(0, 1))
+            draw_shares(ax, study["basin_fraction_by_energy"].sel(energy=energy), classes, along, width)
         axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
         _attractors(axes[-2], study, along)
         _kicks(axes[-1], study, along)
@@ -67,6 +61,21 @@ class BasinShares(Plot):
         handles = patches(LOOKS | {"undecided": undecided}, classes)
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
         return figure
+
+
+def outcomes_in(shares: xr.DataArray) -> list[str]:
+    """The outcomes that occur among the starts, in the order in which their shares are stacked."""
+    return [class_ for class_ in LOOKS if (shares.sel(attractor_class=class_) > 0).any()]
+
+
+def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: np.ndarray, width: float) -> None:
+    """Draw the shares of outcomes along another dimension, stacked, as bars at the places `along`."""
+    shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
+    below = shares.cumsum("attractor_class") - shares.fillna(0)
+    for class_, heights, bottoms in zip(classes, shares, below, strict=True):
+        look = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
+        ax.bar(along, heights, width, bottoms, linewidth=0.4, **look)
+    ax.set(ylim=(0, 1))
 
 
 def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
