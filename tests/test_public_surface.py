@@ -83,7 +83,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         StepControl,
         {},
-        {name: [*WRONG] for name in ("growth", "easy", "sharpest")} | {"scale": "None", "max_points": "huge"},
+        {"growth": WRONG, "easy": WRONG, "sharpest": WRONG, "scale": "None", "max_points": "huge", "beyond": "True"},
     ),
     (
         dm.critical,

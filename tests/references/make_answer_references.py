@@ -85,10 +85,8 @@ def region() -> tuple[list[str], dict[str, Any]]:
 
 
 def fold() -> dict[str, Any]:
-    speeds = [
-        float(continue_cycle(answers.SEPARATING.replace(Omega=14.8), "Omega", (14.5, 16.0), tol=tol).folds[0, 0])
-        for tol in (1e-12, ENGINE)
-    ]
+    start, way = answers.SEPARATING.replace(Omega=14.8), {"bounds": (14.5, 16.0), "direction": 1}
+    speeds = [float(continue_cycle(start, "Omega", **way, tol=tol).folds[0, 0]) for tol in (1e-12, ENGINE)]
     return {"value": speeds[1], "error": max(abs(speeds[1] - speeds[0]), 1e-12),
             "by": "continuation of the cycle by the engine at tolerances 1e-12 and 1e-14"}  # fmt: skip
 

@@ -16,12 +16,16 @@ P = Parameters(N=300, Omega=15)
 BOX = {"Omega": (3.0, 18.0), "N": (150.0, 450.0)}
 
 
-def test_a_branch_goes_round_its_fold():
+def test_a_branch_goes_both_ways_and_round_its_fold_to_its_bounds():
     branch = continue_cycle(P, "Omega", (12.0, 17.0))
     assert branch.ended == "Omega has left 12 .. 17"
+    assert branch.values[[0, -1], 0] == pytest.approx([12, 12], rel=1e-15)  # scaled, and back
+    ahead = continue_cycle(P, "Omega", (12.0, 15.96), direction=1)
+    assert [*ahead.values[[0, -1], 0], len(ahead.folds)] == pytest.approx([15, 15.96, 0], rel=1e-15)
+    with pytest.raises(ParameterError, match="Omega=15: must lie within the bounds, 12 to 14"):
+        continue_cycle(P, "Omega", (12.0, 14.0))
     assert len(repr(branch)) < 200
     assert branch.folds == pytest.approx(np.array([[fold_at(300)]]), abs=1e-9)
-    assert branch.values[-1, 0] < 12
     upper = branch.points[:, 0] > 1
     assert upper[0]
     assert not upper[-1]

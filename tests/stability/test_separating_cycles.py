@@ -83,7 +83,8 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    branch = continue_cycle(p, "Omega", (14.0, 18.0), guess=late, releases=2, steps=StepControl(step=1e-2))
+    how = {"guess": late, "releases": 2, "direction": 1, "steps": StepControl(step=1e-2)}
+    branch = continue_cycle(p, "Omega", (14.0, 18.0), **how)
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended.startswith("the order of events changes: separations 2 to ")

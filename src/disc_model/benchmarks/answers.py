@@ -488,7 +488,7 @@ def cycle_onset(p: Parameters, tol: float) -> Reply:
     """Speed (rad/s) of the first fold of the quiet cycle above 14.5 rad/s."""
     low, high = 14.5, 16.0
     try:
-        folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), tol=tol).folds
+        folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), direction=1, tol=tol).folds
     except ParameterError as error:
         return reply_of(math.nan, 0.0, f"no cycle to follow: {error}")
     return reply_of(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")

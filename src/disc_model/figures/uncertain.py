@@ -73,7 +73,7 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: n
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for class_, heights, bottoms in zip(classes, shares, below, strict=True):
-        look = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
+        look: dict[str, Any] = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
         ax.bar(along, heights, width, bottoms, linewidth=0.4, **look)
     ax.set(ylim=(0, 1))
 

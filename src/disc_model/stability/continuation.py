@@ -326,6 +326,7 @@ class StepControl:
     scale : value of the parameter that counts as one in the arclength; by default its own. For one parameter only
     growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
         `easy`; below `sharpest` the step is shortened
+    beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
     """
 
     step: float = 0.02
@@ -336,12 +337,14 @@ class StepControl:
     growth: float = 1.5
     easy: float = 0.99
     sharpest: float = 0.9
+    beyond: bool = False
 
     def __post_init__(self) -> None:
         names = ("step", "longest", "shortest", *(["scale"] if self.scale is not None else []))
         lengths = [(name, getattr(self, name)) for name in names]
         rules = [(is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths]
         counts = is_whole(self.max_points) and self.max_points >= 1
+        rules.append((isinstance(self.beyond, bool), "beyond", self.beyond, "must be True or False"))
         require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
 
 
@@ -407,7 +410,7 @@ def continue_cycle(
     name: str,
     bounds: tuple[Quantity, Quantity],
     *,
-    direction: int = 1,
+    direction: int = 0,
     guess: State | None = None,
     releases: int = 1,
     tol: float = 1e-12,
@@ -415,22 +418,24 @@ def continue_cycle(
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    From a state `guess` the cycle may lose contact. It is followed with its impacts as long as its events keep their
-    order. If an event would appear or vanish, the return map has a corner: the branch ends and names that event.
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact. It is followed with its
+    impacts as long as its events keep their order. If an event would appear or vanish, the return map has a corner: the
+    branch ends and names that event.
 
     Parameters
     ----------
-    p : case whose cycle is the first point
+    p : case whose cycle is followed; its value of the parameter must lie within the bounds
     name : the free parameter, one of `Parameters.numbers`
     bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
-    direction : 1 to begin with increasing values, -1 with decreasing ones
+    direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
     guess, releases, tol : as in `floquet`
     steps : length and number of the steps
 
     Returns
     -------
     Branch
-        The cycles in their order along the curve, its folds, and in `ended` why it ends.
+        The cycles in their order along the curve, its folds, and in `ended` why it ends; if for two reasons, that of
+        its first point, then that of its last.
 
     Raises
     ------
@@ -444,42 +449,69 @@ def continue_cycle(
     >>> import disc_model as dm
     >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
     >>> branch
-    Branch(16 cycles, Omega from 14.7024 to 15.0949, 1 fold: Omega has left 14.8 .. 15.2)
+    Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
         (is_interval(span := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
-        (is_number(direction) and abs(direction) == 1, "direction", direction, "must be 1 or -1"),
+        (is_number(direction) and direction in (-1, 0, 1), "direction", direction, "must be -1, 0 or 1"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
     raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    start, slack = p.numbers[name], 1e-9 * (span[1] - span[0])  # ratios are rounded
+    within = span[0] - slack <= start <= span[1] + slack
+    require((within, name, start, f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"))
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
-    tangent *= direction * (1.0 if tangent[-1] >= 0 else -1.0)
+    tangent *= 1.0 if tangent[-1] >= 0 else -1.0
     low, high = (bound / problem.scales[0] for bound in span)
-    folds: list[float] = []
+    left = f"{name} has left {span[0]:g} .. {span[1]:g}"
+    points, folds, reasons = [point], list[float](), list[str]()
+    for way in (-1, 1) if direction == 0 else (direction,):
+        turned: list[float] = []
 
-    def ends(places: list[Place], new: Place, ds: float) -> str:
-        before = places[-1]
-        if new.tangent[-1] * before.tangent[-1] < 0:
-            try:
-                folds.append(_locate_fold(problem, before.point, new.point, before.tangent) * problem.scales[0])
-            except CorrectorFailed as lost:
-                where = before.point.z[-1] * problem.scales[0]
-                raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
-        return "" if low <= new.point.z[-1] <= high else f"{name} has left {span[0]:g} .. {span[1]:g}"
+        def ends(places: list[Place], new: Place, ds: float, turned: list[float] = turned) -> str:
+            before = places[-1]
+            if new.tangent[-1] * before.tangent[-1] < 0:
+                try:
+                    fold = _locate_fold(problem, before.point, new.point, before.tangent)
+                except CorrectorFailed as lost:
+                    where = before.point.z[-1] * problem.scales[0]
+                    raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
+                if not (steps.beyond or low <= fold <= high):
+                    return left
+                turned.append(fold * problem.scales[0])
+            return "" if low <= new.point.z[-1] <= high else left
 
-    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
-    points = [place.point for place in places]
-    if isinstance(ended, Reordered):
-        duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-        ends_of = ((problem.case(z), problem.state(z)) for z in (points[-1].z, ended.z))
-        motions = (simulate(case, duration, tol=tol, initial_state=state) for case, state in ends_of)
-        ended = f"{ended}; {changed_event(*motions)}"
-    return branch_of(problem, points, np.array(folds).reshape(-1, 1), str(ended))
+        places, ended = continue_curve(Place(point, way * tangent), partial(_next, problem), steps, ends)
+        found = [place.point for place in places]
+        if ended == left and not steps.beyond:
+            inside = low <= found[-1].z[-1] <= high  # after a fold beyond the bound
+            along = places[-2].tangent if inside else found[-1].z - found[-2].z
+            found = found[:-1] + _at_bound(problem, found[-2], along, high if along[-1] > 0 else low)
+        if isinstance(ended, Reordered):
+            duration = 2 * found[-1].flight.period  # an event may be missing at the end of a period
+            ends_of = ((problem.case(z), problem.state(z)) for z in (found[-1].z, ended.z))
+            motions = (simulate(case, duration, tol=tol, initial_state=state) for case, state in ends_of)
+            ended = f"{ended}; {changed_event(*motions)}"
+        reasons.append(str(ended))
+        points, folds = (points + found[1:], folds + turned) if way > 0 else (found[::-1], turned[::-1])
+    if direction < 0:
+        points, folds = points[::-1], folds[::-1]
+    return branch_of(problem, points, np.array(folds).reshape(-1, 1), "; ".join(dict.fromkeys(reasons)))
+
+
+def _at_bound(problem: CycleProblem, last: CyclePoint, along: Array, bound: float) -> list[CyclePoint]:
+    """The cycle at a bound in a direction from the last one; none if that is there already, or if none is found."""
+    guess = last.z + (bound - last.z[-1]) / along[-1] * along
+    try:
+        found = problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound]))
+    except CorrectorFailed:
+        return []
+    return [found] if last.z[-1] != bound else []
 
 
 def changed_event(cycle: Result, other: Result) -> str:

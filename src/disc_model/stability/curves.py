@@ -232,7 +232,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     begin = case.numbers[name]
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
-        steps = StepControl(scale=abs(end - begin), max_points=40)
+        steps = StepControl(scale=abs(end - begin), max_points=40, beyond=True)
         branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")

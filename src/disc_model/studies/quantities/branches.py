@@ -131,19 +131,12 @@ def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str,
     p, name = cycle.parameters, options.parameter
     bounds = options.scan.values[0], options.scan.values[-1]
     near = cycle.state if reached else None
-    steps = StepControl(longest=options.max_step, max_points=options.max_points)
-    down, up = (
-        continue_cycle(p, name, bounds, direction=way, steps=steps, guess=near, releases=cycle.releases if near else 1)
-        for way in (-1, 1)
-    )
-    values, points, period, growth_rate = (
-        np.concatenate([getattr(down, column)[::-1], getattr(up, column)[1:]])
-        for column in ("values", "points", "period", "growth_rate")
-    )
-    row = {"value": values[:, 0], "period": period, "growth_rate": growth_rate}
+    steps = StepControl(longest=options.max_step, max_points=options.max_points, beyond=True)
+    branch = continue_cycle(p, name, bounds, steps=steps, guess=near, releases=cycle.releases if near else 1)
+    row = {"value": branch.values[:, 0], "period": branch.period, "growth_rate": branch.growth_rate}
     return_map = ReturnMap(p)
     ranges = []
-    for value, x, time in zip(row["value"], points, period, strict=True):
+    for value, x, time in zip(row["value"], branch.points, branch.period, strict=True):
         case = p.replace(**{name: float(value)})
         map_ = ReturnMap(case)
         ranges.append(_range(case, map_.state(x / return_map.scale * map_.scale), time))
