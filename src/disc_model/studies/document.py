@@ -286,8 +286,8 @@ def _several(value: Any) -> Any:
 
 
 def _known(name: str | None) -> str | None:
-    if name is not None:
-        quantity_of(name)
+    if name is not None and "status" not in quantity_of(name).COLUMNS:
+        raise ParameterError(Fault.of((), name, "COLUMNS of its class must contain 'status'"))
     return name
 
 

@@ -224,7 +224,6 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     return {name: [row.get(name) for row in rows] for name in names}
 
 
-# ---- Quantities
 WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
 # Measured costs, s. A new value changes the batches of all studies of a quantity without `batch.size`.
 SIMULATED = 7e-4  # cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation
