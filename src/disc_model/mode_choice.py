@@ -212,7 +212,7 @@ HORIZON = 600.0  # s, simulated at most until the first separation
 def choose_modes(
     case: Parameters | Mapping[str, Any], tolerance: float | None = None, *, quantity: str = FREQUENCIES
 ) -> ModeChoice:
-    """Find the model with the fewest real modes whose error of a quantity is within ``tolerance``.
+    """Find the fewest real modes with which a quantity's error is within ``tolerance``.
 
     Parameters
     ----------
