@@ -26,16 +26,12 @@ def lambdas(p: Parameters) -> np.ndarray:
     return ((p.rho * p.h / p.D) ** 0.25 * np.sqrt(omega) * p.b).reshape(p.n_circles + 1, p.n_diameters + 1)
 
 
-def test_frequencies_of_the_free_disc_agree_with_the_paper() -> None:
-    omega = plate_modes(P).omega.to_numpy()
+def test_modes_of_the_free_disc_agree_with_the_paper() -> None:
+    omega, psi = plate_modes(P)[["omega", "psi"]].to_numpy().T
     assert_allclose(omega, [1491.927, 1516.757, 1823.881, 2774.194, 4383.044], rtol=0, atol=5.1e-4)
-
-
-def test_published_amplitudes() -> None:
-    psi = plate_modes(P).psi.to_numpy()
     assert_allclose(psi**2, [1.70575, 66.79457, 2.35417, 1.32275, 0.96751], rtol=0, atol=5.1e-6)
     # what the modes give way under a unit force
-    assert mode_arrays(P).flexibility == pytest.approx(float(np.sum(psi**2 / plate_modes(P).omega ** 2)), rel=1e-14)
+    assert mode_arrays(P).flexibility == pytest.approx(float(np.sum(psi**2 / omega**2)), rel=1e-14)
 
 
 def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
@@ -78,6 +74,16 @@ def test_modal_damping_is_twice_the_share_of_critical_damping_times_the_frequenc
     given = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0], damping_ratio=[1e-3, 0.0])
     assert_allclose(modal_damping(P.replace(damping_ratio=1e-3)), 2e-3 * mode_arrays(P).omega)
     assert_allclose(modal_damping(Parameters(N=385, Omega=15.1, disc=given)), [2.0, 0.0])
+
+
+def test_the_surface_moves_along_as_normals_of_the_middle_plane_turn() -> None:
+    """By -z/r_0 dw/dtheta; what a table says of the surface replaces that."""
+    given = P.replace(disc=Disc(diameters=[0, 2], omega=[1e3, 2e3], amplitude=[1.0, -3.0], tangential=[0.0, 0.2]))
+    for p, offset, z in ((P, 0.003, 0.003), (P, "surface", P.h / 2), (given, 0.003, 0.003)):
+        slope = mode_arrays(p).psi * np.sin(1e-9 * mode_arrays(p).diameters) / 1e-9  # of w under the slider
+        found = plate_module.tangential_amplitudes(p.replace(friction_offset=offset))
+        assert_allclose(found, -z / p.r_0 * slope, rtol=1e-14)
+    assert list(plate_module.tangential_amplitudes(given.replace(friction_offset="surface"))) == [0.0, 0.2]
 
 
 @given(st.floats(0.03, 0.97), st.floats(-0.8, 0.49), st.integers(0, 20))
@@ -139,11 +145,7 @@ def test_orthonormal_shapes_satisfy_eq_17() -> None:
 
 def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     roots = plate_module._roots
-
-    def with_a_gap(inner: float, nu: float, n_diameters: int, n_circles: int) -> np.ndarray:
-        return roots(inner, nu, n_diameters, n_circles + 1)[1:]
-
-    monkeypatch.setattr(plate_module, "_roots", with_a_gap)
+    monkeypatch.setattr(plate_module, "_roots", lambda *given: roots(*given[:3], given[3] + 1)[1:])
     with pytest.raises(ModeError, match="missed or doubled"):
         plate_modes(P.replace(nu=0.2123))  # of no other test: nothing is remembered of it
 

@@ -27,8 +27,7 @@ def written(path: Path, **changes: Any) -> Path:
     nodes = {"type": 15, "node_nums": numbers, "x": R * np.cos(ANGLE), "y": R * np.sin(ANGLE), "z": 0 * R}
     plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
     file.write_sets(nodes | plain, "overwrite")
-    modes = dm.plate_modes(P)
-    shapes = mode_shapes(P, RADII)
+    modes, shapes = dm.plate_modes(P), mode_shapes(P, RADII)
     moves = []
     for l, omega, shape in zip(modes["diameters"], modes["omega"], shapes, strict=True):
         for half in range(1 + (l > 0)):

@@ -12,6 +12,7 @@ from disc_model.errors import DiscModelError
 from disc_model.simulation.result import EVENT_KINDS, PHASES
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
+from tests.engine.test_variational import differences, solved
 from tests.references import printed
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
@@ -49,25 +50,37 @@ def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.Monke
 P = Parameters(N=200, Omega=20, n_diameters=2, c=0.05, c_p=0.02)
 
 
-def wild(seed: int = 1) -> tuple[ReturnMap, np.ndarray]:
-    """A point of the section whose flight loses contact."""
-    map_ = ReturnMap(P)
-    noise = np.random.default_rng(seed).normal(size=map_.size)
-    return map_, map_.static + 3 * np.max(np.abs(map_.static)) * noise
-
-
 def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
     with np.errstate(all="ignore"):
         return map_.evaluate(x, tangent=False, **how).outcome
 
 
 def test_flights_say_how_they_end() -> None:
-    map_, x = wild()
-    assert outcome(map_, map_.static) == transitions.RETURNED
-    assert outcome(map_, x) == transitions.STOPPED
+    map_ = ReturnMap(P)
+    flight = map_.evaluate(map_.static, releases=2, tangent=False)
+    assert (flight.outcome, flight.counts) == (transitions.RETURNED, (2, 0, 0, 0, 2))
+    x = map_.static + 3 * np.max(np.abs(map_.static)) * np.random.default_rng(1).normal(size=map_.size)
+    assert outcome(map_, x) == transitions.STOPPED  # it loses contact
     assert outcome(map_, x, may_separate=True) == transitions.RETURNED
     assert outcome(map_, -5 * map_.static) == transitions.OFF_SECTION  # P would be negative
     assert outcome(map_, np.full(map_.size, math.nan)) != transitions.RETURNED
+    start = simulate(P, 1e-6).final_state
+    with np.errstate(all="ignore"):
+        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == transitions.NON_FINITE
+
+
+def test_without_a_drop_of_friction_only_a_pull_that_outgrows_it_begins_slip() -> None:
+    """A hundredth before the speed of a mode at which both grow alike by the paper's equations, and beyond it."""
+    map_ = ReturnMap(P.replace(mu_k=P.mu_s))
+    p, along = map_.parameters, np.linalg.norm(map_.static) * (np.arange(map_.size) == 4)  # alpha of a mode
+
+    def outgrows(speed: float) -> float:
+        run = printed.Printed(p, map_.state(map_.static + speed * along))
+        return differences(lambda t: p.r_0 * p.k_p * run.at(t)["psi"] - p.mu_s * run.at(t)["P"], 1e-5)
+
+    alike = solved(outgrows)  # P is linear in it
+    beyond = [outcome(map_, map_.static + share * alike * along) == transitions.OFF_SECTION for share in (0.99, 1.01)]
+    assert beyond == [False, True]
 
 
 def test_a_flight_into_a_paradox_has_no_solution() -> None:
@@ -79,13 +92,6 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
     assert outcome(map_, x) == transitions.NO_SOLUTION
     slipping = start.replace(phase="slip", direction=1, f=10.0)
     assert map_.next_release(slipping)[0] == transitions.NO_SOLUTION
-
-
-def test_a_flight_that_overflows_is_not_finite() -> None:
-    map_ = ReturnMap(P)
-    start = simulate(P, 1e-6).final_state
-    with np.errstate(all="ignore"):
-        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == transitions.NON_FINITE
 
 
 @pytest.mark.parametrize(("gap", "known"), [(1e-16, 1), (1e-13, 0)])

@@ -31,8 +31,7 @@ def test_the_closed_form_of_stick_knows_the_places_of_the_state(compliance: floa
 def test_scales_are_of_a_motion_under_the_preload(compliance: float) -> None:
     """The slider's speed: what every mode's static deflection, and the contact's, is at its own frequency."""
     p = case(compliance)
-    given = engine_case(p)
-    model = given.model
+    model = engine_case(p).model
     omega = np.sqrt(np.append(model.stiffness[model.mode_amplitude != 0], model.stiffness0))
     force = np.append(model.mode_amplitude[model.mode_amplitude != 0], model.mode_amplitude0)
     each = [p.N * shape**2 / rate for shape, rate in zip(force, omega, strict=True)]

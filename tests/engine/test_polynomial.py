@@ -77,12 +77,8 @@ def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
     roots = [x_end * draw(st.sampled_from([Fraction(1, 2**k), Fraction(draw(st.integers(0, 2**k)), 2**k)]))]
     for _ in range(draw(st.integers(0, 3))):
         shift = Fraction(draw(st.sampled_from([0.0, 2.0 ** -draw(st.integers(5, 45))])))
-        others = [
-            roots[0] * (1 + shift),
-            x_end * draw(st.integers(1, 16)) / 16,
-            x_end * Fraction(draw(st.floats(-2, 2))),
-        ]
-        roots.append(draw(st.sampled_from(others)))
+        ends = x_end * draw(st.integers(1, 16)) / 16, x_end * Fraction(draw(st.floats(-2, 2)))
+        roots.append(draw(st.sampled_from([roots[0] * (1 + shift), *ends])))
     c = [Fraction(draw(st.sampled_from([-1, 1])))]
     for root in roots:
         c = times(c, [-root, Fraction(1)])

@@ -60,8 +60,7 @@ def test_states_pass_the_engine_unchanged(phase, direction):
     back = read_state(engine_case(P), state)
     close(vars(back), Printed(P, start).described(0.0, Printed(P, start).y), 1e-12, ("a", "b", "alpha", "beta"))
     assert (back.phase, back.direction) == (phase, direction)
-    assert back.u == pytest.approx(start.u, rel=1e-12)
-    assert back.u_velocity == pytest.approx(start.u_velocity, rel=1e-12)
+    assert (back.u, back.u_velocity) == pytest.approx((start.u, start.u_velocity), rel=1e-12)
 
 
 def test_impact():
