@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from disc_model import Execution, Parameters, display, simulate
+from disc_model import Execution, Parameters, critical, display, simulate
 from disc_model.engine.jit import cache
 from disc_model.simulation import api
 
@@ -36,6 +36,13 @@ def test_only_a_long_simulation_is_shown(
     simulate(P, 0.05, execution=Execution(progress=option))
     assert ("simulating 0.05 s" in stderr.getvalue()) == shown
     assert bool(stderr.getvalue()) == shown
+
+
+def test_a_long_search_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stderr", stderr := io.StringIO())
+    monkeypatch.setattr(display, "PATIENCE", 0.0)
+    critical(Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
+    assert all(f" {what} of mu_s\n" in stderr.getvalue() for what in ("7 values", "further values", "crossings"))
 
 
 def test_a_wait_for_another_process_is_said_and_its_helpers_are_read(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:

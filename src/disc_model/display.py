@@ -7,7 +7,7 @@ import math
 import re
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from html import escape
 from importlib import import_module
@@ -91,6 +91,16 @@ def simulating(progress: Progress, t_end: float, text: str = "") -> Iterator[Cal
         if bar is not None:
             bar.stop()
             _shown = False
+
+
+def computed(function: Callable[[Any], Any], values: Sequence[Any], what: str) -> list[Any]:
+    """The results of a function for each of some values, one by one; the progress of long work is shown."""
+    results: list[Any] = []
+    with simulating(None, len(values), f"computing {len(values)} {what}") as tell:
+        for value in values:
+            tell(len(results))
+            results.append(function(value))
+    return results
 
 
 def _open_bar(text: str, total: float, estimate: bool = True) -> Any:

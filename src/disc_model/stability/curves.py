@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, values_text
-from disc_model.display import Summarised, counted, draw
+from disc_model.display import Summarised, computed, counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -420,8 +420,14 @@ def critical(
         sliding = cycle.status is CycleStatus.NO_STICK_SLIP and cycle.sliding.stable
         return sliding or cycle.status is CycleStatus.AT_REST
 
-    for x in np.linspace(ends[0], ends[1], points).tolist():
-        stable(x)
+    def located(interval: tuple[float, float]) -> tuple[float, bool]:
+        """The upper end of a short interval within which stability changes, and whether the motion is stable below."""
+        (a, b), before = interval, stable(interval[0])
+        while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
+            a, b = (middle, b) if stable(middle) == before else (a, middle)
+        return b, before
+
+    computed(stable, np.linspace(ends[0], ends[1], points).tolist(), f"values of {name}")
     resolution = math.inf
     for _ in range(ROUNDS):
         gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
@@ -430,14 +436,9 @@ def critical(
         far = sorted(x for x, distance in new.items() if distance > shortest)
         if not far:
             break
-        for x in far:
-            stable(x)
-    crossings = []
-    for a, b in pairwise(sorted(cycles)):
-        if (before := stable(a)) != stable(b):
-            while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
-                a, b = (middle, b) if stable(middle) == before else (a, middle)
-            crossings.append((b, before))
+        computed(stable, far, f"further values of {name}")
+    changes = [(a, b) for a, b in pairwise(sorted(cycles)) if stable(a) != stable(b)]
+    crossings = computed(located, changes, f"crossings of {name}")
     begin = float(ends[0])
     first = [] if stable(begin) else [begin]
     first += [x for x, was_stable in crossings if was_stable]

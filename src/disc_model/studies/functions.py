@@ -18,7 +18,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
-from disc_model.display import simulating
+from disc_model.display import computed
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
@@ -361,13 +361,9 @@ def _described(name: str) -> dict[str, Any]:
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
     """The results of the calls, in order; the progress of long ones is shown."""
     kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
-    with simulating(None, len(arguments), f"computing {len(arguments)} points") as tell:
-        results = []
-        with nullcontext() if workers == 1 else kind(workers) as pool:
-            for result in map(call, arguments) if pool is None else pool.map(call, arguments):
-                results.append(result)
-                tell(len(results))
-        return results
+    with nullcontext() if workers == 1 else kind(workers) as pool:
+        results = map(call, arguments) if pool is None else pool.map(call, arguments)
+        return computed(lambda _: next(results), arguments, "points")
 
 
 def _row(

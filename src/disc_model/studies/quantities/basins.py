@@ -16,6 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.display import computed
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
 from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, State, listed
@@ -136,7 +137,8 @@ class _Sample:
         self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
         self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
         energies = list(enumerate(options.energies))
-        all_of = [[self._outcome_of(energy, j, i) for j, energy in energies] for i in range(options.n_starts)]
+        starts = range(options.n_starts)
+        all_of = computed(lambda i: [self._outcome_of(energy, j, i) for j, energy in energies], starts, "starts")
         self.found = list(zip(*all_of, strict=True))
 
     def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:

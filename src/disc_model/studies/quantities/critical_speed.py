@@ -15,6 +15,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
+from disc_model.display import computed
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, OutcomeResult, Point, Range, listed
 from disc_model.units import Count, Seconds, Speed, Unit
@@ -96,13 +97,11 @@ class CriticalSpeed(EarlyEnd):
             known[i] = math.inf if none else result.first_separation
 
         scanned = [i * round(self.step) for i in range(scan.intervals + 1)]
-        for i in scanned:
-            look(i)
+        computed(look, scanned, "speeds")
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down to the lattice
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
-                for i in wide:
-                    look(i)
+                computed(look, wide, "further speeds")
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {
             "status": next((result.status for result in failed.values()), "ok"),
