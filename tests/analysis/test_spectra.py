@@ -47,17 +47,10 @@ def sine(frequency: float, phase: float = 0.0) -> np.ndarray:
     return np.sin(2 * np.pi * frequency * SHORT + phase)
 
 
-@pytest.mark.parametrize(
-    ("frequency", "name"),
-    [
-        (F_DRIVE, "f_Ω"),
-        (2 * F_DRIVE, "2 f_Ω"),
-        (F_S - F_DRIVE, "f_s − f_Ω"),
-        (F_S + F_DRIVE, "f_s + f_Ω"),
-        (4 * F_S - F_DRIVE, "4 f_s − f_Ω"),
-        (3 * F_S, "3 f_s"),
-    ],
-)
+NAMES = {F_DRIVE: "f_Ω", 2 * F_DRIVE: "2 f_Ω", F_S - F_DRIVE: "f_s − f_Ω", F_S + F_DRIVE: "f_s + f_Ω", 3 * F_S: "3 f_s"}
+
+
+@pytest.mark.parametrize(("frequency", "name"), [*NAMES.items(), (4 * F_S - F_DRIVE, "4 f_s − f_Ω")])
 def test_lines_are_named(frequency: float, name: str) -> None:
     found = spectra.identify(frequency + 0.1, F_S, F_DRIVE)
     assert str(found) == name

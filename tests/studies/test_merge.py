@@ -11,13 +11,8 @@ from disc_model.studies.run import run_batch
 from tests.studies.refused import parse_grid
 
 #: The slider stays where it is on the disc: nothing has to be computed.
-STILL = {
-    "study": "still",
-    "quantity": "floquet",
-    "base": {"k_p": 0},
-    "axes": {"N": [100, 200], "Omega": [10, 20]},
-    "batch": {"size": 2},
-}
+STILL = {"study": "still", "quantity": "floquet", "base": {"k_p": 0}, "batch": {"size": 2}}
+STILL["axes"] = {"N": [100, 200], "Omega": [10, 20]}
 
 
 @pytest.fixture
