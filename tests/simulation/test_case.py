@@ -102,18 +102,17 @@ def test_the_sample_at_the_very_end_is_taken(t_end, rate):
     assert time[-1] <= t_end
 
 
-def test_windows_that_the_run_does_not_enter_are_warned_of():
-    windows = {f"from {start}": Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03, 0.5)}
-    with pytest.warns(
-        UserWarning, match=r"windows.from 0.5 = \[0.5, 0.51\] s: stays empty, the run is from 0 to 0.04 s"
-    ) as seen:
-        result = simulate(P, 0.04, windows, tol=1e-9)
-    assert len(seen) == 1
-    assert seen[0].filename == __file__
-    assert [len(samples["time"]) for samples in result.samples.values()] == [11, 11, 0]
-    first = {"from 0.0": windows["from 0.0"]}
-    with pytest.warns(UserWarning, match=r"windows.from 0.0 .* from 0.04 to 0.05 s"):
-        simulate(P, 0.05, first, tol=1e-9, initial_state=result.final_state)
+def test_windows_that_the_run_does_not_enter_are_refused_or_warned_of():
+    windows = {f"from {start}": Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03)}
+    result = simulate(P, 0.04, windows, tol=1e-9)
+    assert [len(samples["time"]) for samples in result.samples.values()] == [11, 11]
+    with pytest.warns(UserWarning, match=r"windows.from 0.0 = .* stays empty, .* from 0.04 to 0.05 s") as seen:
+        simulate(P, 0.05, windows, tol=1e-9, initial_state=result.final_state)
+    assert [warning.filename for warning in seen] == [__file__]
+    with pytest.raises(
+        ParameterError, match=r"^windows\.from 0\.03\.start=0\.03: must be <= 0\.02, where the run ends$"
+    ):
+        simulate(P, 0.02, windows)
 
 
 GREEDY = {

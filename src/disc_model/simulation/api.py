@@ -166,8 +166,11 @@ def simulate(  # noqa: PLR0913
     windows = {} if windows is None else windows
     if windows:
         windows = resolved_windows(windows, start, end)
+        late = [(name, window.start) for name, window in windows.items() if window.start > end]
+        rule = f"must be <= {as_text(end)}, where the run ends"
+        raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
         for name, window in windows.items():
-            if window.start > end or window.stop < start:  # no error: the parts of a run may share windows
+            if window.stop < start:  # no error: the parts of a run may share windows
                 where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
                 warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
