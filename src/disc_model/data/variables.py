@@ -44,10 +44,11 @@ class CycleStatus(StatusBase):
     NO_CYCLE = (
         "no_cycle",
         "The slider sticks and slips, but no cycle of up to three releases exists near the static start, "
-        "as beyond a fold. From parameters that have one disc_model.stability.continuation.continue_cycle follows it.",
+        "as beyond a fold: give floquet the last state of a simulation as guess, or follow the cycle of another case "
+        "by disc_model.continue_cycle.",
     )
     SEPARATES = "separates", "Near the static start no cycle keeps contact, and contact is soon lost: simulate."
-    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.stability.sliding."
+    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.steady_sliding."
     AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
     PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."

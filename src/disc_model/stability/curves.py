@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Summarised, computed, counted, draw
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import ParameterError, raise_faults, violations
-from disc_model.parameters import Parameters, Quantity, foreign_case
+from disc_model.errors import Fault, ParameterError, raise_faults, violations
+from disc_model.parameters import RATIOS, Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
     BORDER,
@@ -188,7 +188,7 @@ def neutral_curves(
     span = np.array([plane[name][1] - plane[name][0] for name in names])
     for line in map(float, lines):
         along = np.linspace(plane[x][0], plane[x][1], points)
-        for seed in _seeds([p.replace(**{names[1]: line, names[0]: float(x)}) for x in along], names[0], tol, notes):
+        for seed in _seeds([_with(p, **{y: line, x: float(value)}) for value in along], x, tol, notes):
             point = np.array([seed.case.numbers[name] for name in names])
             if _known(curves, seed.kind, point, seed.period, span):
                 continue
@@ -408,12 +408,15 @@ def critical(
     )
     raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name, *others]))
     p = p.replace(**others) if others else p
+    values = np.linspace(ends[0], ends[1], points).tolist()
+    for x in values:
+        _with(p, **{name: x})
     shortest = 1e-6 * (ends[1] - ends[0]) if precision is None else float(precision)
     cycles: dict[float, FloquetResult] = {}
 
     def stable(x: float) -> bool:
         if x not in cycles:
-            cycles[x] = find_cycle(p.replace(**{name: x}), tol)
+            cycles[x] = find_cycle(_with(p, **{name: x}), tol)
         cycle = cycles[x]
         if cycle.status is CycleStatus.OK:
             return cycle.stable
@@ -427,7 +430,7 @@ def critical(
             a, b = (middle, b) if stable(middle) == before else (a, middle)
         return b, before
 
-    computed(stable, np.linspace(ends[0], ends[1], points).tolist(), f"values of {name}")
+    computed(stable, values, f"values of {name}")
     resolution = math.inf
     for _ in range(ROUNDS):
         gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
@@ -453,6 +456,21 @@ def critical(
         growth_rate=np.array([cycles[x].growth_rate for x in values]),
         resolution=resolution,
     )
+
+
+def _with(p: Parameters, **values: float) -> Parameters:
+    """The case with other values. An error names the ratio by which another parameter could follow one of them."""
+    try:
+        return p.replace(**values)
+    except ParameterError as error:
+        faults = []
+        for fault in error.faults:
+            ratio = next(
+                (ratio for ratio, (upper, name) in RATIOS.items() if name in values and (upper,) == fault.path), ""
+            )
+            rule = f"{fault.rule}; give {ratio} instead of it, so that it follows" if ratio else fault.rule
+            faults.append(Fault(fault.path, fault.value, rule))
+        raise ParameterError(*faults) from None
 
 
 NO_CYCLES: tuple[float, ...] = (0.5,)
