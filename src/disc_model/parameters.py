@@ -626,6 +626,11 @@ def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
     return {name: words.get(value, value) if name == "contact" else value for name, value in values.items()}
 
 
+def in_words(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values from a text that identifies a case, in the words of the field, as files and readers have them."""
+    return {name: CONTACTS.get(value, value) if name == "contact" else value for name, value in values.items()}
+
+
 def _without_ratios(data: Mapping[str, Any], ratios: Mapping[str, Any]) -> dict[str, Any]:
     """Values of a case with the parameters that follow from ratios; raises `ParameterError` for wrong ratios."""
     faults: list[Fault] = []

@@ -31,6 +31,7 @@ def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str,
     ramps = (Ramp(parameter="N", to=190, start=0.01, end=0.02),)
     result, path = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps), tmp_path / f"r{suffix}"
     result.save(path)
+    assert b"unilateral" in path.read_bytes(), "and not the older word of texts that identify cases"
     again = Result.load(path)
     same(again, result)
     assert repr(again) == repr(result)

@@ -27,7 +27,7 @@ def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], t
     assert dict(merged["status"].sizes) == {"N": 2, "Omega": 2}
     assert merged["N"].values.tolist() == [100, 200]
     assert merged.attrs["title"] == "t"
-    assert json.loads(merged.attrs["base"])["normalization"] == "as_published"
+    assert json.loads(merged.attrs["base"])["contact"] == "unilateral"
     assert (merged["Omega"].attrs["units"], merged["growth_rate"].attrs["units"]) == ("rad s-1", "s-1")
     lines = list(failures(merged))
     assert len(lines) == 4

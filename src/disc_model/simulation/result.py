@@ -18,7 +18,7 @@ from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, valu
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, as_text, require, suggestion
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, in_words
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
 from disc_model.simulation.pictures import Pictures
 from disc_model.simulation.states import MODAL, PLAIN, Array, State, is_finite_array
@@ -169,7 +169,7 @@ class Result(Summarised, Pictures):
             states["initial_state"] = self.initial_state
         plain = (*PLAIN, "direction", "_roots", "phase", "case_key")
         described = {
-            "parameters": self.parameters.canonical,
+            "parameters": in_words(self.parameters.canonical),
             **{which: {name: getattr(state, name) for name in plain} for which, state in states.items()},
             "windows": {name: [type(window).__name__, window.model_dump()] for name, window in self.windows.items()},
             "ramps": [ramp.model_dump() for ramp in self.ramps],

@@ -20,6 +20,7 @@ import xarray as xr
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
+from disc_model.parameters import in_words
 from disc_model.studies.quantity import STATUSES, Quantity, holds, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
@@ -110,6 +111,7 @@ def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
     specification = json.loads(batches[0].attrs["specification"])
     for name in ("points", "names", "tile"):
         specification.pop(name, None)
+    specification["base"] = in_words(specification.get("base", {}))
     for key in specification.keys() & {"starts", "discs"}:
         every = [json.loads(batch.attrs["specification"])[key] for batch in batches]
         specification[key] = {name: definition for named in every for name, definition in sorted(named.items())}
