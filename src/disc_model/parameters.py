@@ -618,6 +618,12 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
+Parameters.__signature__ = inspect.Signature(
+    [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=DEFAULTS.get(name, inspect.Parameter.empty))
+        for name in Parameters.model_fields
+    ]
+)
 
 
 def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
