@@ -48,11 +48,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.critical_speed, {"case": P}, {"early_end": "True"}),
     (dm.basins, {"case": P}, {"start": "None", "seed": "huge"}),
     (dm.hysteresis, {"case": P, "scan": (10, 12), "dwell": 5}, {}),
-    (
-        dm.sweep,
-        {"function": dm.floquet, "case": P, "Omega": [20.0]},
-        {"workers": "huge", "processes": "True", "named": [*WRONG]},
-    ),
+    (dm.sweep, {"function": dm.floquet, "case": P, "N": [9]}, {"workers": "huge", "processes": "True", "named": WRONG}),
     (
         dm.run_study,
         {"source": {"study": "s", "quantity": "sliding", "base": {"N": 200}, "axes": {"Omega": [20]}}},
@@ -85,11 +81,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {},
         {"growth": WRONG, "easy": WRONG, "sharpest": WRONG, "scale": "None", "max_points": "huge", "beyond": "True"},
     ),
-    (
-        dm.critical,
-        {"p": P, "name": "mu_s", "bounds": (0.3, 0.5), "points": 2},
-        {"precision": "None huge", "others": [*WRONG]},
-    ),
+    (dm.critical, {"p": P, "name": "N", "bounds": (1, 2), "points": 2}, {"precision": "None huge", "others": WRONG}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "None nothing"}),
     (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),

@@ -14,7 +14,7 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.analysis.classify import first_settled, settling, stages
-from disc_model.analysis.spectra import TimeFrequency, amplitude_spectrum, lines, time_frequency
+from disc_model.analysis.spectra import RESOLVED, TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
@@ -253,6 +253,9 @@ FLOOR = -100.0  # least power shown, dB below the reference
 def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) -> None:
     """Draw the amplitude of a variable over the frequency, up to one in Hz; raises `Missing` if it does not vibrate."""
     label, factor, colour = drawing.sampled(variable, samples)
+    count, least = samples["time"].size, 4 * RESOLVED
+    if count < least:
+        raise Missing(f"recorded {count} samples, and a spectrum takes {least}: a line is {least // 2} bins wide")
     try:
         frequency, amplitude = amplitude_spectrum(samples["time"].values, samples[variable].values)
     except ParameterError as error:
