@@ -143,7 +143,7 @@ class Disc(Checked):
     --------
     >>> import disc_model as dm
     >>> disc = dm.Disc(diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3] * 2)
-    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1, disc=disc), 0.1).status.value
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1, disc=disc, r_0=0.1), 0.1).status.value
     'ok'
     """
 
@@ -320,7 +320,7 @@ class Disc(Checked):
 
         Parameters
         ----------
-        r_0 : m, the slider's radius; the middle of the known radii if not given, with a false ring if that is wrong
+        r_0 : m, radius at which the slider is drawn; it is not if this is not given
         most : number of modes that are drawn, by ascending frequency
         ax : axes to draw on, one for each mode
 
@@ -333,9 +333,8 @@ class Disc(Checked):
         ParameterError
             If no shapes are known, or an argument breaks a rule.
         """
-        if r_0 is None:
-            r_0 = sum(self.radii) / len(self.radii) if self.radii else 0.1
-        return draw("plot_modes", Parameters(N=0, Omega=0, r_0=r_0, disc=self), most, ax=ax)
+        p = Parameters(N=0, Omega=0, disc=self, r_0=DEFAULTS["r_0"] if r_0 is None else r_0)
+        return draw("draw_modes", p, most, r_0 is not None, ax=ax)
 
     def __repr__(self) -> str:
         low, high = (end(self.omega) / math.tau for end in (min, max))

@@ -54,7 +54,9 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
     run().plot_poincare(ax=axes[1])
     assert figure.get_suptitle() == ""
-    ranges = dm.simulate(P, 0.1, {"all": dm.Window(rate=1e4, envelope=100)})
+    ranges = dm.simulate(P, 0.1, {"all": dm.Window(rate=1e4, envelope=100), "few": dm.Window(last=0.1, rate=100)})
+    with pytest.raises(dm.ParameterError, match="window='few': recorded 11 samples, and a spectrum takes 16"):
+        ranges.plot_spectrum("few")
     for draw in (ranges.plot_phase_portrait, ranges.plot_spectrum):
         with pytest.raises(dm.ParameterError, match="window='all': must hold samples, not their ranges"):
             draw("all")
@@ -127,6 +129,8 @@ def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     disc = dm.Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], radii=[0.05, 0.12], shapes=shapes)
     assert repr(disc) == "Disc(2 modes, 159 to 318 Hz)"
     assert "318.31" in disc._repr_html_()
-    assert len(disc.plot(most=2)) == 2
+    assert [[len(ax.lines) for ax in disc.plot(r_0=r_0)] for r_0 in (None, 0.1)] == [[0, 0], [1, 1]], "the slider"
     with pytest.raises(dm.ParameterError, match="no eigenvalues: The disc is not driven"):
         dm.steady_sliding(P.replace(Omega=0)).plot()
+    with pytest.raises(dm.DiscModelError, match=r"no cycle of .* by disc_model\.continue_cycle\."):
+        dm.floquet(P).plot()

@@ -120,7 +120,7 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
 
 
-def draw_modes(axes: Sequence[Axes], p: Parameters) -> None:
+def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None:
     """Draw the shape of each mode from above, its nodal lines in black, and its frequency, by ascending frequency."""
     from matplotlib.colors import Normalize
 
@@ -136,7 +136,8 @@ def draw_modes(axes: Sequence[Axes], p: Parameters) -> None:
         if values[inside].min() < 0 < values[inside].max():
             x, y = (1e3 * r[inside, None] * turn(theta) for turn in (np.cos, np.sin))
             ax.contour(x, y, values[inside], levels=[0.0], colors=BLACK, linewidths=0.9)
-        ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=SLIDER, mec=BLACK, mew=0.5)
+        if slider:
+            ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=SLIDER, mec=BLACK, mew=0.5)
         ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {modes.omega[i] / (2 * np.pi):.0f} Hz", loc="center")
 
 

@@ -326,7 +326,6 @@ PREFERRED = (*SHARES, "growth_rate", "outcome", "critical_speed", "separation_ra
 """Variables that a sweep shows first."""
 
 
-@by_itself
 def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
 
@@ -351,6 +350,12 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
     5
     """
+    return draw_modes(p, most, True, ax=ax)
+
+
+@by_itself
+def draw_modes(p: Parameters, most: int, slider: bool, ax: Any = None) -> np.ndarray:
+    """As `plot_modes`, with or without the slider."""
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
     raise_faults(foreign_case(p) + violations(counts))
     drawable = p.n_diameters >= 0 or p.disc is not None
@@ -362,9 +367,10 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     axes = axes_for(ax, 1.45 * columns + 0.1, 1.65 * rows + 0.3, rows, columns)
     for spare in axes[count:]:
         spare.set_axis_off()
-    disc.draw_modes(axes[:count], p)
+    disc.draw_modes(axes[:count], p, slider)
     if ax is None:
-        axes[0].figure.suptitle("Modes (nodal diameters, nodal circles), slider and nodal lines", fontsize=8)
+        what = "slider and nodal lines" if slider else "nodal lines"
+        axes[0].figure.suptitle(f"Modes (nodal diameters, nodal circles), {what}", fontsize=8)
     return np.array(axes)
 
 
