@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import ImplausibleValue, Parameters, simulate
+from disc_model import Disc, ImplausibleValue, Parameters, simulate
 from disc_model.disc import plausibility
 from disc_model.studies.study import parse_study
 from tests.studies.refused import parse_grid
@@ -21,6 +21,13 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
         for h in (0.02, 0.021, 0.022):
             simulate(Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal"), 1e-3)
     assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
+
+
+def test_the_paper_s_radius_of_the_slider_is_no_default_for_another_disc() -> None:
+    disc = Disc(diameters=[0], omega=[1e3], amplitude=[4], radii=[0.02, 0.06], shapes=[[0, 4]])
+    for given, text in (({}, "r_0 = 0.1 m is the paper's"), ({"r_0": 0.1}, "r_0 = 0.1 m is not within 0.02 to 0.06 m")):
+        assert plausibility.doubts(Parameters(**BASE, disc=disc, **given))["radius of the slider"].startswith(text)
+    assert plausibility.doubts(Parameters(**BASE, disc=disc, r_0=0.06)) == {}
 
 
 def test_a_study_tells_of_how_many_points() -> None:

@@ -116,8 +116,15 @@ def _modal_mass(p: Parameters) -> str:
 
 
 def _elsewhere(p: Parameters) -> str:
+    if p.disc is None and not {"a", "b"} & p.model_fields_set:
+        return ""
+    if "r_0" not in p.model_fields_set:
+        return f"{_value(p, 'r_0')} is the paper's: state where the slider runs on this disc"
     if p.disc is None or not p.disc.radii:
         return ""
+    low, *_, high = p.disc.radii
+    if not low <= p.r_0 <= high:
+        return f"{_value(p, 'r_0')} is not within {low:g} to {high:g} m, where the disc's shapes are known"
     amplitude, shape = max(zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0]))
     at_slider = float(np.interp(p.r_0, p.disc.radii, shape))
     if abs(at_slider - amplitude) <= 0.05 * abs(amplitude):
@@ -150,6 +157,6 @@ RULES = {
     "speed of sound": Rule(("E", "rho"), _sound),
     "frequencies of the disc": Rule(("disc",), _pitch),
     "amplitudes of the disc": Rule(("disc",), _modal_mass),
-    "radius of the slider": Rule(("disc", "r_0"), _elsewhere),
+    "radius of the slider": Rule(("disc", "r_0", "a", "b"), _elsewhere),
     "static deflection": Rule(("N", *_PLATE), _deflected),
 }
