@@ -73,7 +73,8 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
     assert "stable, growth rate -0.105/s" in cycle.plot().get_title(loc="left")
-    sliding = dm.steady_sliding(P)
+    sliding, neutral = dm.steady_sliding(P), dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
+    assert {text.get_text() for text in neutral.plot().texts} == {"decays", "grows"}
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     named = [text.get_text() for text in sliding.plot().texts]
     assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]

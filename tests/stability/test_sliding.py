@@ -47,16 +47,15 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     """It stays where it is, and its eigenvalues are those of a flight from there."""
     sliding, duration = steady_sliding(p), 1e-3
     assert sliding.status is SlidingStatus.OK
-    assert sliding.message.startswith(f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = ")
+    name, verdict = "R" if p.contact_force == "normal" else "P", "stable" if sliding.growth_rate < 0 else "not stable"
+    assert sliding.message == f"steady sliding with {name} = {sliding.contact_force:.6g} N, {verdict}"
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
     assert run.fly(duration) == transitions.TIME_OVER
     np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
     flow = np.linalg.eigvals(run.columns)
-    expected = np.exp(sliding.eigenvalues * duration)
-    assert len(expected) == len(flow)
-    # roundings of the flight
-    assert np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10
+    assert len(expected := np.exp(sliding.eigenvalues * duration)) == len(flow)
+    assert np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10  # roundings of the flight
     assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
 
 
@@ -67,9 +66,10 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
     modes = plate_modes(p).query("diameters > 0")
     critical = float((modes["omega"] / modes["diameters"]).min())
     for share, grows in ((0.5, False), (0.999, False), (1.001, True)):
-        growth = steady_sliding(p.replace(Omega=share * critical)).growth_rate
+        sliding = steady_sliding(p.replace(Omega=share * critical))
+        assert sliding.message.endswith(", not stable" if grows else ", neutral"), share
         # rounding leaves 1e-12 1/s, a thousandth above the critical speed it is 3 to 7
-        assert (growth > 1e-6) == grows, share
+        assert (sliding.growth_rate > 1e-6) == grows == sliding.unstable_modes, share
 
 
 BONDED = {"Omega": 1520.0, "contact": "bilateral"}
@@ -126,7 +126,6 @@ def test_a_real_eigenvalue_counts_as_an_unstable_mode():
     assert counts == [0, 1, 0]
     # the two modes of the pair meet at the frequency 0, and part again
     found = follow_modes([p.replace(Omega=Omega) for Omega in (900, 930, 950)])
-    assert [len(one.numbers) for one in found] == [3, 2, 3]
     assert [sorted(one.numbers) for one in found] == [[0, 1, 2], [1, 2], [0, 1, 2]]
 
 

@@ -178,9 +178,9 @@ def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
     for mask, mark, colour, name in ((~outside, "o", BLUE, "decays"), (outside, "D", SEPARATED, "grows")):
         if mask.any():
             axes.plot(values[mask].real, values[mask].imag, mark, color=colour, markersize=4, label=name)
-    axes.text(0, 0.08, f"largest |λ| = {abs(values[0]):.5g}", ha="center", fontsize=7)
+    axes.text(0, 0.08, f"largest |κ| = {abs(values[0]):.5g}", ha="center", fontsize=7)
     word = "stable" if cycle.stable else "unstable"
-    axes.set(xlabel="Re λ", ylabel="Im λ", aspect="equal")
+    axes.set(xlabel="Re κ", ylabel="Im κ", aspect="equal")
     period = f"{cycle.period:.4g} s" if cycle.period > 1 else f"{1e3 * cycle.period:.4g} ms"
     axes.set_title(f"{word}, growth rate {cycle.growth_rate:.3g}/s, period {period}", loc="left")
     axes.margins(0.12)
@@ -198,7 +198,7 @@ def plot_eigenvalues(sliding: SteadySliding, ax: Any = None) -> Axes:
     values = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
     rate, frequency = values.real, values.imag / (2 * np.pi)
     axes.axvline(0, color=BLACK, linewidth=0.6)
-    grows = rate > 0
+    grows = np.isin(values, sliding.growing)
     for mask, mark, colour in ((~grows, "o", BLUE), (grows, "D", SEPARATED)):
         axes.plot(rate[mask], frequency[mask], mark, color=colour, markersize=4)
     for x, y in zip(rate[grows], frequency[grows], strict=True):

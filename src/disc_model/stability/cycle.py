@@ -115,7 +115,7 @@ class FloquetResult(Summarised):
         --------
         >>> import disc_model as dm
         >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
-        'Re λ'
+        'Re κ'
         """
         return draw("plot_multipliers", self.raise_for_status(), ax=ax)
 

@@ -98,8 +98,7 @@ class SteadySliding(Summarised):
         yield "angle psi", number_text(self.psi, "rad")
         yield "growth rate", number_text(self.growth_rate, "1/s")
         yield "unstable modes", self.unstable_modes if self.eigenvalues.size else ""
-        grows = self.eigenvalues[(self.eigenvalues.real > 0) & (self.eigenvalues.imag >= 0)]
-        yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in grows)
+        yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing)
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
         """Draw the eigenvalues, frequency over growth rate; returns the axes.
@@ -116,17 +115,24 @@ class SteadySliding(Summarised):
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances decay: the growth rate is negative."""
+        """Whether the growth rate is negative, so that small disturbances decay; if neutral, rounding decides."""
         return self.growth_rate < 0
 
     @property
+    def growing(self) -> ComplexArray:
+        """Eigenvalues of modes that grow by more than rounding, 1/s, (n,); of a conjugate pair the upper one."""
+        grows = self.eigenvalues.real > _rounding(self.eigenvalues)
+        return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
+
+    @property
     def unstable_modes(self) -> int:
-        """Number of modes that grow: eigenvalues of positive real part, a conjugate pair counting once."""
-        growing = self.eigenvalues[self.eigenvalues.real > ROUNDING]
-        return int(np.sum(growing.imag >= 0))
+        """Number of modes that grow."""
+        return self.growing.size
 
 
-ROUNDING = 1e-9  # 1/s; real parts of undamped modes are below 1e-11 by rounding
+def _rounding(eigenvalues: ComplexArray) -> float:
+    """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n rows."""
+    return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
 
 
 def steady_sliding(p: Parameters) -> SteadySliding:
@@ -182,8 +188,8 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     growth = float(eigenvalues[0].real)
-    name = "R" if p.contact_force == "normal" else "P"
-    message = f"steady sliding with {name} = {force:.6g} N, {'stable' if growth < 0 else 'not stable'}"
+    verdict = "neutral" if abs(growth) <= _rounding(eigenvalues) else "stable" if growth < 0 else "not stable"
+    message = f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = {force:.6g} N, {verdict}"
     return SteadySliding(SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian)
 
 
