@@ -15,8 +15,7 @@ from disc_model.cli import case, studies
 from disc_model.errors import DiscModelError
 
 app = typer.Typer(
-    pretty_exceptions_enable=False,
-    help="Friction-induced vibration of an elastic disc and a moving slider.",
+    pretty_exceptions_enable=False, help="Friction-induced vibration of an elastic disc and a moving slider."
 )
 for function in (
     *(case.run, case.floquet, case.sliding, case.modes),

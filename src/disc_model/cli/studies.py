@@ -88,8 +88,7 @@ def list_(
 
 
 def status(
-    files: Files,
-    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path(),
+    files: Files, directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path()
 ) -> None:
     """List what of a study's results is missing or out of date, according to Snakemake."""
     _read(files)

@@ -155,10 +155,7 @@ BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separa
 
 
 def draw_sections(
-    axes: Sequence[Axes],
-    case: xr.DataTree,
-    samples: xr.Dataset,
-    compared: Sequence[xr.Dataset] = (),
+    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Sequence[xr.Dataset] = ()
 ) -> list[Artist]:
     """Draw velocity over displacement of slider and disc, once a turn of the drive; returns the entries of a legend.
 

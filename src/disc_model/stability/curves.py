@@ -463,13 +463,10 @@ def _with(p: Parameters, **values: float) -> Parameters:
     try:
         return p.replace(**values)
     except ParameterError as error:
-        faults = []
-        for fault in error.faults:
-            ratio = next(
-                (ratio for ratio, (upper, name) in RATIOS.items() if name in values and (upper,) == fault.path), ""
-            )
-            rule = f"{fault.rule}; give {ratio} instead of it, so that it follows" if ratio else fault.rule
-            faults.append(Fault(fault.path, fault.value, rule))
+        ways = {a: f"; give {ratio} instead, and it follows" for ratio, (a, b) in RATIOS.items() if b in values}
+        faults = (
+            Fault(fault.path, fault.value, fault.rule + ways.get("".join(fault.path), "")) for fault in error.faults
+        )
         raise ParameterError(*faults) from None
 
 

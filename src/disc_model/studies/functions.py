@@ -411,11 +411,7 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
             column = _known().get(name)
-            attrs = (
-                {"units": column.units, "long_name": column.long_name}
-                if column and column.units and not column.flags
-                else {}
-            )
+            attrs = column.attributes if column and column.units and not column.flags else {}
             variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attrs)
     return variables
 
