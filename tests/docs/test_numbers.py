@@ -41,7 +41,7 @@ def test_every_number_is_of_a_statement(page: str) -> None:
     text = re.sub(r"^```.*?^```$|<!-- bench .*?<!-- end -->", " ", text, flags=re.M | re.S)
     for statement in collect_numbers.statements():
         text = statement.pattern.sub(" ", text)
-    text = re.sub(r"`[^`]+`|\]\([^)]*\)|\$[^$]+\$", " ", text)  # code, links, formulas
+    text = re.sub(r"`[^`]+`|\]\([^)]*\)|\${1,2}[^$]+\${1,2}", " ", text)  # code, links, formulas
     for phrase in sorted(map(str, STATEMENTS["not_from_results"]), key=len, reverse=True):
         words = r"\s+".join(map(re.escape, phrase.split()))
         text = re.sub(rf"(?<![\w.]){words}(?![\w.]*\d)", " ", text)
