@@ -19,15 +19,17 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         for h in (0.02, 0.021, 0.022):
-            simulate(Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal"), 1e-3)
+            simulate(Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal", D_star=0), 1e-3)
     assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
 
 
-def test_the_paper_s_radius_of_the_slider_is_no_default_for_another_disc() -> None:
+def test_the_paper_s_radius_and_damping_are_no_defaults_for_another_disc() -> None:
     disc = Disc(diameters=[0], omega=[1e3], amplitude=[4], radii=[0.02, 0.06], shapes=[[0, 4]])
     for given, text in (({}, "r_0 = 0.1 m is the paper's"), ({"r_0": 0.1}, "r_0 = 0.1 m is not within 0.02 to 0.06 m")):
         assert plausibility.doubts(Parameters(**BASE, disc=disc, **given))["radius of the slider"].startswith(text)
     assert plausibility.doubts(Parameters(**BASE, disc=disc, r_0=0.06)) == {}
+    [text] = plausibility.doubts(Parameters(**BASE, h=0.003, normalization="orthonormal")).values()
+    assert text.endswith(": state the damping (D_star or damping_ratio)")
 
 
 def test_a_study_tells_of_how_many_points() -> None:
@@ -38,5 +40,5 @@ def test_a_study_tells_of_how_many_points() -> None:
     assert text.endswith(" (15 of 60 points)")
     one = {"title": "one", "t_end": 1}
     cases = {"A": one, "B": one | {"parameters": {"rho": 7.2}}}
-    study = parse_study({"study": "some", "base": BASE | {"normalization": "orthonormal"}, "cases": cases})
+    study = parse_study({"study": "some", "base": BASE | {"normalization": "orthonormal", "D_star": 0}, "cases": cases})
     assert [text[-14:] for text in study.doubts] == ["(1 of 2 cases)"] * 2

@@ -135,14 +135,15 @@ def _elsewhere(p: Parameters) -> str:
     )
 
 
-def _normalization(p: Parameters) -> str:
+def _unstated(p: Parameters) -> str:
     changed = [name for name in _MATERIAL if getattr(p, name) != Parameters.model_fields[name].default]
-    if p.disc is not None or not changed or "normalization" in p.model_fields_set:
+    needed = {"the normalization of modes ('orthonormal' for a real disc)": {"normalization"}}
+    if changed != ["E"]:  # the paper varies E alone, with the damping of Table 1
+        needed |= {"the damping (D_star or damping_ratio)": {"D_star", "damping_ratio"}}
+    unstated = [text for text, names in needed.items() if p.model_fields_set.isdisjoint(names)]
+    if p.disc is not None or not changed or not unstated:
         return ""
-    return (
-        f"{_value(p, changed[0])} is not the paper's disc, whose modes as published are no normalised ones: state "
-        f"normalization, 'orthonormal' for a real disc"
-    )
+    return f"{_value(p, changed[0])} is not the paper's disc: state {' and '.join(unstated)}"
 
 
 _MATERIAL = ("a", "b", "h", "E", "nu", "rho")
@@ -153,7 +154,7 @@ RULES = {
         for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
     },
     "thickness": Rule(("h", "a", "b"), _thick),
-    "normalization of modes": Rule((*_MATERIAL, "normalization"), _normalization),
+    "modes and damping": Rule((*_MATERIAL, "normalization", "D_star", "damping_ratio"), _unstated),
     "speed of sound": Rule(("E", "rho"), _sound),
     "frequencies of the disc": Rule(("disc",), _pitch),
     "amplitudes of the disc": Rule(("disc",), _modal_mass),

@@ -202,6 +202,7 @@ def basins(  # noqa: PLR0913
     >>> found = dm.basins(dm.Parameters(N=385, Omega=14), [1e-4, 0.1], 3, horizon=60)
     >>> found["kind"].values.tolist()
     [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
+    >>> axes = dm.plot_sweep(found)
     """
     several = tuple(energies) if _several(energies) else energies
     options: dict[str, Any] = {"energies": several, "n_starts": n_starts, "horizon": horizon, "seed": seed}
