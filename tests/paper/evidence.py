@@ -96,7 +96,7 @@ def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> x
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
-WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes", "settled", "changing")
+WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes", "settled", "changing", "simulation", "inferred")
 
 
 def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **variables: Any) -> xr.Dataset:

@@ -85,12 +85,14 @@ WORLDS = {
     "natural frequencies where the lines are": a_disc(
         "T2e", coupled_natural_frequencies=lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])
     ),
-    "friction that changes nothing": World(
-        functions={precursor: {"sliding_growth": lambda p: p.Omega - 1000.0, "growths": precursor.growths.__wrapped__}},
-        rows=("A98i", "A98r"),
-    ),
     "the stiff disc": a_disc("F29", plate_modes=lambda p: plate_modes(p.replace(E=150e9))),
 }
+for name, growth in {
+    "friction that changes nothing": lambda p: p.Omega - 1000.0,
+    "friction as the precursor has it": lambda p: p.c + p.mu_s - 0.1 if p.Omega < 1000 else 0.1 - p.mu_s,
+}.items():
+    changed = {"sliding_growth": growth, "growths": precursor.growths.__wrapped__}
+    WORLDS[name] = World(functions={precursor: changed}, rows=("A98i", "A98r"))
 for name, text in evidence.TEXTS["worlds"].items():
     every = {" ".join(evidence.SPECS): motion for motion in [text["cases"].get("all")] if motion}
     rows = tuple(text.get("rows", " ".join(BY_NAME)).split())

@@ -129,7 +129,10 @@ class CaseView:
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
-        return f"periodic: it repeats after {after} ({length:.6g} s), each time within {motion.closure:.0e} s"
+        return (
+            f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the intervals "
+            f"between releases differ by at most {motion.closure:.0e} s"
+        )
 
     @property
     def early(self) -> Range:

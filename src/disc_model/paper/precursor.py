@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from disc_model.paper.measures import Array, sliding_growth
-from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer
 from disc_model.parameters import Parameters
 
 SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstable without friction
@@ -28,12 +28,13 @@ def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them."""
+    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them; open
+    where it does at some, because the disc of the precursor, of which we have the abstract, is not known."""
     verdicts, rows = [], []
     for alone, both, damped in growths(tuple(loads), c, **friction):
         new = (both > 0) & ~(alone > 0)
         raised = new & (damped > both)
-        verdicts.append(FALSE if not new.any() else TRUE if (raised == new).all() else PART)
+        verdicts.append(FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED)
         slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
         rows.append((new.sum(), raised.sum(), slowest, (new & (damped < 0)).sum()))
     return Answer(verdicts[0], rows=rows, size=new.size, loads=[*loads], c=c)
@@ -45,6 +46,6 @@ def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
     for alone, both, _ in growths(tuple(loads), c, **friction):
         old = alone > 0
         stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
-        verdicts.append(graded([lower == old.sum(), stable > 0]))
+        verdicts.append(FALSE if not lower else TRUE if lower == old.sum() and stable else NOT_COMPUTED)
         rows.append((old.sum(), stable, lower))
     return Answer(verdicts[0], rows=rows, size=old.size, loads=[*loads])

@@ -51,7 +51,7 @@ def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 def survive(*maps: xr.Dataset, share: float) -> Answer:
     """Whether points of the map of speed and preload separate at low speed, with either scale of the modes."""
     critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
-    apart = flag_names(plane["outcome"]) == "separation"
+    apart, run = (flag_names(plane[x]) == word for x, word in (("outcome", "separation"), ("method", "simulation")))
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
     by_name = {study.attrs["study"]: study for study in maps}
     times, points = first_separations(by_name), _points(by_name)
@@ -72,7 +72,7 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
             f"{or_none(now, '.0f', ' s', f'none within {horizons[figure]:g} s ({kinds[figure]})')}"
             for figure, was, now in times.itertuples()
         ],
-        points=(apart[0].size, *np.sum(apart, axis=(1, 2))),
+        points=(apart[0].size, *np.sum([*apart, *(apart & run)], axis=(1, 2))),
     )
 
 
@@ -106,7 +106,7 @@ def slip_condition(*cases: CaseView) -> Answer:
         ends += stops.sizes["event"]
     if not ends:
         raise Missing("no case keeps an end of slip")
-    return Answer(not true, held=true, ends=ends, place=cases[0].place)
+    return Answer(not true, held=true, ends=ends, place=cases[0].place, spans=[x.kept_span().width for x in cases])
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:

@@ -105,8 +105,7 @@ def releases_regularly(*cases: CaseView, within: float) -> Answer:
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
     rows: list[tuple[str, bool, int, int]] = []
-    more: list[bool] = []
-    too: list[bool] = []
+    more, too = list[bool](), list[bool]()
     for free, bonded in pairs(cases):
         counts = []
         for case in (free, bonded):
@@ -172,14 +171,16 @@ PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k
 """Parameters that are changed by 0.1 %, one at a time."""
 
 
-def quiet(case: CaseView, *, share: float, newtons: float) -> Answer:
+def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Answer:
+    """Whether the range of the contact force is small and that of a point fixed on the disc is constant and small."""
     early, late = case.early, case.late
-    return Answer(
-        not case.separates and max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons,
-        fate=case.fate,
-        ranges=(early, late),
-        widths=(1e3 * case.disc.width, 1e3 * case.late_range("u").width),
+    before, after, under = (each.width for each in (case.range_of("w_point", 1, 21), case.disc, case.late_range("u")))
+    holds = not case.separates and max(early.width, late.width) < share * case["N"]
+    holds = (
+        holds and late.width <= early.width + newtons and abs(after - before) <= within * before and under < case["h"]
     )
+    widths = 1e3 * before, 1e3 * after, 1e3 * under
+    return Answer(PART if holds and after >= case["h"] else holds, fate=case.fate, ranges=(early, late), widths=widths)
 
 
 def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
@@ -247,12 +248,12 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     study, critical = published(study), moving_load_speed(BASE)
     low = study["Omega"] < share * critical
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
-    most = float(study["Omega"].max())
+    most, run = float(study["Omega"].max()), flag_names(study["method"]) == "simulation"
     return Answer(
         bool((low & unstable).any() and (low & apart).any()),
         most=most,
         part=most / critical,
-        counts=[int(each.sum()) for each in (unstable, apart, unstable & ~apart)],
+        counts=[int(each.sum()) for each in (unstable, apart, unstable & ~apart, apart & run)],
         size=apart.size,
         horizon=measures.facts(study)["horizon"],
     )

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from scipy.stats import spearmanr
 
-from disc_model.analysis.classify import distinct_points, irregularity, separation_location, stick_disappears
+from disc_model.analysis.classify import SAME, distinct_points, irregularity, separation_location, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
@@ -32,13 +32,18 @@ def stays_calm(case: CaseView) -> bool:
     return not case.separates and not GREW * case.early.width < case.late.width
 
 
-def stays_small(case: CaseView, *_: CaseView, share: float, within: float) -> Answer:
-    """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular."""
+def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
+    """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular.
+    With ``last``, of a point fixed on the disc too: its range is small, and its last points in the section repeat."""
     intervals = case.intervals()
-    spread = irregularity(intervals)
+    spread, points = irregularity(intervals), _different(case, last, same) if last else 0
+    holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
+    small = not last or (case.disc.width < case["h"] and points <= last / 2)
     return Answer(
-        stays_calm(case) and case.late.width < share * case["N"] and spread <= within,
+        holds if small or not holds else PART,
         fate=case.fate,
+        points=points,
+        widths=(1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else (),
         late=case.late,
         rate=1 / intervals.mean(),
         spread=spread,
@@ -64,13 +69,14 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
     )
 
 
-def hardly_moves(large: CaseView, huge: CaseView) -> Answer:
-    """Whether the larger of two preloads holds the slider throughout a run."""
+def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
+    """Whether the larger of two preloads holds the slider throughout a run, and for as long as the paper's, s."""
     p = huge.parameters
     released = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
     rows = [(case.place, case.stick_in_all, case["time_reached"]) for case in (large, huge)]
-    verdict = huge.stick_in_all == 1 and not huge.separates
-    return Answer(verdict, rows=rows, released=released, held=600, needed=1e-6 * p.N * 600 / released)
+    sticks = huge.stick_in_all == 1 and not huge.separates
+    verdict = AMBIGUOUS if sticks and released < held else sticks
+    return Answer(verdict, rows=rows, released=released, held=held, needed=1e-6 * p.N * held / released)
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
@@ -104,25 +110,24 @@ def twice_the_damping(*cases: CaseView) -> Answer:
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
-    both = [(each["c_p"], each.contact) for each in (without, case)]
     verdict = not without.separates and case.separates
-    return Answer(verdict, place=without.place, both=both, motion=case.motion, span=case.kept_span())
+    return Answer(verdict, fates=(without.fate, case.fate), motion=case.motion, span=case.kept_span())
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
     """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
-    growing = lowered = 0
+    lowered, growing = 0, list[int]()
     raised: list[str] = []
     for little in (0.0, value):
         before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
         grows = (before > 0) & np.isfinite(after)
-        growing, lowered = growing + int(grows.sum()), lowered + int((grows & (after < before)).sum())
+        growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [
             f"{_place(case.parameters, int(i))} (a {'growing' if before[i] > 0 else 'stable'} cycle)"
             for i in np.flatnonzero(after > before)
         ]
     most = values_text({name: 2 * value})
-    return Answer(growing == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
+    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
@@ -152,12 +157,8 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     if not ranks:
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
     rank, part = float(np.median(ranks)), float(np.mean(falls))
-    return Answer(
-        TRUE if part == 1 else PART if rank <= -trend else FALSE,
-        N=facts(study)["N"],
-        part=part,
-        rank=rank,
-    )
+    verdict = TRUE if part == 1 else PART if rank <= -trend else FALSE
+    return Answer(verdict, N=facts(study)["N"], part=part, rank=rank)
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
@@ -206,16 +207,11 @@ def stiff_enough(case: CaseView) -> Answer:
     """Whether the stiffness of a case makes motion stable on a grid, be it a cycle or steady sliding."""
     points = _grid(case.parameters)
     unstable = [p for p in points if not _growth(p) < 0]
-    calm = stays_calm(case)
-    stable = len(points) - len(unstable)
+    calm, stable = stays_calm(case), len(points) - len(unstable)
     groups = groupby(unstable, lambda p: p.N)
-    others = [f"{N:g} N and {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
-    return Answer(
-        PART if calm and stable and unstable else calm and not unstable,
-        f"{case.fate} With this stiffness the motion is stable at {stable} of {len(points)} combinations of preload "
-        "and speed.",
-        f"With this stiffness the motion is unstable at {'; '.join(others)}." if others else "",
-    )
+    others = [f"{N:g} N with {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
+    verdict = PART if calm and stable and unstable else calm and not unstable
+    return Answer(verdict, fate=case.fate, stable=stable, size=len(points), others=others)
 
 
 def _growth(p: Parameters) -> float:
@@ -224,11 +220,9 @@ def _growth(p: Parameters) -> float:
     return measures.sliding_growth(p) if math.isnan(rate) else rate
 
 
-def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
+def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
     """Whether points of the disc's section differ, and the slider's releases do not repeat."""
-    section = case.samples("poincare").isel(time=slice(-int(last), None))
-    points = distinct_points(np.column_stack([section[name].values for name in ("w_point", "w_point_velocity")]))
-    motion = case.late_motion()
+    points, motion = _different(case, last, same), case.late_motion()
     return Answer(
         graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
         fate=case.fate,
@@ -236,6 +230,13 @@ def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
         motion=case.motion,
         near=measures.repeats(near.late_motion(), "release"),
     )
+
+
+def _different(case: CaseView, last: float, same: float) -> int:
+    """How many of the last points of the disc's section differ, along an axis, by more than a share of their range."""
+    section = case.samples("poincare").isel(time=slice(-int(last), None))
+    points = np.column_stack([section[name].values for name in ("w_point", "w_point_velocity")])
+    return distinct_points(points, np.ptp(points, axis=0) * same / SAME)
 
 
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
@@ -276,11 +277,7 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
     if not apart.any():
         raise Missing(f"case {case.name} has no point of the section in separation")
     lost, every = measures.extent(1e3 * w[apart]), measures.extent(1e3 * w)
-    return Answer(
-        FALSE if lost.high <= every.low + share * every.width else PART,
-        lost=lost,
-        every=every,
-    )
+    return Answer(FALSE if lost.high <= every.low + share * every.width else PART, lost=lost, every=every)
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:

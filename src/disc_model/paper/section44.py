@@ -34,26 +34,23 @@ def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answe
     )
 
 
-def rest_late(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
-    """Whether lines still move long after separation, so that a spectrum of a long record would smear."""
-    moved = [_drift(each) for each in (case, bonded)]
-    return Answer(
-        PART if moved[0] <= within else TRUE,
-        f"At {case.place}, the lines of the disc's spectrum drift while the vibration grows. The first separation is "
-        f"at {case['first_separation']:.2f} s. From 100 to 110 s the lines drift by at most {moved[0]:.0e} Hz.",
-    )
+def rest_late(case: CaseView, *, within: float) -> Answer:
+    """Whether lines move at first, and still long after separation, so that a spectrum of a long record would smear."""
+    drifts = [_drift(case, *stretch) for stretch in (EARLY, LATE)]
+    verdict = graded(each.high > within for each in drifts)
+    return Answer(verdict, place=case.place, drifts=drifts, first=case["first_separation"])
 
 
-def _drift(case: CaseView) -> float:
-    """How far lines move between the halves of the last stretch, at most, Hz."""
-    halves = ((100.0, 105.0), (105.0, 110.0))
-    first, second = (case.signal("spectrum_d", *half).lines(above=LOW, floor=1e-2) for half in halves)
-    return max(min(abs(a.frequency - b.frequency) for b in second) for a in first)
+def _drift(case: CaseView, window: str, start: float, stop: float) -> measures.Range:
+    """How far the lines move between the halves of a stretch of time, at least and at most, Hz."""
+    half = (start + stop) / 2
+    first, second = (case.signal(window, *x).lines(above=LOW, floor=1e-2) for x in ((start, half), (half, stop)))
+    return measures.extent(min(abs(a.frequency - b.frequency) for b in second) for a in first)
 
 
 def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
     """Whether lines come to rest, and not without separation."""
-    drift, other = _drift(case), _drift(bonded)
+    drift, other = (_drift(each, *LATE).high for each in (case, bonded))
     verdict = FALSE if drift > within else PART if other <= within else TRUE
     return Answer(verdict, place=case.place, drift=drift, other=other)
 
@@ -82,8 +79,7 @@ def lines(case: CaseView, *, bound: float) -> Answer:
 def follow(*cases: CaseView, within: float) -> Answer:
     """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
     rows, off = [], []
-    away: list[float] = []
-    drives: list[float] = []
+    away, drives = list[float](), list[float]()
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
@@ -148,15 +144,9 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
             for each in (case, bonded)
         )
         rises.append([after > max(factor * before, floor), control > max(factor * ignored, floor)])
-        rows.append(
-            f"At {case.place} this share is {before:.1e} from {low:g} s to the first separation at {first:.2f} s, and "
-            f"{after:.1e} from then to {high:g} s. In this later window it is {control:.1e} without separation."
-        )
+        rows.append((case.place, before, after, control, low, first, high))
     rise, alone = zip(*rises, strict=True)
-    return Answer(
-        FALSE if not all(rise) else PART if any(alone) else TRUE,
-        f"Of the power above {LOW:g} Hz, a share lies above {HIGH:g} Hz. {' '.join(rows)}",
-    )
+    return Answer(FALSE if not all(rise) else PART if any(alone) else TRUE, rows=rows)
 
 
 def fuzz_goes(*pair: CaseView, share: float) -> Answer:
@@ -225,8 +215,9 @@ def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
     made = [line for line in lines if _from_combination(case, line, rate) <= COMBINED]
     theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, lines))
-    part, counts = theirs / power, (len(made), len(lines))
-    return Answer(part > share, place=case.place, counts=counts, rate=rate, drive=case.drive, part=part)
+    part, counts, drive = theirs / power, (len(made), len(lines)), case.drive
+    near = [abs(spectra.identify(f, rate, drive).deviation) <= COMBINED for f in np.arange(LOW, HIGH, 0.2)]
+    return Answer(part > share, place=case.place, counts=counts, rate=rate, drive=drive, part=part, near=np.mean(near))
 
 
 def natural_frequencies(case: CaseView) -> measures.Array:
