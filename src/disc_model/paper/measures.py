@@ -371,7 +371,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    above = f"lies above {study['scan_Omega'].values[-1]:g} rad/s, if there is one, up to "
+    above = f"is absent or lies above {study['scan_Omega'].values[-1]:g} rad/s up to "
     begin = f"{above}{never[-1]:g} N; then it " if never.size else ""
     parts = [
         f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
