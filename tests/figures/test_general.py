@@ -92,3 +92,5 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     study["drift"] = study["drift"] + study["c_p"]
     axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes
     assert [{text.get_text() for text in ax.texts} for ax in axes] == [{names[1], names[3]}, {names[2], names[3]}]
+    axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends | {"panels": "each"}).axes
+    assert ["= 10" in ax.get_title("left") for ax in axes] == [False, False, False, True]

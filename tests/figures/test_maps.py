@@ -95,8 +95,9 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     top = np.full((2, 1, 2, 2), 0.01)
     top[..., 1] = 0.05
     study = study.assign(u_max=(dims, top), u_min=(dims, -top)).assign_attrs(base='{"disc": "table"}')
-    figure = draw("late_range", study, by="disc", thickness=0.01, shaded={"b": (15, 60)})
+    figure = draw("late_range", study, by="disc", thickness=0.01, not_valid=[{"disc": ["b"], "Omega": [20]}])
     lines = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
-    assert ["law not valid" in "".join(text.get_text() for text in ax.texts) for ax in figure.axes] == [False, True]
-    assert {"8 kN", "with separation", "separates"} <= set(labels(figure))
+    squares = [list(line.get_xdata()) for ax in figure.axes for line in ax.lines if line.get_marker() == "s"]
+    assert squares == [[], [], [20], [20]]
+    assert {"8 kN", "with separation", "separates", "law not valid"} <= set(labels(figure))

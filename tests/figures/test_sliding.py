@@ -32,9 +32,7 @@ def test_linear_analysis_beside_the_motion() -> None:
     """Each word of the figure, and what no word describes."""
     rate = np.array([-1.0, -1, -1, 1, 1, 1, 1, np.nan])
     outcome = np.array(["quiet", "other_cycle", "separation", "at_rest", "growing", "separation", "undecided", "quiet"])
-    words = agreement(rate, outcome)
-    assert [*words[:6]] == [*AGREEMENTS][:6]
-    assert [*words[6:]] == ["unknown"] * 2
+    assert [*agreement(rate, outcome)] == [*[*AGREEMENTS][:6], "unknown", "unknown"]
 
 
 def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
@@ -45,8 +43,7 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))
     plane = xr.Dataset({"outcome": (("N", "c_p"), outcome, flags)}, values, sliding.attrs)
     shared, other = common_points(plane, sliding.rename(value="c_p"), ("N", "c_p"))
-    assert dict(shared.sizes) == {"N": 2, "c_p": 5}
-    assert other.sizes["c_p"] == 5
+    assert (dict(shared.sizes), other.sizes["c_p"]) == ({"N": 2, "c_p": 5}, 5)
     plot = kind_of("sliding_outcome")(x="c_p", y="N", overlays={"sliding": "s"})
     figure = plot.render({"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())

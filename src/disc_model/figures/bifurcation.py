@@ -15,10 +15,10 @@ from disc_model.figures.kind import Plot, Role, Roles, Values
 from disc_model.units import Finite, Positive, Unit
 
 DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
+UNDECIDED: dict[str, Any] = {"color": GREY, "marker": "o", "markersize": 3.0, "mfc": "none", "mew": 0.5}
 MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}
 """Looks of samples, and those other than dots by phase: in grey print, green and vermilion are alike."""
-EXPONENTS = (BLACK, drawing.BLUE, drawing.BROWN, GREY)
-"""Colours of the exponents, the largest first; none is that of a phase."""
+EXPONENTS = (BLACK, drawing.BLUE, drawing.BROWN, GREY)  # the largest exponent first; none is the colour of a phase
 ERRORS = 4  # half-width of the band about an exponent, in standard errors
 
 
@@ -36,7 +36,7 @@ class Bifurcation(Plot):
     paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw samples against a parameter, coloured by phase, grey where it is not shown that the motion has settled.
+        """Draw samples against a parameter, coloured by phase, hollow where the motion is not shown to have settled.
         A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
         events. Periods are below, and the further study ``lyapunov``, if it is given."""
         from matplotlib.lines import Line2D
@@ -56,7 +56,7 @@ class Bifurcation(Plot):
         lost = drawing.failed(study).values
         phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
         settled = (flag_names(study["settled"]) == "settled")[:, None]
-        dots = [("not settled, or undecided", ~settled & (phase >= 0), DOT | {"color": GREY, "alpha": 0.5})]
+        dots = [("not settled, or undecided", ~settled & (phase >= 0), UNDECIDED)]
         for code, (name, color) in enumerate(PHASE_COLOURS.items()):
             look = DOT | {"color": color} | MARKS.get(name, {})
             dots.append((names.get(name, name), settled & (phase == code), look))
@@ -120,9 +120,7 @@ LOWEST = 1e-3  # least range that is distinguished from rest, mm
 THIN = 0.7  # width of lines of unstable motions; dashes of two branches that nearly meet would look like a whole line
 BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend between them
 SWEEP_MARK: dict[str, Any] = {"markersize": 2.5, "markerfacecolor": "white", "markeredgewidth": 0.5}
-"""Look of the marks of a sweep."""
-UNSETTLED = "#aaaaaa"
-"""Colour of its marks where it is not shown that the motion has settled."""
+UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion has settled
 
 
 class Branches(Plot):
@@ -205,8 +203,7 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settle
 
 # ---- Late in the motion
 LOAD_COLOURS = (BLACK, drawing.VERMILION, drawing.BLUE, drawing.PURPLE)
-SMALLEST = 1e-5
-"""Smallest range drawn, in thicknesses: a quiet cycle moves the slider by less than a millionth of a metre."""
+SMALLEST = 1e-5  # thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre
 
 
 class LateRange(Plot):
@@ -214,7 +211,8 @@ class LateRange(Plot):
 
     by : dimension with a panel for each value
     thickness : of the disc, m; that of the paper unless given
-    shaded : speeds between which the law of friction does not hold, rad/s, by panel
+    not_valid : points at which the law of friction does not hold: values along dimensions
+    names : words for values of ``by``
     """
 
     quantities = ("outcome",)
@@ -222,7 +220,8 @@ class LateRange(Plot):
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002
-    shaded: dict[str, tuple[Finite, Finite]] = Field({})
+    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()
+    names: dict[str, str] = Field({})
 
     @property
     def dims(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -230,44 +229,44 @@ class LateRange(Plot):
         return ("Omega", "N", "contact", self.by)
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults as of any figure, and shaded panels that there are not."""
+        """Faults as of any figure, and values that there are not."""
         yield from super().faults(values)
-        known = [str(name) for name, *_ in values.get(self.by, ())]
-        for name in self.shaded:
-            if known and name not in known:
-                yield Fault.of(("shaded",), name, f"is no value of {self.by}{suggestion(name, known)}")
+        named = [("names", self.by, self.names)]
+        for key, dim, words in (*named, *(("not_valid", *item) for part in self.not_valid for item in part.items())):
+            known = [value for value, *_ in values.get(dim, ())]
+            for word in words:
+                if dim not in self.dims or (known and word not in known):
+                    yield Fault.of((key,), word, f"is no value of {dim}{suggestion(str(word), [*map(str, known)])}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a panel for each value of ``by``, and a line for each preload and contact."""
-        ranges = (study["u_max"] - study["u_min"]) / self.thickness
+        ranges = ((study["u_max"] - study["u_min"]) / self.thickness).clip(SMALLEST)
         outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
-        names, loads = study[self.by].values, study["N"].values
+        valid = xr.ones_like(ranges, dtype=bool)
+        for part in self.not_valid:
+            valid.loc[{dim: [*chosen] for dim, chosen in part.items()}] = False
+        names, loads, speeds = (study[dim].values for dim in (self.by, "N", "Omega"))
         apart: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 3}
         open_end = apart | {"marker": "^", "markersize": 5, "markerfacecolor": "white"}
+        no_law = apart | {"marker": "s", "color": GREY, "markerfacecolor": "white", "label": "law not valid"}
         figure, axes = panels(PAGE, 3.0, 1, len(names), sharex=True, sharey=True)
         for ax, name in zip(axes, names, strict=True):
             ax.axhspan(1, 1e3, color="0.93", zorder=0)
-            if str(name) in self.shaded:
-                low, high = self.shaded[str(name)]
-                ax.axvspan(low, high, facecolor="none", edgecolor=GREY, hatch=5 * "/", linewidth=0, zorder=0)
-                centred: dict[str, Any] = {"ha": "center", "va": "bottom", "path_effects": drawing.halo(2.0)}
-                ax.text((low + high) / 2, SMALLEST, "surface faster\nthan drive:\nlaw not valid", fontsize=6, **centred)
             for load, colour in zip(loads, LOAD_COLOURS, strict=False):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}
-                    height = np.maximum(ranges.sel(line).transpose("Omega").values, SMALLEST)
-                    words = outcomes.sel(line).transpose("Omega").values
-                    ax.plot(study["Omega"], height, look, color=colour, linewidth=1.0)
-                    ax.plot(study["Omega"], height, "o", color=colour, markersize=3, markerfacecolor="white")
+                    heights, words, holds = (each.sel(line).values for each in (ranges, outcomes, valid))
+                    ax.plot(speeds[~holds], heights[~holds], **no_law)
+                    heights = np.where(holds, heights, np.nan)
+                    ax.plot(speeds, heights, look, color=colour, linewidth=1.0)
+                    ax.plot(speeds, heights, "o", color=colour, markersize=3, markerfacecolor="white")
                     for mark, shown in ((apart, ["separation"]), (open_end, ["growing", "undecided"])):
-                        here = np.isin(words, shown)
-                        ax.plot(study["Omega"][here], height[here], color=colour, **mark)
+                        ax.plot(speeds, np.where(np.isin(words, shown), heights, np.nan), color=colour, **mark)
             ax.margins(x=0.05)
             ax.set(yscale="log", ylim=(SMALLEST / 2, 10), xlabel=drawing.label_of(study["Omega"])[0])
         axes[0].set_ylabel("Slider, peak to peak (thicknesses)")
-        first = axes[0]
-        first.text(0.03, 0.99, "beyond linear plate theory", transform=first.transAxes, va="top", color=GREY, size=6)
-        drawing.letters(axes, [str(name) for name in names])
+        axes[0].text(0.03, 0.99, "beyond linear plate theory", transform=axes[0].transAxes, va="top", c=GREY, size=6)
+        drawing.letters(axes, [self.names.get(str(name), str(name)) for name in names])
         handles = [
             *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
             drawing.sample(color=GREY, linestyle="-", label="with separation"),
@@ -275,6 +274,7 @@ class LateRange(Plot):
             drawing.sample(color=GREY, label="separates", **apart),
             drawing.sample(color=GREY, label="growing or undecided", **open_end),
             drawing.sample(color=GREY, label="settled in contact", **apart | {"markerfacecolor": "white"}),
+            *([drawing.sample(**no_law)] if self.not_valid else []),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=1.0)
         return figure

@@ -22,8 +22,7 @@ Array = NDArray[np.float64]
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
 EDGE: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5, "zorder": 1.9}
-ONSETS = EDGE | {"color": "white", "marker": "o"}
-"""Look of onsets of separation: with black edges, to be seen on any area, below the curves."""
+ONSETS = EDGE | {"color": "white", "marker": "o"}  # seen on any area by their black edges, below the curves
 
 
 class CriticalSpeed(Plot):
@@ -85,41 +84,40 @@ class CriticalSpeed(Plot):
 # ---- Crossings of a scan
 
 
-def speeds_of(study: xr.Dataset, horizon: float) -> list[Array]:
-    """Speeds at which separation within a horizon begins as the speed rises, for each load, rad/s.
+def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[Array]:
+    """Speeds at which separation within a horizon begins, or ends, as the speed rises, for each load, rad/s.
 
-    They include the lowest speed of the scan if it separates already.
+    Where it begins they include the lowest speed of the scan if it separates already.
     """
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
-    begins = flag_names(of_horizon["crossing_kind"]) == "begins"
-    speeds = np.where(begins, of_horizon["crossing"].values, np.nan)
-    rows = np.column_stack([of_horizon["critical_speed"].values, speeds])
+    speeds = np.where(flag_names(of_horizon["crossing_kind"]) == kind, of_horizon["crossing"].values, np.nan)
+    rows = np.column_stack([of_horizon["critical_speed"].where(kind == "begins"), speeds])
     return [np.unique(row[np.isfinite(row)]) for row in rows]
 
 
-def branches(speeds: Sequence[Array]) -> list[tuple[int, float, float]]:
+def branches(speeds: Sequence[Array], ends: Sequence[Array]) -> list[tuple[int, float, float]]:
     """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load. The two
-    are nearest to each other; a crossing without such a partner ends a branch."""
+    are nearest, and separation does not end between them; a crossing without such a partner ends a branch."""
     links = []
     for i, (current, ahead) in enumerate(pairwise(speeds)):
         if current.size and ahead.size:
             apart = np.abs(current[:, None] - ahead[None, :])
             # speeds are rounded, so that two may be as near
             nearest = np.isclose(apart, apart.min(0), rtol=1e-9) & np.isclose(apart, apart.min(1)[:, None], rtol=1e-9)
-            links += [(i, float(current[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
+            pairs = [(float(current[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
+            links += [(i, a, b) for a, b in pairs if not any((end - a) * (end - b) < 0 for end in ends[i + (a > b)])]
     return links
 
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
-    loads, speeds = study["N"].values, speeds_of(study, horizon)
+    loads, speeds, ends = study["N"].values, speeds_of(study, horizon), speeds_of(study, horizon, "ends")
     # a greater change with the load, in rad/s per N, leads to another range of speeds
-    links = [(i, a, b) for i, a, b in branches(speeds) if abs(a - b) < 0.2 * (loads[i + 1] - loads[i])]
-    # a gap after each pair
-    pairs = [[(a, loads[i]), (b, loads[i + 1]), (np.nan, np.nan)] for i, a, b in links]
-    alone = [[(speed, load), (np.nan, np.nan)] for load, row in zip(loads, speeds, strict=True) for speed in row]
-    points = np.reshape([point for points in (*pairs, *alone) for point in points], (-1, 2))
-    ax.plot(*points.T, path_effects=drawing.outline(1.3, BLACK), **look)
+    links = [(i, a, b) for i, a, b in branches(speeds, ends) if abs(a - b) < 0.2 * (loads[i + 1] - loads[i])]
+    gap = (np.nan, np.nan)
+    points = [point for i, a, b in links for point in ((a, loads[i]), (b, loads[i + 1]), gap)]
+    points += [at for load, row in zip(loads, speeds, strict=True) for speed in row for at in ((speed, load), gap)]
+    ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.outline(1.3, BLACK), **look)
 
 
 # ---- The map behind, and the panel beside

@@ -22,8 +22,7 @@ from disc_model.units import Finite, Unit
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
 """Colours of the values of a flag."""
 HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}  # look of missing values
-LINEAR = 0.1
-"""Growth rate up to which its scale is linear, 1/s; a greater step leads to another cycle and breaks the line."""
+LINEAR = 0.1  # growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another cycle
 FEW = 12  # counts below which each has a colour of its own
 MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
 UNITS = {name: Parameters.unit(name) for name in Parameters.model_fields}
@@ -35,6 +34,7 @@ class General(Plot):
     at : values at which the dimensions that are not shown are taken; those of one value need none
     by : a dimension with a panel, or a line, for each of its values; normalization if it varies
     log : whether the scale of the variable is logarithmic
+    names : words for values of `by`
     """
 
     several = True
@@ -45,6 +45,12 @@ class General(Plot):
     at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
     by: str | None = None
     log: bool = False
+    names: dict[str, str] = Field({})
+
+    def named(self, study: xr.Dataset) -> xr.Dataset:
+        """The study with the words that the file has for values of `by`."""
+        words = {self.by: [self.names.get(str(value), value) for value in study[self.by].values]} if self.names else {}
+        return study.assign_coords(words)
 
     def chosen(self, study: xr.Dataset) -> list[str]:
         """Values of all dimensions that the figure takes at one place."""
@@ -81,6 +87,10 @@ class General(Plot):
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
                 yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
+        known = [str(value) for value in dims.get(self.by or "", ())]
+        for word in self.names:
+            if word not in known:
+                yield Fault.of(("names",), word, f"is no value of by{suggestion(word, known)}")
 
     def _wrong_place(self, role: str, name: str, dims: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
         if name not in dims:
@@ -162,6 +172,8 @@ def draw_maps(
                 _cells(ax, panel.where(panel).transpose(y, x), cmap=ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
         bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
+        if "norm" in colours and log and colours["norm"].vmax < 10 * colours["norm"].vmin:
+            bar.ax.yaxis.set_minor_formatter("{x:g}")
         if words:
             bar.set_ticks(range(len(words)), labels=words)
             bar.minorticks_off()
@@ -182,7 +194,7 @@ class HeatMap(General):
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw panels with a common colour scale."""
-        study = drawing.picked(study, self.at)
+        study = self.named(drawing.picked(study, self.at))
         array = study[self.variable]
         shown = drawing.slices(array, remaining(array, [*self.axes.values()]))
         rows = 1 + (len(shown) > 4)
@@ -195,11 +207,8 @@ class HeatMap(General):
         handles = draw_maps(figure, axes, study, self.variable, self.x, self.y, self.log)
         width = round(figure.get_figwidth() / columns / 0.08)
         # a value stays on the line of its name
-        names = [
-            fill(f"({letter}) " + text.replace(" = ", "\u00a0=\u00a0"), width)
-            for letter, (text, _) in zip("abcdef", shown, strict=False)
-        ]
-        for ax, name in zip(axes, names, strict=True):
+        for ax, letter, (text, _) in zip(axes, "abcdef", shown, strict=False):
+            name = fill(f"({letter}) " + text.replace(" = ", "\u00a0=\u00a0"), width)
             ax.set_title(name if len(axes) > 1 else "", loc="left")
             ax.label_outer()
         for ax in axes[-columns:]:  # below some of them there is none
@@ -239,6 +248,13 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
     return {"cmap": cm.batlow, "norm": Normalize(low, high)}
 
 
+def scale_rates(ax: Axes) -> None:
+    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero."""
+    ax.set_yscale("symlog", linthresh=LINEAR)
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+
+
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
     """Draw a variable against one dimension, or a line for each value of a second one, with its label for a legend.
     Its marks above the panel, in a row below the reason, stand for missing values."""
@@ -256,15 +272,12 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     every = 1 if words or jump < np.inf or array.isnull().any() else max(1, along.size // 12)
     for colour, (name, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
         style = mark + "-" * (not words)
-        ax.plot(
-            *drawing.broken(along, line.values, jump), style, color=colour, label=name or None, markevery=every, **look
-        )
+        shown = drawing.broken(along, line.values, jump)
+        ax.plot(*shown, style, color=colour, label=name or None, markevery=every, **look)
     if log:
         ax.set_yscale("log")
-    elif variable == "growth_rate":  # peaks of tens occur beside hundredths
-        ax.set_yscale("symlog", linthresh=LINEAR)
-        ax.yaxis.set_major_formatter("{x:g}")
-        ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+    elif variable == "growth_rate":
+        scale_rates(ax)
     ax.set_xscale(scale(x, along))
     ax.set(xlabel=label, ylabel=fill(drawing.label_of(array)[0], 32))
     if words:
@@ -301,26 +314,28 @@ class CurvePlot(General):
     """A variable against one dimension; a line for each value of a second, if wanted.
 
     limits : ends of the variable's axis, so that figures can be compared
-    panels : values of `by` in each of several panels
+    panels : values of `by` in each of several panels; "each": a panel for each value
     """
 
     room = 12
     kind: Literal["curve"] = "curve"
     limits: tuple[Finite, Finite] | None = None
-    panels: tuple[tuple[Finite | str, ...], ...] = ()
+    panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
 
     def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
         """Faults as of any such figure, and values of panels that `by` does not have."""
         yield from super().faults_among(dims, variables)
         known = dims.get(self.by or "", ())
-        for value in chain(*self.panels):
+        for value in chain(*([] if self.panels == "each" else self.panels)):
             if not any(_same(value, other) for other in known):
                 yield Fault.of(("panels",), value, f"must be a value of by, one of {_listed(known)}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a line, or one for each value of a second dimension."""
         study = drawing.picked(study, self.at)
-        parts = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
+        each = drawing.slices(self.named(study), self.by) if self.panels == "each" else []
+        chosen = [study.sel({self.by: [*values]}) for values in self.panels if not each]
+        parts = [part for _, part in each] or [self.named(part) for part in chosen or [study]]
         figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
         for ax, part in zip(axes, parts, strict=True):
             draw_lines(ax, part, self.variable, self.x, self.log)
@@ -329,7 +344,7 @@ class CurvePlot(General):
             axes[0].set_ylim(self.limits)
             if axes[0].get_yscale() == "linear":  # longer labels that come with the layout would not find room
                 axes[0].locator_params(axis="y", steps=[1, 2, 5, 10])
-        drawing.letters(axes)
+        drawing.letters(axes, [fill(name, 26) for name, _ in each], pad=20 if each else None)
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
             if labels and not name_ends(ax):

@@ -261,8 +261,7 @@ class Plot(Kind):
 # ---- Of named cases
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
 """Variables of samples beside times and phases."""
-Recorded = Mapping[str, Window | Poincare | None]
-"""Records of a case: windows by name, and the Poincaré section as ``poincare``."""
+Recorded = Mapping[str, Window | Poincare | None]  # of a case: windows by name, and the section as ``poincare``
 Rule = Callable[[Window], Iterator[str]]  # rules that a window breaks, as ends of sentences
 SHORTEST_SPECTRUM = 1.1  # least length of a window for a spectrum in time, s: one window of the transform and two steps
 HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz

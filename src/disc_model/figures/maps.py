@@ -31,7 +31,7 @@ class Look(NamedTuple):
 UNRESOLVED = Look("unresolved", "none", 8 * "/")
 """Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells. A cell of
 a fiftieth of a panel has two lines of their hatch."""
-OUTCOME_LOOKS = {
+OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness or a hatch
     "quiet": Look("quiet", "#f3f6f8"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
     "at_rest": Look("permanent stick", "#c4e3cd", 3 * "-"),
@@ -41,7 +41,6 @@ OUTCOME_LOOKS = {
     "undecided": Look("undecided", "#43372a"),
     "failed": Look("failed", "#222222"),
 }
-"""Looks of outcomes in all maps and charts, distinct in grey print by darkness or a hatch."""
 CYCLE_LOOKS = {
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],

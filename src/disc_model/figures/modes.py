@@ -10,6 +10,7 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import Fault
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, panels
+from disc_model.figures.general import LINEAR, scale_rates
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
 from disc_model.figures.maps import Look, edges_of, fill, patches
 from disc_model.units import Positive, Unit
@@ -17,7 +18,7 @@ from disc_model.units import Positive, Unit
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
 DOT: dict[str, Any] = {"color": BLACK, "linestyle": "", "marker": "o", "markersize": 3.5}
-LINEAR = 0.1  # growth rate up to which the scale is linear, 1/s, and from which on peaks are named
+HOLLOW: dict[str, Any] = {"markersize": 3.5, "markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
 class Campbell(Plot):
@@ -50,13 +51,15 @@ class Campbell(Plot):
         for part, name in named_modes(of_disc, ends["sliding_frequency"].values, 0.035 * highest):
             height = float(ends["sliding_frequency"][part].mean())
             drawing.say_beside(top, height, name, 3, fontsize=7)
-        # so large a step leads to another cycle
-        bottom.plot(*drawing.broken(speeds, rate, LINEAR), ".-", color=BLACK, linewidth=0.8, markersize=1.6)
-        bottom.axhline(0, color=GREY, linewidth=0.5, zorder=0)
+        bottom.plot(*drawing.broken(speeds, rate, LINEAR), "-", color=BLACK, linewidth=0.8)
+        by_itself = unjoined(rate)
+        for mask, look in ((~by_itself, {}), (by_itself, HOLLOW)):
+            bottom.plot(speeds[mask], rate[mask], **DOT | {"markersize": 1.0} | look)
+        scale_rates(bottom)
         for i, crossing in peaks(study):
             for ax in (top, bottom):
                 ax.axvline(speeds[i], color=GREY, linewidth=0.4, zorder=0)
-            bottom.plot(speeds[i], rate[i], **DOT)
+            bottom.plot(speeds[i], rate[i], **DOT | (HOLLOW if by_itself[i] else {}))
             if crossing is None:
                 continue
             of_cycle = flag_names(crossing["crossing_line"]) == "stick_slip"
@@ -72,8 +75,6 @@ class Campbell(Plot):
             for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
         low, high = (float(end.reduce(rate, initial=0.0)) for end in (np.fmin, np.fmax))
-        bottom.set_yscale("symlog", linthresh=LINEAR)
-        bottom.yaxis.set_major_formatter("{x:g}")
         bottom.set(ylim=(min(1.3 * low, -LINEAR), max(3 * high, LINEAR)), xlabel=drawing.axis_of("Omega")[0])
         bottom.set_ylabel("Largest growth rate\nof the cycle (1/s)")
         top.set(xlim=speeds[[0, -1]], ylim=(0, highest), ylabel="Frequency in the slider's frame (Hz)")
@@ -83,8 +84,13 @@ class Campbell(Plot):
 
 def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the crossing there.
-    Of several crossings it is one of the mode that leads, and the nearest; without one it is None."""
-    speeds, rate = study["Omega"].values, np.nan_to_num(study["growth_rate"].values, nan=-np.inf)
+    Of several crossings it is one of the mode that leads, and the nearest; without one it is None. Points by themselves
+    beside speeds without a cycle are left out: there another cycle than the one followed is found."""
+    speeds, rate = study["Omega"].values, study["growth_rate"].values.copy()
+    for first, after in drawing.stretches(unjoined(rate)):
+        if np.isnan(rate[[max(first - 1, 0), min(after, rate.size - 1)]]).any():
+            rate[first:after] = np.nan
+    rate = np.nan_to_num(rate, nan=-np.inf)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * np.ptp(speeds)
     tops = np.flatnonzero((rate >= LINEAR) & (rate == np.where(beside, rate, -np.inf).max(axis=1)))
     highest: list[tuple[int, xr.Dataset | None]] = []
@@ -96,6 +102,12 @@ def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
         nearest = known[np.argsort((apart + other)[known])[:1]]
         highest.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
     return highest
+
+
+def unjoined(rate: np.ndarray) -> np.ndarray:
+    """Points whose growth rate differs by more than `LINEAR` from those of both neighbours."""
+    joined = np.concatenate([[False], np.abs(np.diff(rate)) <= LINEAR, [False]])
+    return np.isfinite(rate) & ~(joined[:-1] | joined[1:])
 
 
 def name_of(*diameters: int) -> str:
@@ -209,16 +221,15 @@ class RootLocus(Plot):
         return figure
 
 
-AGREEMENTS = {
+AGREEMENTS = {  # what linear analysis of steady sliding says, and what the motion from the static start does
     "stable_quiet": Look("stable, and the motion quiet", "#f3f6f8"),
     "stable_grows": Look("stable, but the motion leaves the quiet cycle in contact", "#86a0b8", 3 * "|"),
     "stable_separates": Look("stable, but the motion separates", "#2b4f74", 3 * "x"),
     "unstable_quiet": Look("unstable, but the motion stays quiet", "#f2c14e", 3 * "."),
-    "unstable_grows": Look("unstable, and the motion grows in contact", "#e3906a"),
+    "unstable_grows": Look("unstable, and the motion grows, or reaches another cycle, in contact", "#e3906a"),
     "unstable_separates": Look("unstable, and the motion separates", "#bb5200"),
     "unknown": Look("undecided, or no steady sliding", "#43372a"),
 }
-"""What linear analysis of steady sliding says, and what the motion from the static start does."""
 
 
 class SlidingOutcome(Plot):

@@ -29,11 +29,10 @@ from disc_model.units import Positive, Unit
 # ---- Histories
 RANGES = ("P", "u", "w", "w_point", "psi", "psi_velocity")  # variables that a window with an envelope stores
 MOST_SHADED = 60  # largest number of stretches of one phase that are shaded; more would be as dense as a fill
-SHADES: dict[str, dict[str, Any]] = {
+SHADES: dict[str, dict[str, Any]] = {  # behind a history, told apart by darkness in grey print; slip is left white
     "stick": {"color": drawing.PHASE_COLOURS["stick"], "alpha": 0.22},
     "separation": {"color": SEPARATED, "alpha": 0.5},
 }
-"""Looks of the phases behind a history, told apart by darkness in grey print; slip is left white."""
 
 
 def shade_phases(axes: Sequence[Axes], window: xr.Dataset) -> list[Artist]:
@@ -143,12 +142,11 @@ class Portrait(CasePlot):
 
 
 # ---- Poincaré sections
-MARKS: dict[str, dict[str, Any]] = {
+MARKS: dict[str, dict[str, Any]] = {  # by stage, told apart by shape as well as by colour
     "early": {"marker": "x", "color": drawing.BEFORE, "s": 9, "linewidths": 0.5},
     "later": {"marker": "o", "color": drawing.AFTER, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
-"""Symbol by stage: told apart by shape as well as by colour."""
 SMALL = 0.2  # share of both axes below which a section has an inset
 BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
 BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separated": "separated"}

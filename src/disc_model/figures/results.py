@@ -229,7 +229,7 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
         name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
     draw_branch(axes, x, values, stable, BLACK, np.inf)
     if y == "growth_rate" and len(branch.parameters) == 1:
-        _rates(axes)
+        general.scale_rates(axes)
     for width, text in ((2.0, "stable"), (0.7, "unstable")):
         axes.plot([], [], color=BLACK, linewidth=width, label=text)
     folds = np.reshape(branch.folds, (-1, len(branch.parameters)))
@@ -242,13 +242,6 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
     drawing.legend_above(axes)
     _title(axes, branch.case, *branch.parameters, ours=ax is None)
     return axes
-
-
-def _rates(axes: Axes) -> None:
-    """Scale an axis of growth rates: tens may occur beside hundredths; and mark zero."""
-    axes.set_yscale("symlog", linthresh=general.LINEAR)
-    axes.yaxis.set_major_formatter("{x:g}")
-    axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
 
 
 @by_itself
@@ -292,7 +285,7 @@ def plot_critical(critical: Critical, ax: Any = None) -> Axes:
         text: dict[str, Any] = {"label": "no stable motion"} if i == 0 else {}
         axes.axvspan(low, high, facecolor=SEPARATED, alpha=0.3, linewidth=0.8, edgecolor=SEPARATED, zorder=0, **text)
     axes.plot(x, critical.growth_rate, ".-", color=BLACK, markersize=3, linewidth=0.7, label="cycles computed")
-    _rates(axes)
+    general.scale_rates(axes)
     axes.set(xlabel=label, ylabel="Growth rate of the cycle (1/s)", xlim=(x[0], x[-1]))
     drawing.legend_above(axes)
     _title(axes, critical.parameters, critical.name, ours=ax is None)
@@ -319,8 +312,7 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
 
 
 # ---- Grids and discs
-NAMES = {*Parameters.model_fields, *RATIOS}
-# Coordinates of one value that titles state.
+NAMES = {*Parameters.model_fields, *RATIOS}  # coordinates of one value that titles state
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
 PREFERRED = (*SHARES, "growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
 """Variables that a sweep shows first."""

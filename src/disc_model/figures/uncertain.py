@@ -16,7 +16,7 @@ from disc_model.figures.drawing import BLACK, BLUE, GREY, PAGE, SEPARATED, Axes,
 from disc_model.figures.kind import Plot, Values
 from disc_model.figures.maps import OUTCOME_LOOKS, Look, patches
 
-LOOKS = {
+LOOKS = {  # of outcomes, as in maps; a hatch where another one is as dark in grey print
     "quiet": OUTCOME_LOOKS["quiet"],
     "other_cycle": OUTCOME_LOOKS["other_cycle"],
     "separating": OUTCOME_LOOKS["separation"]._replace(label="separating"),
@@ -24,7 +24,6 @@ LOOKS = {
     "irregular": Look("irregular", drawing.BROWN, 4 * "/"),
     **{name: OUTCOME_LOOKS[name] for name in ("steady_sliding", "at_rest", "undecided", "failed")},
 }
-"""Looks of the outcomes, as in maps; a hatch where another one is as dark in grey print."""
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 
 
@@ -86,7 +85,8 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     for class_, look in LOOKS.items():
         point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
-        ax.scatter(along[point], ranges[point, number], area, color=look.face, edgecolor=BLACK, linewidth=0.4, zorder=3)
+        mark: dict[str, Any] = {"marker": "D" if look.hatch else "o", "edgecolor": BLACK, "linewidth": 0.4, "zorder": 3}
+        ax.scatter(along[point], ranges[point, number], area, color=look.face, **mark)
     for part, text in ((0.1, "10 %"), (0.5, "50 %"), (1.0, "all starts")):
         ax.scatter([], [], LARGEST * part, facecolor="none", edgecolor=BLACK, linewidth=0.4, label=text)
     drawing.legend_above(ax)

@@ -26,11 +26,10 @@ SMALL = 8.0  # size of the text that is no symbol, in points
 OUTER = 1.2  # radius of the disc as drawn
 STRETCH, PALE, DARK = 0.04, "0.72", "#8a5a00"
 """Of the composite: its stretch of contact force, s; colours of ignored separation, and of words on the slider."""
-PHASES: dict[str, dict[str, Any]] = {
+PHASES: dict[str, dict[str, Any]] = {  # looks that differ in grey print as well; slip is white
     "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
     "separation": {"facecolor": SEPARATED, "alpha": 0.35},
 }
-"""Looks of phases that differ in grey print as well; slip is white."""
 
 
 class Schematic(CasePlot):
@@ -227,10 +226,10 @@ def _above(ax: Axes, p: Parameters) -> None:
         angle = np.radians(degrees)
         _arrow(ax, (0, 0), _at(angle, radius), style="->")
         _write(ax, _at(angle, 0.6 * radius, 0.1 * _at(angle - np.pi / 2, 1)), text)
-    radii = f"clamped at\n$a$ = {_mm(p.a)} mm,\nfree at\n$b$ = {_mm(p.b)} mm"
+    radii = f"clamped at\n$a$ = {1e3 * p.a:g} mm,\nfree at\n$b$ = {1e3 * p.b:g} mm"
     ax.text(-1.72, 1.66, radii, fontsize=SMALL, va="top")
     ax.set(xlim=(-1.75, 2.05), ylim=(-1.3, 1.7))
-    ax.set_title(f"(b) from above, $r_0$ = {_mm(p.r_0)} mm", loc="left")
+    ax.set_title(f"(b) from above, $r_0$ = {1e3 * p.r_0:g} mm", loc="left")
 
 
 def _forces(ax: Axes) -> None:
@@ -261,10 +260,6 @@ def _at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> NDArray[np.fl
     return radius * np.array([np.cos(angle), np.sin(angle)]) + aside
 
 
-def _mm(length: float) -> str:
-    return f"{1e3 * length:g}"
-
-
 def _arrow(
     ax: Axes, start: Point, end: Point, text: str = "", offset: Point = (0, 0), colour: str = BLACK, style: str = "-|>"
 ) -> None:
@@ -291,8 +286,7 @@ def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -
     _write(ax, _at((low + high) / 2, radius + 0.13), text, color=SLIDER, fontsize=13)
 
 
-Strokes = Sequence[tuple[ArrayLike, ArrayLike]]
-"""Lines between two points: fractions of the way, and offsets to its left in widths."""
+Strokes = Sequence[tuple[ArrayLike, ArrayLike]]  # lines: fractions of the way, and offsets to its left in widths
 SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]  # a zigzag
 _CUP: Strokes = [([0, 0.35], [0, 0]), ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1])]
 DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a cup and a piston

@@ -22,17 +22,14 @@ from disc_model.simulation.case import Window
 from disc_model.units import Finite, Positive, Unit
 
 WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
-
-
 CLOSE = 300.0  # highest frequency of the closer view, Hz
-TABLE_2 = {
+TABLE_2 = {  # lines of the paper, Hz, by their components; pairs are too close for separate names
     r"$f_\Omega$": (2.4,),
     "$f_{h1}$, $f_{h2}$:\n$f_s ∓ f_\\Omega$": (65.5, 70.0),
     "$f_1$, $f_2$:\n$2f_s ∓ f_\\Omega$": (133.0, 138.0),
     "$f_3$, $f_4$:\n$3f_s ∓ f_\\Omega$": (200.0, 206.0),
     "$f_5$, $f_6$:\n$4f_s ∓ f_\\Omega$": (269.0, 273.0),
 }
-"""Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
 class FourStretches(CasePlot):
@@ -79,7 +76,7 @@ class FourStretches(CasePlot):
                     mesh = draw_power(ax, cases[i], spectra[i, name], reference, high)
                     ax.set_ylim(low, high)
             row[0].set_ylabel("Frequency (Hz)")
-        for ax, text in zip(axes[0], "bcdef", strict=False):
+        for ax, text in zip((*axes[0], *axes[2:, 1:].flat), "bcdefghi", strict=False):
             if ax.has_data():
                 drawing.letter(ax, text)
         for ax in axes[-1]:
