@@ -45,9 +45,8 @@ def test_a_line_does_not_jump_to_another_branch() -> None:
     speeds = [np.array(at) for at in ([17.6], [11.5, 19.5], [12.7, 14.9, 21.3], [13.8, 15.9, 23.1], [])]
     links = [(0, 17.6, 19.5), (1, 11.5, 12.7), (1, 19.5, 21.3)]
     # 13.8 is as near to 12.7 as to 14.9, which is nearer to 15.9
-    assert branches(speeds, [np.array([])] * 5) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
-    ends = [np.array(at) for at in ([], [12.9], [13.2, 16.1], [], [])]
-    assert branches(speeds, ends) == [*links, (2, 14.9, 15.9), (2, 21.3, 23.1)]
+    assert branches(speeds, 5 * [[]]) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
+    assert branches(speeds, [[], [12.9], [13.2, 16.1], [], []]) == [*links, (2, 14.9, 15.9), (2, 21.3, 23.1)]
 
 
 def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Figure], sweep: xr.Dataset) -> None:

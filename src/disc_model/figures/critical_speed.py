@@ -1,6 +1,6 @@
 """Charts over speed and preload: onset and end of separation, loss of stability of the cycle, sweeps and ramps."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, pairwise
 from typing import Any, ClassVar, Literal
@@ -95,7 +95,7 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[A
     return [np.unique(row[np.isfinite(row)]) for row in rows]
 
 
-def branches(speeds: Sequence[Array], ends: Sequence[Array]) -> list[tuple[int, float, float]]:
+def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[tuple[int, float, float]]:
     """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load. The two
     are nearest, and separation does not end between them; a crossing without such a partner ends a branch."""
     links = []

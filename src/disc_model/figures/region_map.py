@@ -179,11 +179,8 @@ def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Art
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
     ring |= {"markeredgecolor": PAPER, "path_effects": drawing.outline(2.4, BLACK)}
-    return [
-        drawing.sample(marker=marker, label=f"paper: {OUTCOME_LOOKS[name].label}", **ring)
-        for name, marker in PAPER_MARKERS.items()
-        if name in outcomes
-    ]
+    said = [(f"paper: {OUTCOME_LOOKS[name].label}", mark) for name, mark in PAPER_MARKERS.items() if name in outcomes]
+    return [drawing.sample(marker=mark, label=label, **ring) for label, mark in said]
 
 
 def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> None:
