@@ -210,7 +210,7 @@ def test_each_model_is_judged_by_its_own_data() -> None:
     assert verdicts[CRITICAL] == [NOT_COMPUTED] * 5
     headings, _, sections = zip(*evidence_of(table), strict=True)
     assert [*headings] == [*BY_TITLE]
-    told = "2 of 6 points separate. Of these 1 have an unstable cycle, 1 have none that was found, and 0 have"
+    told = "2 of 6 points separate. Of these points, 1 have an unstable cycle, 1 have none that was found, and 0 have"
     assert sections[0]["Found"].iloc[0].startswith(told)
 
 

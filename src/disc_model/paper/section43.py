@@ -173,9 +173,9 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     return Answer(
         PART if holds and cause else holds,
-        f"{case.fate} Between 1 and 21 s, the range of the contact force is {case.early.width:.1f} N. In stretches of "
-        f"20 s, the median of the range is {before:.1f} N in the third quarter of the run and {last:.1f} N in the last "
-        f"quarter; the largest range is {max(widths):.0f} N.",
+        f"{case.fate} Between 1 and 21 s, the range of the contact force is {case.early.width:.1f} N. The second half "
+        f"of the run is cut into stretches of 20 s. The median of the ranges in them is {before:.1f} N in the third "
+        f"quarter of the run and {last:.1f} N in the last; the largest of these ranges is {max(widths):.0f} N.",
     )
 
 
@@ -337,7 +337,8 @@ def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
     """The same in words."""
     _, symbol, values = STIFFENED[name]
     rows = [
-        f"at {speed:g} rad/s, {', '.join(f'{rate_text(rate)} ({x})' for rate, x in zip(rates, values, strict=True))}"
+        f"At {measures.place(p.N, speed)}, {name} ({symbol}) and growth (1/s) are as follows: "
+        f"{'; '.join(f'{x}, {rate_text(rate)}' for x, rate in zip(values, rates, strict=True))}."
         for speed, rates in stiffened(p, name, *speeds).items()
     ]
-    return f"growth per second, with {name} in {symbol} in brackets, is, {'; and, '.join(rows)}"
+    return " ".join(rows)

@@ -271,7 +271,6 @@ def not_monotonous(*evidence: Any) -> Answer:
         most=damping[-1],
         newly=listed(loads[newly], ".0f"),
         counts=(lowered.sum(), growing.sum()),
-        N=p.N,
         stiffened=stiffened_text(p, "k_p", 50),
     )
 
@@ -299,7 +298,7 @@ def stiffer_inplane(case: CaseView) -> Answer:
     results = stiffened(case.parameters, "k_p", 20, 50).values()
     known = [rates[np.isfinite(rates)] for rates in results]
     rising = [bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0)) for rates in known]
-    return Answer(all(rising), N=case["N"], stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
+    return Answer(all(rising), stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
