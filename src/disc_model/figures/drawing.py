@@ -130,7 +130,7 @@ MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes
 """Title of a panel by normalization; "given" stands for modes from a table."""
 WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
 """Words of parameters in panel titles, those of the paper first."""
-MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility"}
+MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
 MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the second in files of results
 """Words for models other than the paper's."""
 

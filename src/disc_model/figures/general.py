@@ -250,8 +250,15 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
 
 def scale_rates(ax: Axes) -> None:
     """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero."""
-    ax.set_yscale("symlog", linthresh=LINEAR)
+
+    def between(rate: float, _: float) -> str:
+        """Within about a decade, labels of some ticks between its ends, so that nobody reads the scale as linear."""
+        shown = f"{rate:e}".lstrip("-")[0] in "25" and max(map(abs, ax.get_ylim())) < 20 * LINEAR
+        return f"{rate:g}" if shown else ""
+
+    ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
     ax.yaxis.set_major_formatter("{x:g}")
+    ax.yaxis.set_minor_formatter(between)
     ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
 
 
@@ -283,10 +290,10 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     if words:
         ax.set_yticks(range(len(words)), labels=words)
     ax.margins(0.03)
-    top = 1.03  # of the next row, as a share of the panel
+    top, marks = 1.03, MARKS if by else "x"  # top of the next row, as a share of the panel
     look |= {"transform": ax.get_xaxis_transform(), "clip_on": False}
     for name, gone in drawing.gaps(study, array).items():
-        for colour, (_, mask), mark in zip(colours, drawing.slices(gone, by), cycle(MARKS), strict=False):
+        for colour, (_, mask), mark in zip(colours, drawing.slices(gone, by), cycle(marks), strict=False):
             if mask.any():
                 ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **look)
                 top += 0.05

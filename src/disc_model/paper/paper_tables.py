@@ -12,8 +12,9 @@ import pandas as pd
 import yaml
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import Motion, motion_of
+from disc_model.analysis.classify import FEWEST, Motion, motion_of
 from disc_model.data.dataset import Missing
+from disc_model.data.variables import Outcome
 from disc_model.paper import TABLE_CASES
 from disc_model.paper.measures import CaseView, place
 from disc_model.parameters import Parameters
@@ -81,12 +82,14 @@ after a small change of the speed."""
 
 
 def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:
-    """Class of a motion by its releases in the last `RECORD` s before t_end, and the state there."""
+    """Class of a motion by its releases in the last `RECORD` s before t_end, undecided if few; and the state there."""
     from disc_model.simulation.api import simulate  # most tables do without
 
     run = simulate(p, t_end, tol=tol, initial_state=start)
     times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
-    return motion_of(np.diff(times[times > t_end - RECORD])), run.final_state
+    intervals = np.diff(times[times > t_end - RECORD])
+    few = Motion(Outcome.UNDECIDED, 0, np.nan, np.nan, np.nan, 0)
+    return motion_of(intervals) if intervals.size >= FEWEST else few, run.final_state
 
 
 def locked(p: Parameters, start: State, period: int, sign: int) -> float:
@@ -94,10 +97,7 @@ def locked(p: Parameters, start: State, period: int, sign: int) -> float:
 
     def holds(change: float) -> bool:
         changed = p.replace(Omega=p.Omega + sign * change)
-        try:
-            return motion_to(changed, start.time + SETTLE + RECORD, start=start)[0].period == period
-        except ValueError:  # too few releases
-            return False
+        return motion_to(changed, start.time + SETTLE + RECORD, start=start)[0].period == period
 
     low, high = 0.0, 1e-4
     while high < 1 and holds(high):

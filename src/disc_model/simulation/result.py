@@ -142,8 +142,9 @@ class Result(Summarised, Pictures):
         Parameters
         ----------
         path : its suffix says how. ".nc": netCDF, the tree of `to_tree`, which `disc_model.load` reads as well. ".mat":
-            a structure of MATLAB, with one of columns for each window, the events and the final state. ".csv": one
-            table of all of these one below the other, under two lines of JSON that begin with #
+            a structure of columns for each window, the events and the final state, and the text ``result``: JSON of
+            the case, what was found, and the words of numbers. ".csv": one table of all of these, after two lines of
+            JSON that begin with #
 
         Raises
         ------
