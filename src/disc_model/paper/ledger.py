@@ -48,7 +48,7 @@ def _link(figure: str) -> str:
 
 def _data(row: Row) -> dict[str, str]:
     """Links to the datasets and tables of a row."""
-    links = {name: f"cases/{name}.nc" for name in row.cases} | {name: f"../{name}/{name}.nc" for name in row.scans}
+    links = {x: f"cases/{x}.nc" for x in row.cases} | {x: f"../{x}/{x}.nc" for x in row.scans + row.beside}
     return {f"table {name.replace('_', ' ')}": f"tables/{name}.html" for name in row.tables} | links
 
 

@@ -11,8 +11,8 @@ from scipy.integrate import fixed_quad
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper.measures import CaseView, extent, or_none, pairs, width_ratio
-from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded
+from disc_model.paper.measures import CaseView, extent, or_none, pairs, separates_within, width_ratio
+from disc_model.paper.model import FALSE, PART, TRUE, Answer, _parameters, graded
 from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
@@ -59,11 +59,12 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     kinds = {
         figure: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for figure, point in points.items()
     }
-    lost = [figure for figure in points if kinds[figure] != "separation"]
-    grow = [horizons[figure] for figure in lost if kinds[figure] == "growing"]
+    quiet = {x: _parameters(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
+    kept = [x for x, p in quiet.items() if not separates_within(p, horizons[x])]
+    grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
     return Answer(
         graded(speed < share * critical for speed in lowest),
-        counts=(len(times), times["as_published"].count(), len(times) - len(lost), len(lost) - len(grow), len(grow)),
+        counts=(len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow)),
         until=extent(grow) if grow else None,
         lowest=lowest,
         critical=critical,

@@ -14,7 +14,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
-from disc_model.paper.measures import Absent, Array, CaseView, mm, pairs, published
+from disc_model.paper.measures import Absent, Array, CaseView, listed, mm, pairs, published
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
@@ -49,13 +49,13 @@ def upward(*cases: CaseView, share: float) -> Answer:
 
 
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
-    rows, parts = [], []
-    for case in cases:
+    rows, parts, periods = [], [], [1 / case.rate_of("separation") for case in cases]
+    for case, period in zip(cases, periods, strict=True):
         durations, still_open = case.separation_durations()
-        longest, period = max(durations.max(), still_open), 1 / case.rate_of("separation")
+        longest = max(durations.max(), still_open)
         parts.append(longest / period)
         rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
-    return Answer(max(parts) < share, rows=rows, parts=(min(parts), max(parts)), period=period)
+    return Answer(max(parts) < share, rows=rows, parts=(min(parts), max(parts)), periods=measures.extent(periods))
 
 
 def preload_closes(case: CaseView, *, share: float) -> Answer:
@@ -217,9 +217,10 @@ def maintained_below(
 ) -> Answer:
     """Whether contact is kept below the critical speed of the static start by other starts as well."""
     critical = _scanned(study)["critical_speed"].isel(horizon=-1)
-    if not np.isfinite(critical).any():
+    known, loads = np.isfinite(critical.values), critical["N"].values
+    if not known.any():
         return Answer(FALSE, "No separation at any preload and speed.")
-    begins = measures.extent(critical.values[np.isfinite(critical)])
+    begins, never = measures.extent(critical.values[known]), (listed(loads[~known], "g", ""), study["scan_Omega"][-1])
     below: list[tuple[float, ...]] = []
     if sweeps is not None:
         starts, turns = xr.align(critical, published(sweeps), join="inner")
@@ -231,7 +232,7 @@ def maintained_below(
     if basins is not None:
         total = basins.sizes["energy"] * basins.sizes["start"]
         apart = round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0)))
-    return Answer(PART if below or apart else TRUE, begins=begins, below=below, total=total, apart=apart)
+    return Answer(PART if below or apart else TRUE, begins=begins, never=never, below=below, total=total, apart=apart)
 
 
 def far_below(*cases: CaseView, share: float) -> Answer:
@@ -248,12 +249,14 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     study, critical = published(study), moving_load_speed(BASE)
     low = study["Omega"] < share * critical
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
-    most, run = float(study["Omega"].max()), flag_names(study["method"]) == "simulation"
+    most, method, kept = float(study["Omega"].max()), flag_names(study["method"]), unstable & ~apart
+    known = [int((kept & (method == how)).sum()) for how in ("simulation", "settled", "multipliers")]
     return Answer(
         bool((low & unstable).any() and (low & apart).any()),
         most=most,
         part=most / critical,
-        counts=[int(each.sum()) for each in (unstable, apart, unstable & ~apart, apart & run)],
+        counts=[int(each.sum()) for each in (unstable, apart, kept, apart & (method == "simulation"))],
+        known=known,
         size=apart.size,
         horizon=measures.facts(study)["horizon"],
     )

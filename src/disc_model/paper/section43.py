@@ -36,9 +36,9 @@ def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last:
     """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular.
     With ``last``, of a point fixed on the disc too: its range is small, and its last points in the section repeat."""
     intervals = case.intervals()
-    spread, points = irregularity(intervals), _different(case, last, same) if last else 0
+    spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
-    small = not last or (case.disc.width < case["h"] and points <= last / 2)
+    small = not last or (case.disc.width < case["h"] and points[0] <= last / 2)
     return Answer(
         holds if small or not holds else PART,
         fate=case.fate,

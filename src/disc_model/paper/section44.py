@@ -151,23 +151,20 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
 
 def fuzz_goes(*pair: CaseView, share: float) -> Answer:
     """Whether lines fill less of the spectrum of the disc later; the control without separation is told."""
-    filled = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
-    (before, after), (ignored, control) = filled
-    each = before, after, ignored, control
-    return Answer(after < share * before, place=pair[0].place, filled=each)
+    filled = [case.signal(*span).filled for case in pair for span in (LATER, LATE)]
+    return Answer(filled[1] < share * filled[0], place=pair[0].place, filled=filled)
 
 
 def explained_by_slider(*pair: CaseView, share: float) -> Answer:
-    """Whether what clears the slider's spectrum, and with it the disc's, is separation: not if it clears without."""
+    """Whether, with and without separation, the disc's spectrum clears where the slider's does; not whether by this."""
     first = pair[0]["first_separation"]
     length = first - 50
     begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
-    (before, after, _), (ignored, control, late) = (
-        [case.signal(window, begin, begin + length, "psi").filled for window, begin in begins] for case in pair
-    )
-    cleared, alike = after < share * before, min(control, late) < share * ignored
-    filled = before, after, ignored, control, late
-    return Answer(PART if cleared and alike else cleared, place=pair[0].place, length=length, filled=filled)
+    disc = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
+    slider = [[case.signal(name, start, start + length, "psi").filled for name, start in begins] for case in pair]
+    clear, alike = ([each[-1] < share * each[0] for each in one] for one in (disc, slider))
+    verdict = PART if clear[0] and clear == alike else FALSE
+    return Answer(verdict, place=pair[0].place, length=length, disc=disc, slider=slider)
 
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
@@ -195,9 +192,8 @@ def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
 def fuzz_stays(*pair: CaseView, share: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
-    (before, after), (ignored, control) = ([case.signal(*span).filled for span in spans] for case in pair)
-    filled = before, after, ignored, control
-    return Answer(after >= share * before, place=pair[0].place, filled=filled, first=first)
+    filled = [case.signal(*span).filled for case in pair for span in spans]
+    return Answer(filled[1] >= share * filled[0], place=pair[0].place, filled=filled, first=first)
 
 
 def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
