@@ -58,7 +58,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.plot_sweep, {"study": GRID}, {"ax": "None", "log": "True", "variable": "None", "x": "None"}),
     (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": "None"}),
-    (RUN.plot_spectrum, {"window": "all", "highest": 1e5}, {"window": "None", "ax": "None", "highest": "huge"}),
+    (RUN.plot_spectrum, {"window": "all", "highest": 2e4}, {"window": "None", "ax": "None", "highest": "huge"}),
     (RUN.plot_poincare, {}, {"ax": "None"}),
     *((found.plot, {}, {"ax": "None"}) for found in (dm.floquet(P), dm.steady_sliding(P))),
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),

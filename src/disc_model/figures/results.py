@@ -106,15 +106,20 @@ def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any 
 
 
 @by_itself
-def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float, ax: Any = None) -> Axes:
+def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float | None, ax: Any = None) -> Axes:
     """Draw the amplitude of a variable over the frequency."""
-    require((is_number(highest) and highest > 0, "highest", highest, "must be a number > 0, in Hz"))
+    known = highest is None or (is_number(highest) and highest > 0)
+    require((known, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, variable=variable)
     if variable not in samples:
         raise ParameterError(Fault.of(("window",), window, "must hold samples, not their ranges"))
     span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
+    half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
+    highest = min(1000.0, half) if highest is None else highest
     rule = f"must be at least the resolution of the window, {1 / span if span else 0:.3g} Hz"
+    most = f"must be at most half the rate of the window, {half:.6g} Hz"
     require((not span or highest * span >= 1, "highest", highest, rule))
+    require((not span or highest <= half * (1 + 1e-9), "highest", highest, most))  # the span is rounded
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.6)
     try:
         motion.draw_spectrum(axes, samples, variable, highest)

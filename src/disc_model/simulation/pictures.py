@@ -23,9 +23,12 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
 
-CYCLES = 4  # number of cycles of stick and slip that are shown of the end of a run
+CYCLES = (
+    4  # number of cycles of stick and slip that are shown of the end of a run, with at most four times as many gaps
+)
 BINS, RATE = 600, 4000.0
 """Bins of the envelope of a run, and its samples per second; of a short run there are more samples."""
+FOLDED = 16  # samples for a spectrum per period of the highest mode: what is beyond its eighth multiple is weak
 FINE = 4000  # samples of the last cycles
 
 
@@ -88,12 +91,19 @@ class Pictures:
         return draw("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
 
     def plot_spectrum(
-        self, window: str | None = None, *, variable: str = "w_point", highest: float = 1000.0, ax: Axes | None = None
+        self,
+        window: str | None = None,
+        *,
+        variable: str = "w_point",
+        highest: float | None = None,
+        ax: Axes | None = None,
     ) -> Axes:
-        """Draw the amplitude of a variable over the frequency, up to one in Hz.
+        """Draw the amplitude of a variable over the frequency, up to the highest in Hz, 1000 or half the window's rate.
 
-        Without a named window it is that of the last 8 s, or of the second half of a shorter run. Returns the axes.
-        Raises `ParameterError` as `plot_phase_portrait`, and if the window is too short or nothing vibrates in it.
+        Without a named window it is that of the last 8 s, or of the second half of a shorter run, with 16 samples in a
+        period of the highest mode. What vibrates faster than half a window's rate appears at wrong frequencies.
+        Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too short or nothing
+        vibrates in it.
 
         Examples
         --------
@@ -165,10 +175,13 @@ class Pictures:
     def _last_cycles(self) -> float:
         """Length of the last cycles, s: from a release of stick on."""
         result: Any = self
-        releases = result.events["time"][result.events["kind"] == "stick_to_slip"].to_numpy()
-        end = float(result.final_state.time)
-        length = end - float(releases[-1 - CYCLES]) if len(releases) > CYCLES else 0.1
-        return min(length if length < 1.0 else 0.1, self._span)
+        kinds, end = result.events["kind"], float(result.final_state.time)
+        lengths = [self._span]
+        for kind, number in ("stick_to_slip", CYCLES), ("separation", 4 * CYCLES):
+            times = result.events["time"][kinds == kind].to_numpy()
+            length = end - float(times[-1 - number]) if len(times) > number else 0.1
+            lengths.append(length if length < 1.0 else 0.1)
+        return min(lengths)
 
     def _case(self, *names: str) -> xr.DataTree:
         """The run as a tree of windows: those that were recorded, or others, for which it is simulated once more."""
@@ -178,10 +191,12 @@ class Pictures:
         end, span = float(result.final_state.time), self._span
         rate = max(RATE, BINS / span)
         late = min(8.0, span / 2)
+        omega = import_module("disc_model.disc.plate").mode_arrays(result.parameters).omega
+        highest = float(omega.max(initial=0.0)) / math.tau
         windows = {
             "run": Window(start=end - span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))),
             "end": Window(start=end - self._last_cycles, rate=FINE / self._last_cycles),
-            "late": Window(start=end - late, rate=RATE),
+            "late": Window(start=end - late, rate=max(RATE, FOLDED * highest)),
             "poincare": Poincare(start=end - span),
         }
         how: dict[str, Any] = {"tol": result.tol, "ramps": result.ramps, "initial_state": result.initial_state}
