@@ -9,6 +9,7 @@ import functools
 import hashlib
 import pickle
 import sys
+import threading
 import uuid
 import warnings
 import zlib
@@ -56,6 +57,7 @@ def hash_of(*of: object) -> str:
 
 COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 WAITING = "waiting for another process that compiles the same kernel"
+LOADING = 3.0  # s, more than it takes to load a kernel, which keeps its lock as well
 
 
 class _Lines(event.Listener):
@@ -114,8 +116,12 @@ def lock(name: str) -> Iterator[None]:
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
-                LINES.say(WAITING)
-                fcntl.flock(file, fcntl.LOCK_EX)
+                told = threading.Timer(LOADING, LINES.say, (WAITING,))
+                told.start()
+                try:
+                    fcntl.flock(file, fcntl.LOCK_EX)
+                finally:
+                    told.cancel()
                 stored_helpers.cache_clear()  # the other process has stored its helpers
         yield
 
