@@ -84,7 +84,7 @@ def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
 
 def page_of(shown: list[tuple[str, str]]) -> str:
     """The page: small pictures with their titles, each a link to the picture itself."""
-    lines = ["# Gallery", "", "From `make reproduce`, `make bench` and `make survival`. Click one to enlarge.", ""]
+    lines = ["# Gallery", "", "From `make reproduce`, `make bench` and `make survival`.", ""]
     cells = [f"[![{Path(name).stem}](gallery/{name})](gallery/{name})<br>{title}" for name, title in shown]
     cells += [""] * (-len(shown) % COLUMNS)
     rows = ["| " + " | ".join(cells[i : i + COLUMNS]) + " |" for i in range(0, len(cells), COLUMNS)]

@@ -233,6 +233,7 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
             raise ParameterError(Fault.of(("y",), y, f"must be one of {', '.join(labels)}"))
         name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
     draw_branch(axes, x, values, stable, BLACK, np.inf)
+    axes.plot(x, values, ".", color=BLACK, markersize=3)  # what lies between is not computed
     if y == "growth_rate" and len(branch.parameters) == 1:
         general.scale_rates(axes)
     for width, text in ((2.0, "stable"), (0.7, "unstable")):
@@ -376,7 +377,8 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over two.
 
     A second dimension of words, such as the direction of a sweep, gives a line for each. What starts come to is drawn
-    as bars of their shares, at each energy or along a parameter.
+    as bars of their shares, at each energy or along a parameter. A hatched cell is "unresolved": its value is right,
+    but all neighbours differ from it by a tenth of the scale or more, so that the grid misses what lies between.
 
     Parameters
     ----------
