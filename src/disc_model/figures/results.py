@@ -283,12 +283,12 @@ def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:
 
 @by_itself
 def plot_critical(critical: Critical, ax: Any = None) -> Axes:
-    """Draw the growth rate of the cycle over the parameter, over the shaded intervals without a stable motion."""
+    """Draw the growth rate of the cycle over the parameter; shaded: the motion near the start is unstable."""
     [axes] = axes_for(ax, 1.3 * COLUMN, 2.8)
     label, factor = drawing.axis_of(critical.name)
     x, ends = critical.values * factor, critical.unstable * factor
     for i, (low, high) in enumerate(ends):
-        text: dict[str, Any] = {"label": "no stable motion"} if i == 0 else {}
+        text: dict[str, Any] = {"label": "unstable near the static start"} if i == 0 else {}
         axes.axvspan(low, high, facecolor=SEPARATED, alpha=0.3, linewidth=0.8, edgecolor=SEPARATED, zorder=0, **text)
     axes.plot(x, critical.growth_rate, ".-", color=BLACK, markersize=3, linewidth=0.7, label="cycles computed")
     general.scale_rates(axes)

@@ -301,9 +301,9 @@ class Critical(Summarised):
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value without a stable motion; nan if there is none within the bounds
+    value : the least value at which the motion near the static start is unstable; nan if none is within the bounds
     crossings : shape (n,), all values at which stability changes, ascending
-    unstable_above : bool, (n,), whether there is no stable motion just above each
+    unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
     resolution : a tongue of instability narrower than this may have been stepped over
     """
@@ -325,7 +325,7 @@ class Critical(Summarised):
 
     @property
     def unstable(self) -> Array:
-        """The intervals without a stable motion: shape (n_intervals, 2)."""
+        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may be stable there."""
         ends = [*self.crossings, self.values[-1]]
         begins = [self.values[0], *self.crossings]
         grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
@@ -336,12 +336,12 @@ class Critical(Summarised):
         values = self.parameters.replace(**{self.name: self.value if self.value > 0 else self.values[0]}).stated
         yield "case", values_text({name: value for name, value in values.items() if name != self.name})
         yield "parameter", f"{self.name}, {self.values[0]:g} to {self.values[-1]:g}"
-        yield "no stable motion", ", ".join(f"{low:.6g} to {high:.6g}" for low, high in self.unstable) or "nowhere"
+        yield "unstable", ", ".join(f"{low:.6g} to {high:.6g}" for low, high in self.unstable) or "nowhere"
         yield "tongues seen down to", f"{self.resolution:.2g}"
         yield "cycles computed", len(self.values)
 
     def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the growth rate of the cycle (1/s) over the parameter, with the intervals without a stable motion.
+        """Draw the growth rate of the cycle (1/s) over the parameter, with the intervals in which it is unstable.
 
         Returns the axes; raises `ParameterError` if `ax` is no axes.
 
