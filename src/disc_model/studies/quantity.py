@@ -88,7 +88,7 @@ class Range(Ruled):
 
     @property
     def _steps(self) -> float:
-        return (self.stop - self.start) / self.step if self.step else float((self.count or 2) - 1)
+        return (self.stop - self.start) / self.step if self.step else (self.count or 2) - 1
 
     @property
     def intervals(self) -> int:
