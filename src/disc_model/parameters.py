@@ -586,6 +586,11 @@ class Parameters(Checked):
         return canonical_json(self.canonical)
 
     @property
+    def json_in_words(self) -> str:
+        """The same in the words of the field, as files have it."""
+        return canonical_json(in_words(self.canonical))
+
+    @property
     def key(self) -> str:
         """Stable content hash: the first 12 hexadecimal digits of the sha256 of `canonical_json`."""
         return content_key(self.canonical_json)

@@ -30,8 +30,7 @@ from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
-from disc_model.parameters import RESIDUAL, SURFACE, Parameters, in_words
-from disc_model.units import canonical_json
+from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
 
@@ -76,7 +75,7 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
     for name, value in (p.model_dump() | numbers).items():
         stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
         data[name] = ((), stored, attributes(name))
-    attrs = {"Conventions": CONVENTIONS, "parameters": canonical_json(in_words(p.canonical)), "parameters_key": p.key}
+    attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
 
 

@@ -231,8 +231,8 @@ class LateRange(Plot):
     def faults(self, values: Values) -> Iterator[Fault]:
         """Faults as of any figure, and values that there are not."""
         yield from super().faults(values)
-        named = [("names", self.by, self.names)]
-        for key, dim, words in (*named, *(("not_valid", *item) for part in self.not_valid for item in part.items())):
+        chosen = [("not_valid", *item) for part in self.not_valid for item in part.items()]
+        for key, dim, words in (("names", self.by, self.names), *chosen):
             known = [value for value, *_ in values.get(dim, ())]
             for word in words:
                 if dim not in self.dims or (known and word not in known):

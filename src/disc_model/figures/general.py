@@ -340,18 +340,20 @@ class CurvePlot(General):
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw a line, or one for each value of a second dimension."""
         study = drawing.picked(study, self.at)
-        each = drawing.slices(self.named(study), self.by) if self.panels == "each" else []
-        chosen = [study.sel({self.by: [*values]}) for values in self.panels if not each]
-        parts = [part for _, part in each] or [self.named(part) for part in chosen or [study]]
+        if self.panels == "each":
+            parts = drawing.slices(self.named(study), self.by)
+        else:
+            chosen = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
+            parts = [("", self.named(part)) for part in chosen]
         figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
-        for ax, part in zip(axes, parts, strict=True):
+        for ax, (_, part) in zip(axes, parts, strict=True):
             draw_lines(ax, part, self.variable, self.x, self.log)
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)
             if axes[0].get_yscale() == "linear":  # longer labels that come with the layout would not find room
                 axes[0].locator_params(axis="y", steps=[1, 2, 5, 10])
-        drawing.letters(axes, [fill(name, 26) for name, _ in each], pad=20 if each else None)
+        drawing.letters(axes, [fill(name, 26) for name, _ in parts], pad=20 if self.panels == "each" else None)
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
             if labels and not name_ends(ax):

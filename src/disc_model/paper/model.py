@@ -170,7 +170,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     case, paper = cases[name], paper_cases()[name]
     if case.status not in ("ok", "stopped"):
         raise Missing(f"{case.status} (case {name})")
-    p, expected = case.parameters, _parameters(name, case.parameters.normalization)
+    p, expected = case.parameters, parameters_of(name, case.parameters.normalization)
     if p != expected:
         differ = [key for key in Parameters.model_fields if getattr(p, key) != getattr(expected, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
@@ -184,7 +184,7 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
 
 
 @cache
-def _parameters(name: str, normalization: str) -> Parameters:
+def parameters_of(name: str, normalization: str) -> Parameters:
     """Those of a case of the paper, with the study's normalisation."""
     return Parameters(**paper_cases()[name]["parameters"], normalization=normalization)
 

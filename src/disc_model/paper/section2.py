@@ -12,7 +12,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 from disc_model.paper.measures import CaseView, extent, or_none, pairs, separates_within, width_ratio
-from disc_model.paper.model import FALSE, PART, TRUE, Answer, _parameters, graded
+from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
@@ -59,7 +59,7 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     kinds = {
         figure: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for figure, point in points.items()
     }
-    quiet = {x: _parameters(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
+    quiet = {x: parameters_of(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
     kept = [x for x, p in quiet.items() if not separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
     return Answer(

@@ -175,10 +175,9 @@ def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Ans
     """Whether the range of the contact force is small and that of a point fixed on the disc is constant and small."""
     early, late = case.early, case.late
     before, after, under = (each.width for each in (case.range_of("w_point", 1, 21), case.disc, case.late_range("u")))
-    holds = not case.separates and max(early.width, late.width) < share * case["N"]
-    holds = (
-        holds and late.width <= early.width + newtons and abs(after - before) <= within * before and under < case["h"]
-    )
+    force = max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons
+    disc = abs(after - before) <= within * before and under < case["h"]
+    holds = not case.separates and force and disc
     widths = 1e3 * before, 1e3 * after, 1e3 * under
     return Answer(PART if holds and after >= case["h"] else holds, fate=case.fate, ranges=(early, late), widths=widths)
 

@@ -162,7 +162,7 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
     begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
     disc = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
     slider = [[case.signal(name, start, start + length, "psi").filled for name, start in begins] for case in pair]
-    clear, alike = ([each[-1] < share * each[0] for each in one] for one in (disc, slider))
+    clear, alike = ([each[-1] < share * each[0] for each in filled] for filled in (disc, slider))
     verdict = PART if clear[0] and clear == alike else FALSE
     return Answer(verdict, place=pair[0].place, length=length, disc=disc, slider=slider)
 

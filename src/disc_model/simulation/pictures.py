@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
 
-CYCLES = (
-    4  # number of cycles of stick and slip that are shown of the end of a run, with at most four times as many gaps
-)
+CYCLES = 4  # of stick and slip that are shown of the end of a run, with at most four times as many separations
 BINS, RATE = 600, 4000.0
 """Bins of the envelope of a run, and its samples per second; of a short run there are more samples."""
 FOLDED = 16  # samples for a spectrum per period of the highest mode: what is beyond its eighth multiple is weak

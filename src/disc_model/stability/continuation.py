@@ -467,51 +467,59 @@ def continue_cycle(
     point = starting_point(problem, cycle)
     tangent = problem.tangents(point)[0]
     tangent *= 1.0 if tangent[-1] >= 0 else -1.0
-    low, high = (bound / problem.scales[0] for bound in span)
+    follow = partial(_one_way, problem, point, span, steps)
+    if direction:
+        points, folds, ended = follow(direction * tangent)
+    else:
+        (down, below, first), (up, above, last) = follow(-tangent), follow(tangent)
+        points, folds, ended = down[::-1] + up[1:], below[::-1] + above, first if first == last else f"{first}; {last}"
+    return branch_of(problem, points, np.array(folds).reshape(-1, 1), ended)
+
+
+def _one_way(
+    problem: CycleProblem, point: CyclePoint, span: tuple[float, float], steps: StepControl, tangent: Array
+) -> tuple[list[CyclePoint], list[float], str]:
+    """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
+    (name,), scale = problem.names, problem.scales[0]
+    low, high = (bound / scale for bound in span)
     left = f"{name} has left {span[0]:g} .. {span[1]:g}"
-    points, folds, reasons = [point], list[float](), list[str]()
-    for way in (-1, 1) if direction == 0 else (direction,):
-        turned: list[float] = []
+    folds: list[float] = []
 
-        def ends(places: list[Place], new: Place, ds: float, turned: list[float] = turned) -> str:
-            before = places[-1]
-            if new.tangent[-1] * before.tangent[-1] < 0:
-                try:
-                    fold = _locate_fold(problem, before.point, new.point, before.tangent)
-                except CorrectorFailed as lost:
-                    where = before.point.z[-1] * problem.scales[0]
-                    raise CorrectorFailed(f"{UNLOCATED} near {name}={where:.6g}: {lost}") from None
-                if not (steps.beyond or low <= fold <= high):
-                    return left
-                turned.append(fold * problem.scales[0])
-            return "" if low <= new.point.z[-1] <= high else left
+    def ends(places: list[Place], new: Place, ds: float) -> str:
+        before = places[-1]
+        if new.tangent[-1] * before.tangent[-1] < 0:
+            try:
+                fold = _locate_fold(problem, before.point, new.point, before.tangent)
+            except CorrectorFailed as lost:
+                raise CorrectorFailed(f"{UNLOCATED} near {name}={before.point.z[-1] * scale:.6g}: {lost}") from None
+            if not (steps.beyond or low <= fold <= high):
+                return left
+            folds.append(fold * scale)
+        return "" if low <= new.point.z[-1] <= high else left
 
-        places, ended = continue_curve(Place(point, way * tangent), partial(_next, problem), steps, ends)
-        found = [place.point for place in places]
-        if ended == left and not steps.beyond:
-            inside = low <= found[-1].z[-1] <= high  # after a fold beyond the bound
-            along = places[-2].tangent if inside else found[-1].z - found[-2].z
-            found = found[:-1] + _at_bound(problem, found[-2], along, high if along[-1] > 0 else low)
-        if isinstance(ended, Reordered):
-            duration = 2 * found[-1].flight.period  # an event may be missing at the end of a period
-            ends_of = ((problem.case(z), problem.state(z)) for z in (found[-1].z, ended.z))
-            motions = (simulate(case, duration, tol=tol, initial_state=state) for case, state in ends_of)
-            ended = f"{ended}; {changed_event(*motions)}"
-        reasons.append(str(ended))
-        points, folds = (points + found[1:], folds + turned) if way > 0 else (found[::-1], turned[::-1])
-    if direction < 0:
-        points, folds = points[::-1], folds[::-1]
-    return branch_of(problem, points, np.array(folds).reshape(-1, 1), "; ".join(dict.fromkeys(reasons)))
+    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
+    points = [place.point for place in places]
+    if ended == left and not steps.beyond:
+        inside = low <= points[-1].z[-1] <= high  # after a fold beyond the bound
+        along = places[-2].tangent if inside else points[-1].z - points[-2].z
+        points = points[:-1] + _at_bound(problem, points[-2], along, high if along[-1] > 0 else low)
+    if isinstance(ended, Reordered):
+        duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
+        ends_of = ((problem.case(z), problem.state(z)) for z in (points[-1].z, ended.z))
+        motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends_of)
+        ended = f"{ended}; {changed_event(*motions)}"
+    return points, folds, str(ended)
 
 
 def _at_bound(problem: CycleProblem, last: CyclePoint, along: Array, bound: float) -> list[CyclePoint]:
     """The cycle at a bound in a direction from the last one; none if that is there already, or if none is found."""
+    if last.z[-1] == bound:
+        return []
     guess = last.z + (bound - last.z[-1]) / along[-1] * along
     try:
-        found = problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound]))
+        return [problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound]))]
     except CorrectorFailed:
         return []
-    return [found] if last.z[-1] != bound else []
 
 
 def changed_event(cycle: Result, other: Result) -> str:

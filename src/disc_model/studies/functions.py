@@ -21,7 +21,7 @@ from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.display import computed
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
-from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case, in_words
+from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.simulation.result import Result
@@ -50,9 +50,7 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
-    dataset = xr.Dataset(
-        columns, coordinates, {"parameters": canonical_json(in_words(case.canonical)), "message": message}
-    ).isel({POINT: 0})
+    dataset = xr.Dataset(columns, coordinates, {"parameters": case.json_in_words, "message": message}).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
         words = flag_names(dataset[flag])
         dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
@@ -325,7 +323,7 @@ def sweep(
     }
     variables, fixed = _stacked(rows, sizes)
     base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
-    attrs = {"function": title, "parameters": canonical_json(in_words(case.canonical)), "base": base}
+    attrs = {"function": title, "parameters": case.json_in_words, "base": base}
     return xr.Dataset(variables, fixed | coordinates, attrs)
 
 
