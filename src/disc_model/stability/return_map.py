@@ -50,10 +50,11 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter on a stiff system.
-    That function takes the time unit for one radian of the fastest oscillation. Strong dampers, a light slider on
-    springs and a fast drive are faster still, and do not show in the steps of a steady motion."""
+    That function takes the time unit for one radian of the fastest oscillation. Strong dampers, springs that act
+    together and a fast drive make faster ones, which do not show in the steps of a steady motion."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
-    stiffness = max(model.unit**-2, max(model.k, model.k_p) / model.m)
+    contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
+    stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
     rate = fastest * model.unit
     # all published cases are below 1.25, where steps are not shortened
@@ -66,8 +67,8 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
         raise ParameterError(Fault(("parameter",), as_text(name), "must be a parameter that the case has"))
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
-    scalars, *modal = np.split(change, columns.N_SCALARS + np.cumsum([0, width, width, n0]))
-    stiffness, damping, stiffness0, damping0 = modal
+    ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
+    scalars, stiffness, damping, stiffness0, damping0 = np.split(change, ends)
     if name == "N":
         # u_0 is proportional to N
         scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
@@ -84,8 +85,7 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
             damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
-        compliance_kept = 0.0 if residual else model.compliance
-        scalars[columns.LOAD] = model.k * (model.u_0 + model.N * compliance_kept) / p.E
+        scalars[columns.LOAD] = model.k * (model.u_0 + (0.0 if residual else model.N * model.compliance)) / p.E
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
