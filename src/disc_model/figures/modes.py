@@ -198,7 +198,7 @@ class RootLocus(Plot):
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw points for each mode, with a ring and its name where it begins."""
+        """Draw points for each mode, with a ring where it begins, and its name on the side from which it leads away."""
         from cmcrameri import cm
 
         study = study.squeeze()
@@ -210,10 +210,11 @@ class RootLocus(Plot):
             points = ax.scatter(rate, frequency, c=along, cmap=cm.batlow, vmin=along[0], vmax=along[-1], s=5, zorder=2)
         first = study.isel(value=0)
         ax.plot(first["mode_growth_rate"], first["frequency"], "o", color=BLACK, markersize=4, markerfacecolor="white")
-        apart = 0.03 * float(study["frequency"].max())
-        for part, name in named_modes(first["diameters"].values, first["frequency"].values, apart):
-            ring = float(first["mode_growth_rate"][part].mean()), float(first["frequency"][part].max())
-            drawing.say(ax, name, ring, (0, 3), fontsize=7, path_effects=drawing.halo(), zorder=3)
+        rates, heights = first["mode_growth_rate"].values, first["frequency"].values
+        ahead = study["mode_growth_rate"].isel(value=1).values - rates
+        for part, name in named_modes(first["diameters"].values, heights, 0.01 * float(study["frequency"].max())):
+            side, ring = (-1, rates[part].min()) if ahead[part].mean() > 0 else (1, rates[part].max())
+            drawing.say(ax, name, (ring, heights[part].mean()), (4 * side, 0), fontsize=7, path_effects=drawing.halo())
         ax.axvline(0, color=BLACK, linewidth=0.6)
         ax.margins(x=0.02)
         ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")
