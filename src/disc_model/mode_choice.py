@@ -49,7 +49,7 @@ class ModeChoice(Summarised):
     parameters : the case with the chosen n_diameters and n_circles, or with the first modes of its table
     quantity : the quantity by which the modes were chosen
     tolerance, error : requested and reached, relative; of the coupled frequencies in the band, or of the quantity
-    modes : number of real modes
+    modes : number of real-valued modes; a pair, cosine and sine, counts as two
     rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
     values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
     """
@@ -212,7 +212,7 @@ HORIZON = 600.0  # s, simulated at most until the first separation
 def choose_modes(
     case: Parameters | Mapping[str, Any], tolerance: float | None = None, *, quantity: str = FREQUENCIES
 ) -> ModeChoice:
-    """Find the fewest real modes with which a quantity's error is within ``tolerance``.
+    """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
 
     Parameters
     ----------

@@ -113,7 +113,7 @@ def simulate(  # noqa: PLR0913
     ramps: Ramp | tuple[Ramp, ...] = (),
     execution: Execution = _PLAIN,
 ) -> Result:
-    """Simulate from the static equilibrium (or ``initial_state``) to the time ``t_end``, or for a ``duration``.
+    """Simulate from the static start (or ``initial_state``) to the time ``t_end``, or for a ``duration``.
 
     Parameters
     ----------

@@ -136,7 +136,7 @@ def _rounding(eigenvalues: ComplexArray) -> float:
 
 
 def steady_sliding(p: Parameters) -> SteadySliding:
-    """Find the equilibrium f = Omega and its eigenvalues.
+    """Find steady sliding, the equilibrium f = Omega, and its eigenvalues.
 
     Parameters
     ----------

@@ -121,7 +121,7 @@ def critical_speed(
     early_end: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """The lowest speed of a scan at which contact is lost within a horizon, and all where separation begins or ends.
+    """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or ends.
 
     Separation in a range of speeds narrower than `step` can be overlooked.
 
