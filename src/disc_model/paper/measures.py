@@ -114,7 +114,7 @@ class CaseView:
     @property
     def fate(self) -> str:
         """The same, and how disturbances of its cycle grow, as a sentence."""
-        growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near the static start")
+        growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near static equilibrium")
         return f"At {self.place}, {self.contact}, and growth is {growth}."
 
     @property
@@ -123,8 +123,8 @@ class CaseView:
         times, motion = self.intervals(), self.late_motion()
         if not motion.period:
             return (
-                f"{motion}: there are {1 / times.mean():.1f} releases per second, their intervals have no period of "
-                f"up to {motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f} (1 is chaos)"
+                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them have no "
+                f"period of up to {motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f}"
             )
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
@@ -352,7 +352,7 @@ def classify_intervals(intervals: tuple[float, ...]) -> Motion:
 
 
 class Falls(NamedTuple):
-    """Whether lowest speeds fall and rise with the preload; whether they fall again after that; how, in words."""
+    """Whether lowest speeds fall and rise with the preload; whether they fall again after that; how, in sentences."""
 
     falls: bool
     again: bool
@@ -366,20 +366,21 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     known = np.where(np.isnan(speeds), infinite, speeds)
     dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
     if not dips.size:
-        return Falls(False, False, f"is {listed(or_none(speed, '.1f') for speed in speeds)} rad/s")
+        return Falls(False, False, f"The lowest speeds in turn are {listed(or_none(x, '.1f') for x in speeds)} rad/s.")
     first = min(dips)
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    above = f"is absent or lies above {study['scan_Omega'].values[-1]:g} rad/s up to "
-    begin = f"{above}{never[-1]:g} N; then it " if never.size else ""
+    none = f"At {listed(never, 'g')} N no speed up to {study['scan_Omega'].values[-1]:g} rad/s brings separation. "
+    begin = f"{none}As the preload rises further" if never.size else "As the preload rises"
     parts = [
         f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
         parts += [f"is {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"]
-    return Falls(True, bool(later), f"{begin}{', '.join(parts[:-1])}, and {parts[-1]}")
+    lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
+    return Falls(True, bool(later), f"{begin}, {lowest}.")
 
 
 def width_ratio(case: CaseView, bonded: CaseView) -> float:

@@ -123,11 +123,10 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     motions = [case.late_motion() for case in shown]
     if any(motion.kind is Outcome.UNDECIDED for motion in motions):
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    near = [f"{measures.repeats(case.late_motion(), 'release')} at {case.place}" for case in stiffer]
+    near = [(case.place, measures.repeats(case.late_motion(), "release")) for case in stiffer]
     slips = [case for case in begun if case.stick <= 1e-3]
     separating = [measures.classify_intervals(tuple(case.intervals("separation"))) for case in slips]
-    repeated = [measures.repeats(motion, "separation") for motion in separating]
-    other = [f"{words} at {case.place}" for words, case in zip(repeated, slips, strict=True)]
+    other = [(case.place, measures.repeats(each, "separation")) for case, each in zip(slips, separating, strict=True)]
     verdict = graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions)
     return Answer(verdict, rows=[(case.place, case.motion) for case in shown], near=near, other=other)
 
@@ -139,7 +138,7 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     first, others = both[: int(shown)], both[int(shown) :]
     rows = [
         f"At {case.place} the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
-        f"without; the ratio is {part:.2f}."
+        f"without it; the ratio is {part:.2f}."
         for (case, bonded), part in first
     ]
     over = measures.extent(1 / part for part in parts)
@@ -148,7 +147,7 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
         " ".join(rows),
         f"In the other pairs the ratio is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
         * bool(others),
-        f"In these pairs, ignoring separation overestimates the range by factors of {over:.1f}.",
+        f"The range without separation is {over:.1f} times the range with separation in these {len(parts)} pairs.",
     )
 
 
@@ -163,7 +162,7 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
     steady = of_windows(pairs(cases)[0][1], "field")
     less = min(withheld) >= share
-    return Answer(less, less=less, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
+    return Answer(less, withheld=withheld, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
 
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
@@ -207,7 +206,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     falls, last = all(each.falls for each in lowest), lowest[-1]
     return Answer(
         PART if falls and last.again else falls,
-        f"With rising preload, the lowest speed with separation within {float(study['horizon'][-1]):g} s {last.words}.",
+        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s. {last.words}",
     )
 
 

@@ -12,7 +12,7 @@ from disc_model.analysis.classify import SAME, distinct_points, irregularity, se
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, listed, mm, published, rate_text
+from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, mm, published, rate_text
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import moving_load
 from disc_model.paper.section41 import upward
@@ -174,8 +174,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     return Answer(
         PART if holds and cause else holds,
         f"{case.fate} Between 1 and 21 s, the range of the contact force is {case.early.width:.1f} N. The second half "
-        f"of the run is cut into stretches of 20 s. The median of the ranges in them is {before:.1f} N in the third "
-        f"quarter of the run and {last:.1f} N in the last; the largest of these ranges is {max(widths):.0f} N.",
+        f"of the run is cut into stretches of 20 s. The median of the ranges in these stretches is {before:.1f} N in "
+        f"the third quarter of the run and {last:.1f} N in the last quarter; the largest range is {max(widths):.0f} N.",
     )
 
 
@@ -307,10 +307,10 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
         bool(newly.size) and not (never > newly[-1]).any(),
         stated=facts(study),
         loads=measures.extent(loads),
-        newly=listed(newly, ".0f", "no preload:"),
+        newly=[*newly],
         c_p=c_p,
         most=damping[-1],
-        never=listed(never[never > 300], ".0f"),
+        never=[*never[never > 300]],
     )
 
 
@@ -337,8 +337,8 @@ def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
     """The same in words."""
     _, symbol, values = STIFFENED[name]
     rows = [
-        f"At {measures.place(p.N, speed)}, {name} ({symbol}) and growth (1/s) are as follows: "
-        f"{'; '.join(f'{x}, {rate_text(rate)}' for x, rate in zip(values, rates, strict=True))}."
+        f"At {measures.place(p.N, speed)}, growth (1/s) at each {name} ({symbol}) is as follows: "
+        f"{'; '.join(f'{rate_text(rate)} at {x}' for x, rate in zip(values, rates, strict=True))}."
         for speed, rates in stiffened(p, name, *speeds).items()
     ]
     return " ".join(rows)

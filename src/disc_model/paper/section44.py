@@ -11,7 +11,7 @@ from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, CaseView, facts, listed, pairs, published, sliding_growth
+from disc_model.paper.measures import HIGH, LOW, CaseView, facts, pairs, published, sliding_growth
 from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.paper.section2 import BASE, attached_frequencies
@@ -30,7 +30,7 @@ def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answe
         off <= within,
         f"{case.contact.capitalize()}, where the paper has {printed:g} s. "
         + f"The difference is {off:.2f} s or {100 * off / printed:.2f} %. " * case.separates
-        + f"The case has {case.place}.",
+        + f"The time is that of the run at {case.place}.",
     )
 
 
@@ -93,8 +93,8 @@ def follow(*cases: CaseView, within: float) -> Answer:
     combined = [each <= within for each in off]
     return Answer(
         max(drives) <= 4 and not any(combined),
-        combined=sum(combined),
-        size=len(combined),
+        combined=combined,
+        within=within,
         off=max(off),
         away=max(away),
         rows=rows,
@@ -171,7 +171,7 @@ def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
     return Answer(
         case.late_motion().period > 0,
         f"At {case.place}, from {case.kept_span():g} s, the motion is {case.motion}.",
-        f"Without separation the motion is {bonded.motion}." if bonded.late_motion().period else "",
+        f"In the run without separation the motion is {bonded.motion}." if bonded.late_motion().period else "",
     )
 
 
@@ -265,7 +265,7 @@ def not_monotonous(*evidence: Any) -> Answer:
         fates=[case.fate for case in cases],
         Omega=facts(study)["Omega"],
         most=damping[-1],
-        newly=listed(loads[newly], ".0f"),
+        newly=[*loads[newly]],
         counts=(lowered.sum(), growing.sum()),
         stiffened=stiffened_text(p, "k_p", 50),
     )
@@ -283,7 +283,7 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
         bool(large.size),
         Omega=facts(study)["Omega"],
         most=damping[-1],
-        large=listed(large, ".0f", "no"),
+        large=[*large],
         both=both.sum(),
         lower=lower,
     )
@@ -307,7 +307,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     return Answer(
         bool(quiet.size) and bool(some.any()) and not softer.size,
         stated=facts(study),
-        quiet=listed(quiet, ".4g", "no"),
+        quiet=[*quiet],
         softer=[*softer],
         slow=slow if at_slow.size and not at_slow.any() else "",
         base=BASE.E,

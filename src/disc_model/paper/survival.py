@@ -149,7 +149,7 @@ def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
     _require_ok(study, "survival_speed")
     found = measures.lowest_speeds(study, depth)
     few = np.isfinite(study["critical_speed"].values).sum() < 3
-    return Answer(NOT_COMPUTED if few else PART if found.again else found.falls, f"The lowest speed {found.words}.")
+    return Answer(NOT_COMPUTED if few else PART if found.again else found.falls, found.words)
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
