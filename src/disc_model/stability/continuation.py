@@ -234,7 +234,7 @@ class Branch(Summarised):
         spans = zip(self.parameters, self.values.min(axis=0), self.values.max(axis=0), strict=True)
         spanned = ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in spans)
         folds = counted(len(self.folds), "fold")
-        return f"Branch({len(self)} cycles, {spanned}, {folds}: {self.ended})"
+        return f"Branch({len(self)} cycles, {spanned}, {folds}; ended: {self.ended})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         for name, values in zip(self.parameters, self.values.T, strict=True):
@@ -449,7 +449,7 @@ def continue_cycle(
     >>> import disc_model as dm
     >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
     >>> branch
-    Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold: Omega has left 14.8 .. 15.2)
+    Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold; ended: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
         (is_interval(span := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
