@@ -296,9 +296,9 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
 
 
 def first_settled(points: Array, start: int = 0) -> int:
-    """Index from which all points lie on the set on which a motion that has settled ends: the later half of its points.
+    """Index from which all points lie on the set of a settled motion, which the later half of its points stands for.
 
-    A point lies on it if it is as near to one of them as they are to each other at most, or within `SAME`.
+    A point lies on the set if its distance from that half is at most `SAME`, or the largest between neighbours there.
 
     Parameters
     ----------
@@ -349,9 +349,9 @@ class Settling(NamedTuple):
 
     Attributes
     ----------
-    answer : `SETTLED` if the record excludes rates above `SLOWEST`, `CHANGING` if it shows one
+    answer : `SETTLED` if the record excludes rates above `SLOWEST`, `CHANGING` if it shows such a rate
     rate : 1/s, rate of change relative to the motion's width; or growth rate of disturbances of a cycle
-    least : 1/s, least rate that the record is able to show; infinite if it is too short, 0 with multipliers
+    least : 1/s, least rate that the record is able to show; infinite if the record is too short, 0 with multipliers
     since : s, time from which the motion has settled
     """
 
@@ -366,7 +366,7 @@ class Settling(NamedTuple):
 
 
 def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still: float = STILL) -> Settling:
-    """Decide by the drift of mean, spread and number of samples among windows, over all of a record or its later part.
+    """Decide by drift of mean, spread and number of samples whether a motion has settled in a record or its later part.
 
     Parameters
     ----------

@@ -148,7 +148,7 @@ def load(path: str | Path) -> xr.DataTree:
     ParameterError
         If the name is not allowed for a file.
     disc_model.data.dataset.UnreadableFile
-        If the file is damaged, or not one of netCDF.
+        If the file is damaged, or is no netCDF file.
     disc_model.data.dataset.MissingFile
         If there is no such file.
 
@@ -275,7 +275,7 @@ class MissingFile(DiscModelError, FileNotFoundError):
 
 
 class UnreadableFile(DiscModelError):
-    """A file that is damaged, or none that `save` has written."""
+    """A file that is damaged, or that `save` has not written."""
 
 
 def regular_file(path: str | Path) -> Path:

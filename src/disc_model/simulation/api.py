@@ -64,7 +64,7 @@ _STATUS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Execution:
-    """How a run is carried out. Nothing of it changes the motion, except that a run ends early after `max_steps`.
+    """How a run is carried out. No setting changes the motion, but a run ends early after `max_steps`.
 
     Attributes
     ----------
@@ -122,8 +122,8 @@ def simulate(  # noqa: PLR0913
     duration : s, from the initial state's time, instead of t_end
     windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
     events : whether to keep the table of events (events are always counted)
-    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md). A value above
-        1.25e-7 (2e-6 on a compliant contact) is computed as that, and recorded as that in the result
+    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/accuracy.md). Instead of
+        a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the result
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time

@@ -340,7 +340,7 @@ def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     """Steady sliding and its modes along cases that differ in numbers.
 
     Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that appear later have the
-    next ones. Between two cases as many are computed as it takes to tell which mode is which.
+    next ones. Further cases between two are computed until it is clear which mode is which.
     """
     followed: list[FollowedModes] = []
     shapes: list[ComplexArray] = []  # the last one of each number
