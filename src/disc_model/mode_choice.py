@@ -235,8 +235,7 @@ def choose_modes(
     ParameterError
         If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
     DiscModelError
-        If no model meets the tolerance, or no model agrees with two larger ones, or the quantity does not exist. A
-        growth rate needs a cycle, and a first separation a motion that separates.
+        If no model meets the tolerance or agrees with two larger ones, or there is no cycle or separation to choose by.
 
     Examples
     --------
