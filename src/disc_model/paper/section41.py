@@ -161,8 +161,7 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
         rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
     steady = of_windows(pairs(cases)[0][1], "field")
-    less = min(withheld) >= share
-    return Answer(less, withheld=withheld, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
+    return Answer(min(withheld) >= share, withheld=withheld, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
 
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
