@@ -321,9 +321,9 @@ class Sources:
         """Numbers that were found for a model."""
         return _numbers(self._found(conclusion, model))
 
-    def _found(self, conclusion: str, model: str) -> str:
+    def _found(self, conclusion: str, model: str, column: str = "here") -> str:
         table = _table(self.results / "paper" / "survival.csv").set_index(["id", "model"])
-        return str(table["here"][conclusion, model])
+        return str(table[column][conclusion, model])
 
     def all_survival(self, conclusion: str, i: int) -> list[float]:
         """The i-th number that was found for each model."""
@@ -338,11 +338,12 @@ class Sources:
         table = _table(self.results / "paper" / "survival.csv")
         return int(((table["id"] == conclusion) & (table["verdict"] == verdict)).sum())
 
-    def ranges(self, model: str) -> np.ndarray:
-        """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2)."""
-        return np.array(
-            re.findall(r"([\d.]+) against ([\d.]+) mm", self._found("Smaller vibration", model)), dtype=float
-        )
+    def ranges(self, model: str, paradox: bool = True) -> np.ndarray:
+        """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2); with or
+        without cases in which bilateral contact ends in Painlevé's paradox."""
+        found, notes = (self._found("Smaller vibration", model, column) for column in ("here", "notes"))
+        rows = re.findall(r"([\d.]+) against ([\d.]+) mm at (\d+ N, [\d.]+ rad/s)", found)
+        return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
 
     def energy(self) -> np.ndarray:
         """Evidence on energy by case, mJ per cycle in columns 2 to 5: supplied with separation, without it, taken by
@@ -350,8 +351,8 @@ class Sources:
         return np.reshape(self.evidence("F10e")[:18], (3, 6))
 
     def ratios(self) -> np.ndarray:
-        """How many times smaller they are with separation, under all models."""
-        ranges = np.concatenate([self.ranges(model) for model in MODELS])
+        """How many times smaller they are with separation, under all models, where bilateral contact goes on."""
+        ranges = np.concatenate([self.ranges(model, paradox=False) for model in MODELS])
         return ranges[:, 1] / ranges[:, 0]
 
     def line(self, page: str, heading: str, start: str) -> list[float]:
