@@ -141,7 +141,7 @@ def dashpot(p):
     found = {f"{Omega:g} rad/s, 1/s": (growth(Omega, 0.0), own(Omega, 0.0)) for Omega in (900.0, 915.0, 1000.0)}
     exact = brentq(lambda x: growth(x, 0.2), 1.1 * omega / l, 9 * omega / l, xtol=1e-11)
     limit = brentq(lambda x: own(x, 0.2), 0.99 * exact, 1.01 * exact, xtol=1e-11)
-    return found | {"critical speed, rad/s": (exact, limit)}
+    return found | {"growth begins, rad/s": (exact, limit)}
 
 
 def impact(p):
