@@ -137,7 +137,7 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     both = list(zip(pairs(cases), parts, strict=True))
     first, others = both[: int(shown)], both[int(shown) :]
     rows = [
-        f"At {case.place} the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
+        f"At {case.place}, the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
         f"without it; the ratio is {part:.2f}."
         for (case, bonded), part in first
     ]
