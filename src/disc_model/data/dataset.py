@@ -132,7 +132,7 @@ def _write(tree: xr.DataTree, name: str) -> None:
 
 
 def load(path: str | Path) -> xr.DataTree:
-    """Read a file written by `save` into memory.
+    """Read a dataset of a study, or a netCDF file of `Result.save`, into memory.
 
     Parameters
     ----------

@@ -366,7 +366,7 @@ def critical(
     tol: float = 1e-12,
     **others: Any,
 ) -> Critical:
-    """The least parameter value at which the motion near the static start is unstable, and all stability changes above.
+    """The least parameter value with unstable motion near the static start, and all stability changes above it.
 
     That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. Instability often lies in
     narrow tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that these places are

@@ -78,7 +78,7 @@ def outcome(
     early_end: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """What the motion comes to within a horizon: "quiet", "growing", "separation" and so on, and how it then looks.
+    """Long-term behaviour within a horizon, as "quiet" or "separation", with ranges and phases late in the run.
 
     Parameters
     ----------
