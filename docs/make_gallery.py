@@ -41,7 +41,7 @@ OF_GRIDS = (
 )
 """Figures of grid studies; where they are not there, the pictures of an earlier run stay."""
 OF_BENCHMARK = {
-    "overview": "Speed against accuracy: computing time of a simulated second against the error of event times, one "
+    "overview": "Cost against accuracy: computing time of a simulated second against the error of event times, one "
     "core, medians of repeats.",
     "failure_maps": "Failures of methods, over step or tolerance and number of modes: (a) in stick-slip, the others in "
     "the second with separations.",
