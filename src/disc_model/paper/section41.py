@@ -147,7 +147,7 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
         " ".join(rows),
         f"In the other pairs the ratio is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
         * bool(others),
-        f"The range without separation is {over:.1f} times the range with separation in these {len(parts)} pairs.",
+        f"In all {len(parts)} pairs, the range without separation is {over:.1f} times the range with separation.",
     )
 
 
