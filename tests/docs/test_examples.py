@@ -92,9 +92,8 @@ def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
     assert text.count("\n") <= 90, "a screen and a half"
-    cells = re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", text, re.M | re.S)
     names = {}
-    for cell in cells:
+    for cell in re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", text, re.M | re.S):
         exec(compile(cell, page.name, "exec"), names)
     pyplot.close("all")
     assert [fact for fact in SAID[page.stem] if not eval(fact, names)] == []
@@ -102,6 +101,7 @@ def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
 
 def test_everything_public_is_in_the_reference_and_shows_its_use():
     text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    assert ".. auto" not in "".join(re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)), "shown as code"
     listed = set(re.findall(r"^\.\. auto\w+:: disc_model\.(\w+)$", text, re.M))
     assert listed == set(disc_model.__all__) - {"__version__"}
     values = {name: getattr(disc_model, name) for name in listed}

@@ -51,7 +51,7 @@ class Flexibility(Summarised):
 
 
 def residual_flexibility(p: Parameters) -> Flexibility:
-    """Static flexibility of all modes and of those kept; their difference is ``contact_compliance="residual"``.
+    """Static flexibility of all modes and of those kept; ``contact_compliance="residual"`` is their difference.
 
     For ``orthonormal`` modes the sum over all modes is exactly the static deflection of the plate under a point load.
     Modes ``as_published`` do not expand a load, so that only their sum up to `MODAL_SUM` is available. Its remainder
