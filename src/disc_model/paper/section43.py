@@ -123,7 +123,7 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [
-            f"{_place(case.parameters, int(i))} (a {'growing' if before[i] > 0 else 'stable'} cycle)"
+            f"{_place(case.parameters, int(i))} (the cycle {'grows' if before[i] > 0 else 'is stable'} before it)"
             for i in np.flatnonzero(after > before)
         ]
     most = values_text({name: 2 * value})
