@@ -341,8 +341,8 @@ class Sources:
     def ranges(self, model: str, paradox: bool = True) -> np.ndarray:
         """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2); with or
         without cases in which bilateral contact ends in Painlevé's paradox."""
-        found, notes = (self._found("Smaller vibration", model, column) for column in ("here", "notes"))
-        rows = re.findall(r"([\d.]+) against ([\d.]+) mm at (\d+ N, [\d.]+ rad/s)", found)
+        pairs, notes = (self._found("Smaller vibration", model, column) for column in ("here", "notes"))
+        rows = re.findall(r"([\d.]+) against ([\d.]+) mm at (\d+ N, [\d.]+ rad/s)", pairs)
         return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
 
     def energy(self) -> np.ndarray:

@@ -51,11 +51,8 @@ def drawn_case(rng):
         contact_force=str(rng.choice(["vertical", "normal"])), friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
     )  # fmt: skip
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
-    ratio, fastest = (
-        sometimes(0.8, spread(rng, 1e-5, 0.3)),
-        plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0,
-    )
-    return p.replace(D_star=2 * ratio * p.D / fastest)
+    ratio = sometimes(0.8, spread(rng, 1e-5, 0.3))
+    return p.replace(D_star=2 * ratio * p.D / (plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0))
 
 
 def fastest(p):
@@ -116,6 +113,11 @@ def drawn_start(rng, p, time):
     return rest
 
 
+def delay(events):
+    """s, by which the engine may be off after so many events: each may shift those after it by its own error."""
+    return 1e-12 + 1e-14 * events  # 4e-13 was found where friction reaches its limit slowly
+
+
 def reference(p, start, **how):
     """A run from this state at the time 0."""
     return taylor.Reference(taylor.problem_of(p), stored.reference_state(start.replace(time=0.0), p), **how)
@@ -154,8 +156,7 @@ class Compared:
         wanted = self.events[0][:sure]
         assert kinds[:sure] == [kind for _, kind in wanted]
         off = np.abs(times[:sure] - [t for t, _ in wanted])
-        # 4e-13 was found where friction reaches its limit slowly; each event may shift those after it by its own error
-        assert np.all(off <= 1e-12 + 1e-14 * np.arange(sure) + 10 * error), (off.max(), error.max())
+        assert np.all(off <= delay(np.arange(sure)) + 10 * error), (off.max(), error.max())
         # nor may it have found more
         assert np.all(times[sure:] > horizon - 1e-9)
         self.check_samples(horizon)
@@ -184,9 +185,8 @@ class Compared:
         scale[[2, 5, 7]] = np.maximum(scale[[2, 5, 7]], 1e-4 * fastest(self.p) * scale[[1, 4, 6]])
         error = np.maximum.accumulate(np.where(clear[:, None], np.abs(fine - rough) / scale, 0), axis=0)
         good = clear & (self.times < horizon) & (error.max(axis=1) < 1e-4)
-        # of event times, as in `check`; errors are relative to static deflection, which a ramp alone moves much less
-        shift = 1e-12 + 1e-14 * np.searchsorted(switches, self.times)[:, None]
-        allowed = (1e-10 + shift * fastest(self.p) + 10 * error) * scale
+        # errors are relative to static deflection, which a ramp alone moves much less
+        allowed = (1e-10 + delay(np.searchsorted(switches, self.times)[:, None]) * fastest(self.p) + 10 * error) * scale
         give = contact_compliance(self.p)
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
@@ -214,7 +214,7 @@ class Compared:
             off, error = (
                 np.abs(np.subtract(getattr(fine, name), getattr(x, name))) for x in (self.result.final_state, rough)
             )
-            allowed = (1e-10 + (1e-12 + 1e-14 * len(self.events[0])) * speed) * size + 10 * np.max(error, initial=0.0)
+            allowed = (1e-10 + delay(len(self.events[0])) * speed) * size + 10 * np.max(error, initial=0.0)
             assert np.all(off <= allowed), (name, off, allowed)
 
 
