@@ -133,7 +133,7 @@ class Row(BaseModel):
         which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
-            which = f"The {noun} at {'; '.join(case.place for case in steady)} {verb}"
+            which = f"The {noun} from rest at {'; '.join(case.place for case in steady)} {verb}"
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **answer.values) for text in texts)
         return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))
