@@ -25,7 +25,7 @@ def draw(ax: plt.Axes, p: Parameters, free: float, bonded: float) -> None:
     """Energy per cycle over the range of the slider's height."""
     found = np.array([(each.width, each.supplied, each.damped) for each in course(p.replace(contact="bonded"), bonded)])
     width, supplied, damped = found[np.argmax(found[:, 0] > 3e-3) :].T * [[1e3], [CYCLE], [CYCLE]]
-    ax.plot(width, supplied, color=BLUE, label="supplied on the slope, bilateral contact")
+    ax.plot(width, supplied, color=BLUE, label="supplied by the contact force, bilateral contact")
     ax.plot(width, damped, color=GREY, linestyle="--", label="taken by damping, bilateral contact")
     end = in_the_end(course(p, free))
     at = 1e3 * end.width
