@@ -309,7 +309,7 @@ class Sources:
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 
     def most_changing(self, study: str, N: float) -> str:
-        """The three largest changes of the probability of instability, from the lowest to the highest third of a range."""
+        """The three largest changes of the probability of instability, from the lowest third to the highest."""
         names = map(str, self.uncertain(study, N)["parameter"].values)
         changes = {name: float(np.diff(self.thirds(study, N, name)[[0, -1]])[0]) for name in names}
         largest = sorted(changes, key=lambda name: -abs(changes[name]))[:3]

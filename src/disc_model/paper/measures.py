@@ -123,8 +123,9 @@ class CaseView:
         times, motion = self.intervals(), self.late_motion()
         if not motion.period:
             return (
-                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not repeat "
-                f"with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives {motion.chaos:.2f}"
+                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not "
+                f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives "
+                f"{motion.chaos:.2f}"
             )
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
