@@ -40,7 +40,7 @@ def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -
     text = "".join(pages.passages(run | {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}).values())
     assert "1.2 ms" in text
     assert "| heyoka | 630 | - |" in text
-    assert "restarts heyoka between two phases, accounts for 25 % for" in text
+    assert "Of heyoka's time, 25 % for (a) and 25 % for (b) is spent in Python" in text
     assert "only, the package takes 1 ms for (a). heyoka, which" in text
     with pytest.raises(DiscModelError, match="another machine"):
         pages.speed_numbers(dataset, dataset, priced.assign_attrs(machine="another machine"))

@@ -154,7 +154,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
 
 
 def coupled_natural_frequencies(p: Parameters) -> Array:
-    """Natural frequencies of disc and slider, the slider at rest and attached (Section 4.4), rad/s, ascending.
+    """Natural frequencies of disc and attached slider at rest (Section 4.4 of the paper), rad/s, ascending.
 
     Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
     under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Contact is rigid

@@ -78,7 +78,7 @@ def outcome(
     early_end: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Long-term behaviour within a horizon, as "quiet" or "separation", with ranges and phases late in the run.
+    """Long-term behaviour within a horizon, such as "quiet" or "separation", with ranges and phases late in the run.
 
     Parameters
     ----------
