@@ -120,7 +120,7 @@ class Window(Span):
 
 
 class Poincare(Checked):
-    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`; `theta` as for `Window`.
+    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc point at `theta`.
 
     Examples
     --------

@@ -449,7 +449,7 @@ def _stacked(
 def run_study(
     source: str | Path | Mapping[str, Any], *, workers: int = 1, processes: bool = False
 ) -> xr.Dataset | xr.DataTree:
-    """Compute a study in this process, without files, and return what the workflow would merge.
+    """Compute a study in this process, without files, and return its merged dataset.
 
     Parameters
     ----------
