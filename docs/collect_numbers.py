@@ -346,9 +346,9 @@ class Sources:
         return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
 
     def energy(self) -> np.ndarray:
-        """Evidence on energy by case, mJ per cycle in columns 2 to 5: supplied with separation, without it, taken by
-        damping, by impacts."""
-        return np.reshape(self.evidence("F10e")[:18], (3, 6))
+        """Evidence on energy by case, mJ per cycle in columns 2 to 6: supplied with separation, without it, taken by
+        damping, by impacts, gained without it."""
+        return np.reshape(self.evidence("F10e")[:21], (3, 7))
 
     def ratios(self) -> np.ndarray:
         """How many times smaller they are with separation, under all models, where bilateral contact goes on."""

@@ -11,7 +11,7 @@ from scipy.integrate import fixed_quad
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper.measures import CaseView, extent, or_none, pairs, separates_within, width_ratio
+from disc_model.paper.measures import CaseView, extent, facts, or_none, pairs, separates_within, width_ratio
 from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
 
@@ -68,6 +68,7 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
         until=extent(grow) if grow else None,
         lowest=lowest,
         critical=critical,
+        area=facts(maps[0]),
         first=[
             f"{figure}, {or_none(was, '.0f', ' s')} and "
             f"{or_none(now, '.0f', ' s', f'none within {horizons[figure]:g} s ({kinds[figure]})')}"
@@ -86,9 +87,8 @@ def norms(p: Parameters) -> Array:
 
 
 def normalised(*, within: float) -> Answer:
-    norms_of_base = norms(BASE)
     squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
-    return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base], squares=squares)
+    return Answer(np.max(np.abs(norms(BASE) - 1)) <= within, norms=[*norms(BASE)], squares=squares)
 
 
 def second_relation(*, within: float) -> Answer:

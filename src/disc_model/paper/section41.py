@@ -104,15 +104,13 @@ def releases_regularly(*cases: CaseView, within: float) -> Answer:
 
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows: list[tuple[str, bool, int, int]] = []
+    rows: list[tuple[Any, ...]] = []
     more, too = list[bool](), list[bool]()
     for free, bonded in pairs(cases):
-        counts = []
-        for case in (free, bonded):
-            late = case.samples("late")
-            counts.append(len(spectra.lines(late["time"].values, late["w_point"].values, above=1.0, floor=floor)))
+        late = [(each["time"].values, each["w_point"].values) for each in (x.samples("late") for x in (free, bonded))]
+        counts = [len(spectra.lines(*x, above=1.0, floor=least)) for least in (floor, floor / 10) for x in late]
         (more if free.from_rest else too).append(counts[0] > counts[1])
-        rows.append((free.place, free.from_rest, counts[0], counts[1]))
+        rows.append((free.place, free.from_rest, *counts))
     return Answer(graded([*more, *too]) if any(more) else FALSE, rows=rows)
 
 
@@ -157,9 +155,9 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     for free, bonded in pairs(cases):
         held = in_the_end(course(free.parameters, free["time_reached"]))
         kept = at_width(course(bonded.parameters, bonded["time_reached"], held.width), held.width)
-        cycle = float(free.intervals("separation").mean())
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
-        rows.append((free.place, *(1e3 * cycle * x for x in (held.supplied, kept.supplied, held.damped, held.impacts))))
+        told = np.array([held.supplied, kept.supplied, held.damped, held.impacts, kept.gained])  # W
+        rows.append((free.place, *1e3 * free.intervals("separation").mean() * told))
     steady = of_windows(pairs(cases)[0][1], "field")
     return Answer(min(withheld) >= share, withheld=withheld, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
@@ -193,9 +191,9 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
         ]
         for case in (below, above)
     ]
-    speeds = below["Omega"], above["Omega"]
+    fates, speeds, rate = (below.fate, above.fate), (below["Omega"], above["Omega"]), below.rate_of("stick_to_slip")
     verdict = not below.separates and above.separates
-    return Answer(verdict, fates=(below.fate, above.fate), lost=lost, speeds=speeds, until=until)
+    return Answer(verdict, fates=fates, lost=lost, speeds=speeds, rate=rate, until=until)
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
@@ -205,7 +203,8 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     falls, last = all(each.falls for each in lowest), lowest[-1]
     return Answer(
         PART if falls and last.again else falls,
-        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s. {last.words}",
+        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds in steps of "
+        f"{float(study['scan_Omega'].diff('scan_Omega')[0]):g} rad/s. {last.words}",
     )
 
 
@@ -225,20 +224,20 @@ def maintained_below(
             starts["N"].values, starts.values, turns["onset_speed"].values, turns["offset_speed"].values, strict=True
         )
         below = [(N, up, down, begin) for N, begin, up, down in rows if begin - min(up, down) > within]
-    total = apart = 0
+    kicks: tuple[Any, ...] = (0,)
     if basins is not None:
         total = basins.sizes["energy"] * basins.sizes["start"]
         apart = round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0)))
-    return Answer(PART if below or apart else TRUE, begins=begins, never=never, below=below, total=total, apart=apart)
+        kicks = apart, total, measures.extent(basins["energy"].values)
+    wait = float(study["horizon"][-1]), sweeps is not None and measures.facts(sweeps)["dwell"]
+    return Answer(PART if below or kicks[0] else TRUE, begins=begins, never=never, below=below, kicks=kicks, wait=wait)
 
 
 def far_below(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters)
     lower = [case for case in cases if case["Omega"] < share * critical and case.separates]
-    if not lower:
-        return Answer(False, "No case separates.")
     rows = [(case.place, case["Omega"] / critical) for case in lower]
-    return Answer(True, rows=rows, critical=critical)
+    return Answer(bool(lower), "" if lower else "No case separates.", rows=rows, critical=critical)
 
 
 def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
