@@ -44,7 +44,8 @@ def upward(*cases: CaseView, share: float) -> Answer:
         if not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         parts.append(float(np.mean(velocity > 0)))
-        rows.append(f"{velocity.mean():+.2f} m/s and {1e3 * height.mean():.1f} mm at {case.place}")
+        heights = f"{1e3 * height.mean():.1f} mm ({1e3 * (case.late_range('u').high - case['u_0']):.1f} mm)"
+        rows.append(f"{velocity.mean():+.2f} m/s and {heights} at {case.place}")
     return Answer(min(parts) >= share, up=measures.extent(100 * part for part in parts), rows=rows)
 
 

@@ -32,16 +32,23 @@ def stays_calm(case: CaseView) -> bool:
     return not case.separates and not GREW * case.early.width < case.late.width
 
 
+def calm_text(case: CaseView) -> str:
+    """What becomes of a case; where contact is kept, with the ranges of the contact force, if it stores them."""
+    if case.separates or "history" not in case.node:
+        return case.fate
+    widths = f"{case.early.width:.2f} N between 1 and 21 s, and {case.late.width:.2f} N in the last 20 s"
+    return f"{case.fate} The range of the contact force is {widths}."
+
+
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
-    """Whether a case does not separate, its contact force varies little and ever less, and its releases are regular.
-    With ``last``, of a point fixed on the disc too: its range is small, and its last points in the section repeat."""
+    """Whether contact force, releases and, with ``last``, a point fixed on the disc and its section are regular."""
     intervals = case.intervals()
     spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
     small = not last or (case.disc.width < case["h"] and points[0] <= last / 2)
     return Answer(
         holds if small or not holds else PART,
-        fate=case.fate,
+        fate=calm_text(case),
         points=points,
         widths=(1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else (),
         late=case.late,
@@ -51,20 +58,17 @@ def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last:
 
 
 def becomes_unstable(case: CaseView) -> Answer:
-    return Answer(case.separates, case.fate)
+    return Answer(case.separates, case.fate, other=growth_or_nan(case.parameters.replace(normalization="orthonormal")))
 
 
 def only_between(*cases: CaseView, largest: float) -> Answer:
-    """Whether preloads up to ``largest``, in N, are unstable between stable ones, and larger ones are stable."""
-    shown = [stays_calm(case) for case in cases if case["N"] <= largest]
-    # a case may have no ranges, because it stops at its first separation
-    stable = [
-        stays_calm(case) if "history" in case.node else not case.separates for case in cases if case["N"] > largest
-    ]
-    holds = shown == [True, False, True]
+    """Whether preloads up to ``largest``, N, are unstable between stable ones, others stable, with ranges or not."""
+    shown = sum(case["N"] <= largest for case in cases)
+    stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
+    holds = stable[:shown] == [True, False, True]
     return Answer(
-        PART if (part := holds and not all(stable)) else holds,
-        " ".join(case.fate for case in cases),
+        PART if (part := holds and not all(stable[shown:])) else holds,
+        " ".join(calm_text(case) for case in cases),
         f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads." * part,
     )
 
@@ -93,6 +97,7 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
         never=[speed for speed in sorted(times) if math.isnan(times[speed])],
         end=cases[0]["time_reached"],
         horizon=horizon,
+        later=[speed for speed, time in times.items() if speed > printed and time > horizon],
         lower=[(speed, 1 - speed / printed) for speed in least],
     )
 
@@ -106,7 +111,8 @@ def undamped_separates_lower(*cases: CaseView) -> Answer:
 
 def twice_the_damping(*cases: CaseView) -> Answer:
     stable = [stays_calm(case) for case in cases]
-    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, " ".join(case.fate for case in cases))
+    simple = [growth_or_nan(case.parameters.replace(D_star=case["D_star"] / 2)) for case in cases]
+    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, fates=[calm_text(x) for x in cases], simple=simple)
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
@@ -116,18 +122,18 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
     """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
+    places, raised = [measures.place(p.N, p.Omega) for p in _grid(case.parameters)], list[str]()
     lowered, growing = 0, list[int]()
-    raised: list[str] = []
     for little in (0.0, value):
         before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [
-            f"{_place(case.parameters, int(i))} (the cycle {'grows' if before[i] > 0 else 'is stable'} before it)"
+            f"{places[i]} (the cycle {'grows' if before[i] > 0 else 'is stable'} before it)"
             for i in np.flatnonzero(after > before)
         ]
-    most = values_text({name: 2 * value})
-    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
+    most, found = values_text({name: 2 * value}), [int(np.isfinite(before).sum()), int((before < 0).sum())]
+    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised, found=found)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
@@ -141,24 +147,17 @@ def _growths(p: Parameters, name: str, value: float) -> measures.Array:
     return np.array([growth_or_nan(each.replace(**{name: value})) for each in _grid(p)])
 
 
-def _place(p: Parameters, i: int) -> str:
-    return measures.place(_grid(p)[i].N, _grid(p)[i].Omega)
-
-
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     """Whether growth falls with a parameter, on a map over it and the speed."""
-    growth = published(study)["growth_rate"].transpose("Omega", name)
-    ranks, falls = [], []
-    for row in growth.values:
-        known = row[np.isfinite(row)]
-        if known.size > 2:
-            ranks.append(spearmanr(np.arange(known.size), known)[0])
-            falls += [*(np.diff(known) < 0)]
-    if not ranks:
+    growth = published(study)["growth_rate"].transpose("Omega", name).values
+    rows = [known for row in growth if (known := row[np.isfinite(row)]).size > 2]
+    if not rows:
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
-    rank, part = float(np.median(ranks)), float(np.mean(falls))
+    part = np.mean(np.concatenate([np.diff(row) < 0 for row in rows]))
+    ranks, grown = ([spearmanr(range(x.size), x)[0] for x in y if x.size > 2] for y in (rows, [r[r > 0] for r in rows]))
+    rank, above = np.median(ranks), (int(np.sum(np.array(ranks) > -trend)), len(ranks))
     verdict = TRUE if part == 1 else PART if rank <= -trend else FALSE
-    return Answer(verdict, N=facts(study)["N"], part=part, rank=rank)
+    return Answer(verdict, N=facts(study)["N"], part=part, rank=rank, above=above, only=np.median(grown or math.nan))
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
@@ -173,9 +172,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     return Answer(
         PART if holds and cause else holds,
-        f"{case.fate} Between 1 and 21 s, the range of the contact force is {case.early.width:.1f} N. The second half "
-        f"of the run is cut into stretches of 20 s. The median of the ranges in these stretches is {before:.1f} N in "
-        f"the third quarter of the run and {last:.1f} N in the last quarter; the largest range is {max(widths):.0f} N.",
+        f"{calm_text(case)} In stretches of 20 s, the median range is {before:.1f} N in the third quarter of the run "
+        f"and {last:.1f} N in the last quarter, and the largest range is {max(widths):.0f} N.",
     )
 
 
@@ -183,17 +181,15 @@ def is_kind(case: CaseView, *, kind: str) -> Answer:
     motion = case.late_motion()
     if motion.kind is Outcome.UNDECIDED:
         return Answer(NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion.")
-    span = case.kept_span()
-    return Answer(motion.kind == kind, f"From {span:g} s, the motion at {case.place} is {case.motion}.")
+    return Answer(motion.kind == kind, f"From {case.kept_span():g} s, the motion at {case.place} is {case.motion}.")
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:
     """Whether softer springs separate sooner; true in part if on the map, at some speeds, a softer one does not."""
     *cases, study = evidence
-    times = [case["first_separation"] for case in cases]
     speed, _, apart = _map(study, "Omega", "k")
     returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
-    holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate
+    holds = bool(np.all(np.diff([x["first_separation"] for x in cases]) > 0))  # false if one does not separate
     return Answer(
         PART if holds and returns else holds,
         place=measures.place(cases[0]["N"], cases[0]["Omega"]),
@@ -203,15 +199,17 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
     )
 
 
-def stiff_enough(case: CaseView) -> Answer:
-    """Whether the stiffness of a case makes motion stable on a grid, be it a cycle or steady sliding."""
+def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
+    """Whether stiffnesses, that of a case and larger ones, make a grid stable, be it the cycle or steady sliding."""
     points = _grid(case.parameters)
     unstable = [p for p in points if not _growth(p) < 0]
     calm, stable = stays_calm(case), len(points) - len(unstable)
     groups = groupby(unstable, lambda p: p.N)
     others = [f"{N:g} N with {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
-    verdict = PART if calm and stable and unstable else calm and not unstable
-    return Answer(verdict, fate=case.fate, stable=stable, size=len(points), others=others)
+    more = [(x, sum(_growth(p.replace(**{name: 1e3 * x})) < 0 for p in points)) for x in larger]
+    every = calm and all(count == len(points) for count in (stable, *dict(more).values()))
+    verdict = PART if calm and stable and not every else every
+    return Answer(verdict, fate=calm_text(case), stable=stable, size=len(points), others=others, more=more)
 
 
 def _growth(p: Parameters) -> float:
@@ -228,6 +226,7 @@ def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answ
         fate=case.fate,
         points=points,
         motion=case.motion,
+        turns=float(case.intervals()[: motion.period].sum()) * case.drive,
         near=measures.repeats(near.late_motion(), "release"),
     )
 
@@ -262,15 +261,15 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
         location.kind == "at the lowest position" and above <= share,
         place=case.place,
         counts=(starts.size, swings),
-        heights=(where - case["u_0"], height.min()),
+        heights=(where - case["u_0"], height.min(), height.max()),
+        span=measures.extent(time),
         part=location.height,
         speed=speed,
     )
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
-    """Whether the section of the disc does not tell that contact is lost at the lowest position. A section at the loss
-    of contact does tell it."""
+    """Whether the section of the disc does not tell where contact is lost; a section at the loss of contact does."""
     samples = case.samples("poincare")
     late = samples.isel(time=samples["time"].values > case["first_separation"])
     w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION
@@ -286,13 +285,15 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
     return Answer(
         graded(late <= factor * before for late, before in widths),
         rows=[f"{mm(late)} at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)],
+        widest=max(late / before for late, before in widths),
         most=max(late for late, _ in widths) / cases[0]["h"],
     )
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
-    begun = [[f"{100 * x.stick:.1f} % at {x.place}" for x in cases if x.from_rest == rest] for rest in (True, False)]
+    shares = [(x.from_rest, f"{100 * x.stick:.1f} % ({100 * x.stick_in_all:.1f} %) at {x.place}") for x in cases]
+    begun = [[text for from_rest, text in shares if from_rest == rest] for rest in (True, False)]
     spans = sorted({f"{case['time_reached'] - case.kept_span().low:g}" for case in cases}, key=float)
     return Answer(vanishes, begun=begun, spans=" to ".join([spans[0], *spans[1:][-1:]]))
 
@@ -306,10 +307,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     return Answer(
         bool(newly.size) and not (never > newly[-1]).any(),
         stated=facts(study),
-        loads=measures.extent(loads),
         newly=[*newly],
         c_p=c_p,
-        most=damping[-1],
         never=[*never[never > 300]],
     )
 
