@@ -7,6 +7,7 @@ import numpy as np
 
 from disc_model.paper.measures import Array, sliding_growth
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer
+from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
 
 SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstable without friction
@@ -30,14 +31,15 @@ def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
     """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them; open
     where it does at some, because the disc of the precursor, of which we have the abstract, is not known."""
-    verdicts, rows = [], []
+    verdicts, rows, critical = [], [], moving_load_speed(BASE)
     for alone, both, damped in growths(tuple(loads), c, **friction):
         new = (both > 0) & ~(alone > 0)
         raised = new & (damped > both)
         verdicts.append(FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED)
         slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
-        rows.append((new.sum(), raised.sum(), slowest, (new & (damped < 0)).sum()))
-    return Answer(verdicts[0], rows=rows, size=new.size, loads=[*loads], c=c)
+        below = new & (critical > SPEEDS)
+        rows.append((new.sum(), raised.sum(), slowest, (new & (damped < 0)).sum(), below.sum()))
+    return Answer(verdicts[0], rows=rows, size=new.size, loads=[*loads], c=c, critical=critical)
 
 
 def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:

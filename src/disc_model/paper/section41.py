@@ -244,7 +244,7 @@ def far_below(*cases: CaseView, share: float) -> Answer:
 def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     """Whether cycles grow, and separation occurs, far below the critical speed of a moving load."""
     study, critical = published(study), moving_load_speed(BASE)
-    low = study["Omega"] < share * critical
+    low, without = study["Omega"] < share * critical, study["growth_rate"].isnull()
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
     most, method, kept = float(study["Omega"].max()), flag_names(study["method"]), unstable & ~apart
     known = [int((kept & (method == how)).sum()) for how in ("simulation", "settled", "multipliers")]
@@ -252,7 +252,7 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
         bool((low & unstable).any() and (low & apart).any()),
         most=most,
         part=most / critical,
-        counts=[int(each.sum()) for each in (unstable, apart, kept, apart & (method == "simulation"))],
+        counts=[int(x.sum()) for x in (unstable, apart, kept, apart & (method == "simulation"), apart & without)],
         known=known,
         size=apart.size,
         horizon=measures.facts(study)["horizon"],

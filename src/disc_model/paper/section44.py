@@ -11,7 +11,7 @@ from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, CaseView, facts, pairs, published, sliding_growth
+from disc_model.paper.measures import HIGH, LOW, CaseView, facts, pairs, published, rate_text, sliding_growth
 from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.paper.section2 import BASE, attached_frequencies
@@ -58,7 +58,7 @@ def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -
 def lines(case: CaseView, *, bound: float) -> Answer:
     lines, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
-    chance = max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in lines)
+    chance = len(lines) * max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in lines)
     floor = min(line.amplitude for line in lines) / max(line.amplitude for line in lines)
     others = [
         f"{line.frequency:.2f}"
@@ -66,37 +66,38 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
     return Answer(
-        off.max() <= bound and chance * len(lines) <= 1e-3,
+        off.max() <= bound and chance <= 1e-3,
         place=case.place,
         off=off.max(),
         named=(table["ours_is"] != UNNAMED).sum(),
         rate=stick_slip_rate(case),
-        rows=[f"{row.ours_Hz:.2f} ({row.ours_is})" for row in table.itertuples()],
+        rows=[f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()],
         others=others,
+        chance=chance,
     )
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
-    """Whether the lines move with the disc's frequencies or with the stick-slip rate when that is changed."""
-    rows, off = [], []
-    away, drives = list[float](), list[float]()
+    """Whether the rotation shifts the lines, and from natural frequencies or from multiples of the stick-slip rate."""
+    rows, off, shifted, natural = [], list[float](), list[bool](), list[bool]()
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
-        off += [_from_combination(case, line, rate) for line in lines]
-        natural = natural_frequencies(case)
-        far = [float(np.min(np.abs(natural - line.frequency))) for line in lines]
-        away += far
-        drives += [each / case.drive for each in far]
+        names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
+        off, shifted = off + [abs(each.deviation) for each in names], shifted + [each.m != 0 for each in names]
+        beside = np.add.outer(natural_frequencies(case), case.drive * np.array([-3, -2, -1, 1, 2, 3]))
+        natural += [bool(np.min(np.abs(beside - line.frequency)) <= within) for line in lines]
         place = measures.place(case["N"], case["Omega"])
         rows.append((place, 1e-3 * case["k_p"], rate, [line.frequency for line in lines]))
     combined = [each <= within for each in off]
+    part = PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
     return Answer(
-        max(drives) <= 4 and not any(combined),
+        TRUE if all(natural) else part,
         combined=combined,
+        shifted=shifted,
+        natural=natural,
         within=within,
         off=max(off),
-        away=max(away),
         rows=rows,
     )
 
@@ -170,8 +171,8 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
     return Answer(
         case.late_motion().period > 0,
-        f"At {case.place}, from {case.kept_span():g} s, the motion is {case.motion}.",
-        f"In the run without separation the motion is {bonded.motion}." if bonded.late_motion().period else "",
+        f"At {case.place}, from {case.kept_span():g} s, the slider's motion is {case.motion}.",
+        f"In the run without separation the slider's motion is {bonded.motion}." if bonded.late_motion().period else "",
     )
 
 
@@ -233,7 +234,7 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
-    return Answer(apart, rows=[f"At {case.place}, {case.contact}." for case in cases], most=max(smooth))
+    return Answer(apart, rows=[case.fate for case in cases], most=max(smooth))
 
 
 def very_different(*cases: CaseView, factor: float) -> Answer:
@@ -258,12 +259,12 @@ def not_monotonous(*evidence: Any) -> Answer:
     rates = stiffened(p, "k_p", 50)[50]
     signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
     return Answer(
-        [case.separates for case in cases] == [False, True, False]
+        [(case.separates, case.growth_rate > 0) for case in cases] == [(False, False), (True, True), (False, False)]
         and newly.any()
         and lowered.any()
         and {-1, 1} <= signs,
         fates=[case.fate for case in cases],
-        Omega=facts(study)["Omega"],
+        stated=facts(study),
         most=damping[-1],
         newly=[*loads[newly]],
         counts=(lowered.sum(), growing.sum()),
@@ -272,29 +273,23 @@ def not_monotonous(*evidence: Any) -> Answer:
 
 
 def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
-    """Whether in-plane damping brings separation, or raises growth, at some large preloads."""
+    """Whether in-plane damping brings separation at some large preloads."""
     loads, damping, apart = _map(study, "N", "c_p")
-    newly = loads[(apart & ~apart[:, :1]).any(axis=1)]
-    large = newly[newly >= fewest]
     growth = published(study)["growth_rate"].sortby(["N", "c_p"]).transpose("N", "c_p").values
+    newly = np.flatnonzero((apart & ~apart[:, :1]).any(axis=1) & (loads >= fewest))
+    rows = [(loads[i], *(rate_text(growth[i, j]) for j in (0, apart[i].argmax()))) for i in newly]
     both = np.isfinite(growth[:, 0]) & np.isfinite(growth[:, -1])
     lower = int((both & (growth[:, -1] < growth[:, 0])).sum())
-    return Answer(
-        bool(large.size),
-        Omega=facts(study)["Omega"],
-        most=damping[-1],
-        large=[*large],
-        both=both.sum(),
-        lower=lower,
-    )
+    return Answer(bool(rows), stated=facts(study), most=damping[-1], rows=rows, both=both.sum(), lower=lower)
 
 
 def stiffer_inplane(case: CaseView) -> Answer:
     """Whether growth rises with each stiffness up to its largest value."""
     results = stiffened(case.parameters, "k_p", 20, 50).values()
     known = [rates[np.isfinite(rates)] for rates in results]
-    rising = [bool(np.all(np.diff(rates[: np.argmax(rates) + 1]) > 0)) for rates in known]
-    return Answer(all(rising), stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
+    steps = np.concatenate([np.diff(rates[: np.argmax(rates) + 1]) for rates in known])
+    falls = int((steps <= 0).sum()), steps.size
+    return Answer(falls[0] == 0, falls=falls, stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
@@ -310,6 +305,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
         quiet=[*quiet],
         softer=[*softer],
         slow=slow if at_slow.size and not at_slow.any() else "",
+        stiff=[*E[apart[:, Omega == slow].any(axis=1)]],
         base=BASE.E,
     )
 
