@@ -368,14 +368,16 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
     if not dips.size:
         return Falls(False, False, f"The lowest speeds in turn are {listed(or_none(x, '.1f') for x in speeds)} rad/s.")
-    first = min(dips)
+    first, start = min(dips), int(np.isfinite(speeds).argmax())
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    absent = f"At {listed(never, 'g')} N no speed up to {study['scan_Omega'].values[-1]:g} rad/s brings separation. "
+    absent = (
+        f"At {listed(never, 'g')} N no speed tried up to {study['scan_Omega'].values[-1]:g} rad/s brings separation. "
+    )
     begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
     parts = [
-        f"falls to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
+        f"falls from {speeds[start]:.1f} (at {loads[start]:g} N) to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
