@@ -53,7 +53,7 @@ def test_the_ledger_counts_links_and_escapes(tmp_path: Path) -> None:
     found = summary(table)
     assert found["counts"] == {TRUE: 2, PART: 1, FALSE: len(ROWS) - 5, "ambiguous in the paper": 0, NOT_COMPUTED: 1}
     assert found["errors"] == 1
-    assert [item["id"] for item in found["falls"]] == ["P07", "T2c", "F10e", "F05"], "eq17 is not computed"
+    assert [item["id"] for item in found["falls"]] == ["P07", "T2e", "F10e", "F05"], "eq17 is not computed"
     assert [item["id"] for item in found["stands"]] == ["F13", "F15b"], "C3s is true in part"
     assert found["stands"][0]["text"].endswith("separation begins at 1 s, where the paper has 2 s.")
     for file in ("x.html", "x.md"):
