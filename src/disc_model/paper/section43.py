@@ -172,8 +172,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     return Answer(
         PART if holds and cause else holds,
-        f"{calm_text(case)} In stretches of 20 s, the median range is {before:.1f} N in the third quarter of the run "
-        f"and {last:.1f} N in the last quarter, and the largest range is {max(widths):.0f} N.",
+        f"{calm_text(case)} The second half of the run is cut into stretches of 20 s. The median of their ranges is "
+        f"{before:.1f} N in the third quarter and {last:.1f} N in the last; the largest is {max(widths):.0f} N.",
     )
 
 
