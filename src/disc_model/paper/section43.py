@@ -129,7 +129,7 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [
-            f"{places[i]} (the cycle {'grows' if before[i] > 0 else 'is stable'} before it)"
+            f"at {places[i]}, from a {'growing' if before[i] > 0 else 'stable'} cycle"
             for i in np.flatnonzero(after > before)
         ]
     most, found = values_text({name: 2 * value}), [int(np.isfinite(before).sum()), int((before < 0).sum())]
