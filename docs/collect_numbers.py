@@ -309,11 +309,11 @@ class Sources:
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 
     def most_changing(self, study: str, N: float) -> str:
-        """The three largest changes of the probability of instability, from the lowest third to the highest."""
+        """The largest changes of the probability of instability, from the lowest third to the highest, if resolved."""
         names = map(str, self.uncertain(study, N)["parameter"].values)
         changes = {name: float(np.diff(self.thirds(study, N, name)[[0, -1]])[0]) for name in names}
         largest = sorted(changes, key=lambda name: -abs(changes[name]))[:3]
-        return ", ".join(f"{name} {changes[name]:+.2f}" for name in largest)
+        return ", ".join(f"{name} {changes[name]:+.2f}" for name in largest if abs(changes[name]) >= 0.15) or "none"
 
     # ---- results of `make survival` and of `make orthonormal`, and pages
 

@@ -173,7 +173,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     return Answer(
         PART if holds and cause else holds,
         f"{calm_text(case)} The second half of the run is cut into stretches of 20 s. The median of their ranges is "
-        f"{before:.1f} N in the third quarter and {last:.1f} N in the last; the largest is {max(widths):.0f} N.",
+        f"{before:.1f} N in the third quarter of the run and {last:.1f} N in the last quarter; the largest range of "
+        f"all is {max(widths):.0f} N.",
     )
 
 
