@@ -288,9 +288,6 @@ class Sources:
         kinds = flag_names(point["attractor_kind"])
         return float(point[name][list(kinds).index("separating")])
 
-    def ramp(self, name: str, i: int) -> float:
-        return float(self.grid("ramps")[name][i])
-
     def uncertain(self, study: str, N: float) -> xr.Dataset:
         """A point of a study of sensitivity."""
         grid = self.grid(study)

@@ -373,7 +373,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
     absent = (
-        f"At {listed(never, 'g')} N no speed tried up to {study['scan_Omega'].values[-1]:g} rad/s brings separation. "
+        f"At {listed(never, 'g')} N none of these (up to {study['scan_Omega'].values[-1]:g} rad/s) brings separation. "
     )
     begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
     parts = [

@@ -205,7 +205,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     return Answer(
         PART if falls and last.again else falls,
         f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds in steps of "
-        f"{float(study['scan_Omega'].diff('scan_Omega')[0]):g} rad/s; borders were found to 0.1 rad/s. {last.words}",
+        f"{float(study['scan_Omega'].diff('scan_Omega')[0]):g} rad/s, and of 0.1 rad/s near changes. {last.words}",
     )
 
 
