@@ -204,8 +204,9 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     falls, last = all(each.falls for each in lowest), lowest[-1]
     return Answer(
         PART if falls and last.again else falls,
-        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds in steps of "
-        f"{float(study['scan_Omega'].diff('scan_Omega')[0]):g} rad/s, and of 0.1 rad/s near changes. {last.words}",
+        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds up to "
+        f"{float(study['scan_Omega'][-1]):g} rad/s in steps of {float(study['scan_Omega'].diff('scan_Omega')[0]):g} "
+        f"rad/s, and of 0.1 rad/s where the outcome changes. {last.words}",
     )
 
 
