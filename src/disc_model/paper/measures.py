@@ -372,7 +372,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
     never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    absent = f"At {listed(never, 'g')} N no speed tried up to {study['scan_Omega'].values[-1]:g} rad/s brings separation. "
+    absent = f"At {listed(never, 'g')} N none of the speeds tried brings separation. "
     begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
     parts = [
         f"falls from {speeds[start]:.1f} (at {loads[start]:g} N) to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
