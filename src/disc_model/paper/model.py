@@ -133,7 +133,8 @@ class Row(BaseModel):
         which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
-            which = f"The {noun} from rest at {'; '.join(case.place for case in steady)} {verb}"
+            *others, last = [case.place for case in steady] or [""]
+            which = f"The {noun} from rest at {' and at '.join(filter(None, ['; at '.join(others), last]))} {verb}"
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **answer.values) for text in texts)
         return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))

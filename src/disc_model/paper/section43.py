@@ -310,7 +310,7 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
         stated=facts(study),
         newly=[*newly],
         c_p=c_p,
-        never=[*never[never > 300]],
+        never=[*never[never > newly.max(initial=0)]],
     )
 
 
