@@ -379,7 +379,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
-        parts += [f"lies within {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"]
+        parts += [f"falls again ({extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N)"]
     lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
     return Falls(True, bool(later), f"{begin}, {lowest}.")
 
