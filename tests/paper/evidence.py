@@ -119,12 +119,12 @@ def scans(windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapp
     windows : rad/s, where separation begins and ends, at three preloads or more
     """
     texts = TEXTS["scans"]
-    found = {name: grid(**texts.get(name, {}) | changes.get(name, {})) for name in texts | changes}
-    found = {name: study.assign_attrs(study=name) for name, study in found.items()}
+    found = {x: grid(**texts.get(x, {}) | changes.get(x, {})).assign_attrs(study=x) for x in texts | changes}
     speeds, preloads = np.array(windows)[:, None], [50.0, 200.0, 385.0, 500.0, 510.0]
     axes = {"normalization": ["as_published"], "N": preloads[: len(windows)], "horizon": [1000.0]}
     found["critical_speed"] = grid(
         axes | {"crossing_number": [0, 1], "scan_Omega": [5.0, 24.0]},
+        {"precision": 0.1},
         status=[["ok"] * len(windows)],
         critical_speed=[speeds[..., 0]],
         crossing=[speeds],

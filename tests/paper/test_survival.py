@@ -65,7 +65,7 @@ def at_fold(found: xr.Dataset, *begins: float, rate: float = -0.1) -> dict[str, 
 
 def critical(*speeds: float) -> dict[str, xr.Dataset]:
     axes = {"N": [50.0, 100.0, 200.0, 385.0], "horizon": [1000.0], "scan_Omega": [5.0, 24.0]}
-    return {"speed": grid(axes, critical_speed=np.array(speeds)[:, None], status=["ok"] * 4)}
+    return {"speed": grid(axes, {"precision": 0.1}, critical_speed=np.array(speeds)[:, None], status=["ok"] * 4)}
 
 
 def damping(name: str, without: np.ndarray, damped: np.ndarray, status: str = "ok") -> dict[str, xr.Dataset]:

@@ -133,8 +133,8 @@ class Row(BaseModel):
         which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
-            *others, last = [case.place for case in steady] or [""]
-            which = f"The {noun} from rest at {' and at '.join(filter(None, ['; at '.join(others), last]))} {verb}"
+            places = "; at ".join(case.place for case in steady)
+            which = f"The {noun} from rest at {' and at '.join(places.rsplit('; at ', 1))} {verb}"
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **answer.values) for text in texts)
         return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))

@@ -206,7 +206,7 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
         PART if falls and last.again else falls,
         f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds up to "
         f"{float(study['scan_Omega'][-1]):g} rad/s in steps of {float(study['scan_Omega'].diff('scan_Omega')[0]):g} "
-        f"rad/s, and of 0.1 rad/s where the outcome changes. {last.words}",
+        f"rad/s, and of {measures.facts(study)['precision']:g} rad/s where the outcome changes. {last.words}",
     )
 
 

@@ -208,12 +208,12 @@ def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
 
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
-    rate = stick_slip_rate(case)
+    rate, drive = stick_slip_rate(case), case.drive
     lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in lines if _from_combination(case, line, rate) <= COMBINED]
-    theirs, power = (sum(line.amplitude**2 for line in each) for each in (made, lines))
-    part, counts, drive = theirs / power, (len(made), len(lines)), case.drive
-    near = [abs(spectra.identify(f, rate, drive).deviation) <= COMBINED for f in np.arange(LOW, HIGH, 0.2)]
+    made = [line for line in lines if _is_combination(line.frequency, rate, drive)]
+    part = sum(line.amplitude**2 for line in made) / sum(line.amplitude**2 for line in lines)
+    counts = len(made), len(lines)
+    near = [_is_combination(f, rate, drive) for f in np.arange(LOW, HIGH, 0.2)]
     return Answer(part > share, place=case.place, counts=counts, rate=rate, drive=drive, part=part, near=np.mean(near))
 
 
@@ -222,9 +222,9 @@ def natural_frequencies(case: CaseView) -> measures.Array:
     return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
 
 
-def _from_combination(case: CaseView, line: spectra.Line, rate: float) -> float:
-    """Distance of a line from the nearest n f_s + m f_Omega, Hz."""
-    return abs(spectra.identify(line.frequency, rate, case.drive).deviation)
+def _is_combination(frequency: float, rate: float, drive: float) -> bool:
+    """Whether a frequency, Hz, lies within ``COMBINED`` of the nearest n f_s + m f_Omega."""
+    return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them
@@ -285,8 +285,7 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
 
 def stiffer_inplane(case: CaseView) -> Answer:
     """Whether growth rises with each stiffness up to its largest value."""
-    results = stiffened(case.parameters, "k_p", 20, 50).values()
-    known = [rates[np.isfinite(rates)] for rates in results]
+    known = [rates[np.isfinite(rates)] for rates in stiffened(case.parameters, "k_p", 20, 50).values()]
     steps = np.concatenate([np.diff(rates[: np.argmax(rates) + 1]) for rates in known])
     falls = int((steps <= 0).sum()), steps.size
     return Answer(falls[0] == 0, falls=falls, stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
