@@ -133,7 +133,7 @@ def first_separation(problem, t_end, h=STEP, consistent=False, bilateral=False, 
 CASES = [(385, 10), (385, 15), (385, 20), (600, 15), (600, 20), (200, 20), (200, 30)]
 """N and rad/s; the paper's disc with orthonormal modes, friction half a thickness above its middle plane."""
 BRAKE = [(N, Omega) for N in (8000, 16000) for Omega in (20, 40, 60, 80, 120)]
-"""The same on the disc of config/discs/brake.csv (docs/details.md)."""
+"""The same on the disc of config/discs/brake.csv (docs/details_friction.md)."""
 
 
 def compare_laws():
