@@ -8,7 +8,7 @@ import time as clock
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +19,7 @@ from disc_model.display import Progress, simulating
 from disc_model.engine import audit, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, Fault, Status, as_text, raise_faults, require, violations
+from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
@@ -45,9 +45,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 log = logging.getLogger(__name__)
-
-Choose = Callable[[Parameters, str], tuple[Parameters, str]]
-"""Maps a case and the JSON text of its choice of modes to the case with its modes and a record of the choice."""
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 STEPS_PER_PAUSE = 100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -149,30 +146,41 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
+    if (t_end is None) == (duration is None):
+        rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside {duration=!s}"
+        raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside duration={duration}"
-    wrong = (t_end is None) == (duration is None)
-    raise_faults([Fault(("t_end",), "" if t_end is None else as_text(t_end), rule)] * wrong)
-    until: Any = t_end if duration is None else duration
+    time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
+    name, until = ("t_end", t_end) if duration is None else ("duration", duration)
+    end: Any = until
     if isinstance(until, str):
         with suppress(ValueError):
-            until = number(in_si(until, "s", [], ()))
-    if duration is not None and isinstance(initial_state, State) and is_number(until):
-        until = initial_state.time + until
-    name = "t_end" if duration is None else "duration"
-    raise_faults(_faults(p, name, until, tol, initial_state, windows, events, stop_at, ramps, execution))
+            end = number(in_si(until, "s", [], ()))
+    if duration is not None and is_number(end):
+        end = time + end
+    begin = time if is_finite(time) else 0.0
+    rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
+    rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    rules = violations(
+        (isinstance(events, bool), "events", events, "must be True or False"),
+        (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
+        (is_finite(time), "initial_state.time", time, "must be finite"),
+        (is_number(end) and begin < end < math.inf, name, end, rule),
+        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
+        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
+    )
+    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules, *request_faults(p, windows, ramps)])
     # numbers of other types would make the engine compile again, and would round differently
-    start, end = 0.0 if initial_state is None else float(initial_state.time), float(until)
-    windows = {} if windows is None else windows
-    if windows:
-        windows = resolved_windows(windows, start, end)
-        late = [(name, window.start) for name, window in windows.items() if window.start > end]
-        rule = f"must be <= {as_text(end)}, where the run ends"
-        raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
-        for name, window in windows.items():
-            if window.stop < start:  # no error: the parts of a run may share windows
-                where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
-                warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
+    start, end = float(time), float(end)
+    windows = resolved_windows(windows, start, end) if windows else {}
+    rule = f"must be <= {as_text(end)}, where the run ends"
+    late = [(name, window.start) for name, window in windows.items() if window.start > end]
+    raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
+    for name, window in windows.items():
+        if window.stop < start:  # no error: the parts of a run may share windows
+            where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
+            warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show
@@ -184,51 +192,19 @@ def simulate(  # noqa: PLR0913
     return run.result(_STATUS[code])
 
 
-def _faults(  # noqa: PLR0913
-    p: object,
-    name: str,
-    t_end: Any,
-    tol: Any,
-    state: Any,
-    windows: Any,
-    events: object,
-    stop_at: Any,
-    ramps: object,
-    execution: Any,
-) -> list[str]:
-    """Every fault of the arguments of `simulate`, which has made a ramp a tuple; `name` is that of `t_end`."""
-    time = state.time if isinstance(state, State) else 0.0
-    start = time if is_finite(time) else 0.0
-    later, rule = is_number(t_end) and start < t_end < math.inf, ""
-    if not later:
-        rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(t_end, str) else rule
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    faults = foreign_case(p) + limits_faults("tol", tol, TOLERANCES)
-    faults += violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
-        (is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, name, t_end, rule),
-        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
-    )
-    return [*faults, *request_faults(p, windows, ramps)]
-
-
 @dataclass(eq=False)
 class _Run:
     """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that collect rows."""
 
     p: Parameters
     t_end: float
-    tol: float = 1e-10
-    initial_state: State | None = None
-    windows: Windows = field(default_factory=dict)
-    events: bool = True
-    stop_at: str | None = None
-    ramps: tuple[Ramp, ...] = ()
-    execution: Execution = _PLAIN
+    tol: float
+    initial_state: State | None
+    windows: Windows
+    events: bool
+    stop_at: str | None
+    ramps: tuple[Ramp, ...]
+    execution: Execution
 
     def __post_init__(self) -> None:
         self.case = case = engine_case(self.p)
@@ -304,13 +280,18 @@ class _Run:
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its arrays."""
+        x = self.state.x
+        message = f"{status.value}: at t = {self.time:.9g} s in {PHASES[int(x[layout.PHASE])]}"
+        if status is Status.PARADOX:
+            slope = float(np.dot(self.model.dw_dtheta, self.state.z))
+            message += f", psi = {x[layout.PSI]:.6g} rad, f = {x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
             tol=used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
             windows=self.windows,
             status=status,
-            message=_message(status, self.state, self.model),
+            message=message,
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
             final_state=read_state(self.case, self.state, self.key),
@@ -360,22 +341,12 @@ def _step_limit(model: layout.Model, duration: float) -> int:
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
-def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
-    time, phase = float(state.x[layout.TIME]), PHASES[int(state.x[layout.PHASE])]
-    text = f"{status.value}: at t = {time:.9g} s in {phase}"
-    if status is Status.PARADOX:
-        slope = float(np.dot(model.dw_dtheta, state.z))
-        text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
-    return text
-
-
 # ---- Initial states
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The initial state of a motion of case `p`, at time 0; None is the static start. Raises `SimulationError` if the
-    preceding motion ends early, `ParameterError` if its parameters break a rule, or its disc has another number of
-    modes."""
+    preceding motion ends early, `ParameterError` if its disc has another number of modes."""
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
     if start.prerun is not None:
@@ -388,7 +359,7 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
-    """The state of case `p` at a time (s) after its start; raises `SimulationError` if the motion ends earlier."""
+    """The state of case `p` at a time (s) after its start; raises `SimulationError`."""
     run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), events=False)
     return run.raise_for_status().final_state
 
@@ -401,23 +372,14 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 # ---- A case of a study
 
 
-def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
-    """Simulate a named case of a study; `disc_model.data.dataset` describes the layout of the tree.
-
-    A failure is recorded as a status in the dataset and does not end the study.
-
-    Parameters
-    ----------
-    choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
-        for a case that asks for such a choice
-    """
+def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
+    """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is recorded as a status.
+    `choose` is `disc_model.mode_choice.choose_when_run`, which only a case with `modes` needs."""
     from disc_model.data.dataset import json_attribute, scalars_dataset, to_tree
 
     p, truncation = spec.parameters, spec.truncation
     try:
         if spec.modes:
-            if choose is None:
-                raise TypeError("choose is needed where the modes are to be chosen")
             p, truncation = choose(p, spec.modes)
             log.info("modes chosen: %s", truncation)
         start = make_initial_state(p, spec.start, spec.tol)
@@ -432,7 +394,11 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree()
-        tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+        events, within, span = tree["events"].to_dataset(), slice(0), {}
+        if spec.events is not None:
+            within = slice(*events["time"].values.searchsorted(spec.events))
+            span = dict(zip(("kept_from", "kept_until"), spec.events, strict=True))
+        tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
     if truncation:
@@ -445,10 +411,3 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
         "specification_key": spec.key,
     }
     return tree
-
-
-def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
-    if span is None:
-        return events.isel(event=slice(0))
-    within = events.isel(event=slice(*events["time"].values.searchsorted(span)))
-    return within.assign_attrs(kept_from=span[0], kept_until=span[1])
