@@ -375,7 +375,9 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is recorded as a status.
     `choose` is `disc_model.mode_choice.choose_when_run`, which only a case with `modes` needs."""
-    from disc_model.data.dataset import json_attribute, scalars_dataset, to_tree
+    import xarray as xr
+
+    from disc_model.data.dataset import json_attribute, scalars_dataset
 
     p, truncation = spec.parameters, spec.truncation
     try:
@@ -390,7 +392,7 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     except DiscModelError as error:
         log.error("no result: %s", error)
         known = {"t_end": spec.t_end, "tol": spec.tol}
-        tree = to_tree({"": scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}")})
+        tree = xr.DataTree(scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}"))
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree()

@@ -121,13 +121,15 @@ class Result(Summarised, Pictures):
 
         Its root holds the scalars, and its groups are "events" (along `event`), and each window (along `time`).
         """
-        from disc_model.data.dataset import events_dataset, scalars_dataset, to_tree
+        import xarray as xr
+
+        from disc_model.data.dataset import events_dataset, scalars_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         windows = {name: self[name] for name in self.samples}
-        return to_tree({"": scalars, "events": events_dataset(self.events), **windows})
+        return xr.DataTree.from_dict({"/": scalars, "events": events_dataset(self.events), **windows})
 
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
