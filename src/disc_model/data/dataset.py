@@ -26,6 +26,7 @@ from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
+from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
@@ -59,26 +60,17 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    # netCDF variables cannot hold a mapping
-    numbers: dict[str, Any] = {"contact_compliance": _compliance(p), "disc": p.disc.model_dump_json() if p.disc else ""}
+    numbers: dict[str, Any] = {"disc": p.disc.model_dump_json() if p.disc else ""}  # netCDF variables hold no mapping
+    if p.contact_compliance == RESIDUAL:
+        numbers["contact_compliance"] = math.nan  # if no modes are left out for it, which has made the case fail
+        with contextlib.suppress(DiscModelError):
+            numbers["contact_compliance"] = contact_compliance(p)
     if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
         numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
     for name, value in (p.model_dump() | numbers).items():
         data[name] = ((), np.int8(CHOICES[name].index(value)) if name in CHOICES else value, attributes(name))
     attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
-
-
-def _compliance(p: Parameters) -> float:
-    """Compliance of the contact, m/N; nan if no modes are left out for it, which has then made the case fail."""
-    if p.contact_compliance != RESIDUAL:
-        return float(p.contact_compliance)
-    from disc_model.disc.flexibility import contact_compliance  # imports scipy, and jobs that read results do without
-
-    try:
-        return contact_compliance(p)
-    except DiscModelError:
-        return math.nan
 
 
 # ---- Trees and files

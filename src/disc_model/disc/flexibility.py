@@ -120,8 +120,8 @@ def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float
     """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`. The plate's
     point deflects by the harmonic l = 0 over 2 pi plus the sum of the others over pi."""
     value = np.empty(l.shape)
-    for order, particular in ((0, _axisymmetric), (1, _first)):
-        value[l == order] = _with_edges(order, particular(x), inner, x, nu)
+    for order in (0, 1):
+        value[l == order] = _with_edges(order, inner, x, nu)
     value[l >= 2] = _high_harmonics(l[l >= 2], inner, x, nu)
     return value
 
@@ -177,24 +177,16 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * at_slider, axis=0)
 
 
-def _axisymmetric(s: float) -> Array:
-    """Derivatives 0 to 3 at r = 1 of [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, which is flat up to the load: l = 0."""
+def _particular(l: int, s: float) -> Array:
+    """Derivatives 0 to 3 at r = 1 of a solution that is flat up to the load at s. For l = 0 it is
+    [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
     log = -np.log(s)
-    values = (1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2
-    return np.array(values) / 4
-
-
-def _first(s: float) -> Array:
-    """As `_axisymmetric` for l = 1: r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
-    log = -np.log(s)
-    return np.array(
-        [
-            1 / (16 * s) - s * log / 4 - s**3 / 16,
-            3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16,
-            6 / (16 * s) - s / 4 - 2 * s**3 / 16,
-            6 / (16 * s) + s / 4 + 6 * s**3 / 16,
-        ]
-    )
+    if l == 0:
+        return (
+            np.array([(1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2]) / 4
+        )
+    first = [1 / (16 * s) - s * log / 4 - s**3 / 16, 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16]
+    return np.array([*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16])
 
 
 def _logarithmic(l: int, r: float) -> Array:
@@ -207,9 +199,9 @@ def _logarithmic(l: int, r: float) -> Array:
     return np.array([[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]).T
 
 
-def _with_edges(l: int, particular: Array, inner: float, x: float, nu: float) -> float:
-    """Harmonic l = 0 or 1 at the load, where the particular solution is zero; `particular` is at r = 1."""
-    clamped, free = _logarithmic(l, inner), _logarithmic(l, 1.0)
+def _with_edges(l: int, inner: float, x: float, nu: float) -> float:
+    """Harmonic l = 0 or 1 at the load, where the particular solution is zero."""
+    clamped, free, particular = _logarithmic(l, inner), _logarithmic(l, 1.0), _particular(l, x)
     matrix = np.array([clamped[0], clamped[1], _moment(l, nu, free), _shear(l, nu, free)])
     right = -np.array([0.0, 0.0, _moment(l, nu, particular), _shear(l, nu, particular)])
     return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])

@@ -39,7 +39,14 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     except (OSError, TypeError, ValueError) as error:
         reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
         raise _fault(path, f"must be a text file that can be read ({reason})") from None
-    values: dict[str, Any] = {"static_compliance": _static_compliance(lines, path)}
+    stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
+    static = [match[1] for line in lines if (match := stated.fullmatch(line))]
+    if len(static) > 1:
+        raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
+    try:
+        values: dict[str, Any] = {"static_compliance": float(static[0]) if static else None}
+    except ValueError:
+        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(static[0])}: must be a number") from None
     try:
         return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
     except ParameterError as error:
@@ -218,17 +225,6 @@ def _text_of(numbers: tuple[Any, ...], further: dict[str, Any], static: float | 
     rows = [[*columns], *zip(*columns.values(), strict=True)]
     comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
-
-
-def _static_compliance(lines: list[str], path: object) -> float | None:
-    stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
-    values = [match[1] for line in lines if (match := stated.fullmatch(line))]
-    if len(values) > 1:
-        raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
-    try:
-        return float(values[0]) if values else None
-    except ValueError:
-        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(values[0])}: must be a number") from None
 
 
 def _column_faults(names: list[str]) -> list[Fault]:

@@ -21,23 +21,11 @@ from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
+from disc_model.simulation import states
 from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import (
-    State,
-    engine_case,
-    is_finite,
-    perturb,
-    read_state,
-    series_order,
-    series_tolerance,
-    static_start,
-    take_workspace,
-    transfer_state,
-    used_tolerance,
-    write_state,
-)
+from disc_model.simulation.states import State
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults, number
 
@@ -158,14 +146,14 @@ def simulate(  # noqa: PLR0913
             end = number(in_si(until, "s", [], ()))
     if duration is not None and is_number(end):
         end = time + end
-    begin = time if is_finite(time) else 0.0
+    begin = time if states.is_finite(time) else 0.0
     rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
     rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     rules = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
         (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
-        (is_finite(time), "initial_state.time", time, "must be finite"),
+        (states.is_finite(time), "initial_state.time", time, "must be finite"),
         (is_number(end) and begin < end < math.inf, name, end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
@@ -207,18 +195,18 @@ class _Run:
     execution: Execution
 
     def __post_init__(self) -> None:
-        self.case = case = engine_case(self.p)
+        self.case = case = states.engine_case(self.p)
         self.key = content_key(case.key + repr(self.ramps)) if self.ramps else case.key
-        model, order, state = case.model, series_order(self.tol), self.initial_state
-        self.state, self.probe, self.series = take_workspace(case, order)
-        at_switch = state is not None and write_state(case, state, self.state, self.key)
+        model, order, state = case.model, states.series_order(self.tol), self.initial_state
+        self.state, self.probe, self.series = states.take_workspace(case, order)
+        at_switch = state is not None and states.write_state(case, state, self.state, self.key)
         start, every_step, most = self.time, self.execution.audit_every_step, self.execution.max_steps
         longest = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
-            series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            states.series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
             self.t_end,
             self.stop_at is None,
             min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
@@ -275,7 +263,6 @@ class _Run:
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
-        """Arguments of `event_loop.run`."""
         return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
 
     def result(self, status: Status) -> Result:
@@ -288,13 +275,13 @@ class _Run:
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
-            tol=used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            tol=states.used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
             windows=self.windows,
             status=status,
             message=message,
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
-            final_state=read_state(self.case, self.state, self.key),
+            final_state=states.read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples=self.collector.finish(),
@@ -307,21 +294,16 @@ class _Run:
     def _statistics(self) -> dict[str, float]:
         def relative(residual: int, scale: int, turnover: int) -> float:
             """Sum of the residuals over the largest energy present plus all energy exchanged."""
-            size = total[scale] + total[turnover]
-            if not every_step:
-                return math.nan
-            return abs(total[residual]) / size if size > 0 else 0.0
+            size = total[scale] + total[turnover] if every_step else math.nan
+            return abs(total[residual]) / size if size else 0.0
 
         buffers, every_step, coupled = self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled)
         count, total = buffers.counters.tolist(), buffers.audit.tolist()
-        stick, slip, separation = buffers.phase_times.tolist()
         return {
             "steps": count[event_loop.STEPS],
             "events": count[event_loop.EVENTS],
             "separations": count[event_loop.SEPARATIONS],
-            "time_stick": stick,
-            "time_slip": slip,
-            "time_separation": separation,
+            **{f"time_{phase}": time for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)},
             "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
             "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
             "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
@@ -332,8 +314,7 @@ class _Run:
         }
 
 
-_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
-"""Compiled engines by blocks of lanes, laws of contact and ramp."""
+_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks of lanes, laws of contact and ramp
 
 
 def _step_limit(model: layout.Model, duration: float) -> int:
@@ -354,8 +335,8 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
         sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
         path, rule = "start.prerun.parameters.", "must be that of the case, "
         require(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
-        state = transfer_state(p, _end_of(other, start.prerun.time, tol))
-    return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
+        state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
+    return states.perturb(p, states.static_start(p) if state is None else state, **kick) if kick else state
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
@@ -367,9 +348,6 @@ def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
 @lru_cache(maxsize=8)
 def _end_of(p: Parameters, time: float, tol: float) -> State:
     return simulate(p, time, tol=tol).raise_for_status().final_state
-
-
-# ---- A case of a study
 
 
 def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:

@@ -95,11 +95,8 @@ class Collector:
 
     def finish(self) -> dict[str, dict[str, Array]]:
         """Samples of each window."""
-        columns = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
-        shaped = list(map(_columns, self._samples, columns))
-        for samples in shaped:
-            samples.pop("sampler", None)
-        return dict(zip(self._names, shaped, strict=True))
+        names = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
+        return dict(zip(self._names, map(_columns, self._samples, names), strict=True))
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
@@ -113,6 +110,7 @@ def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
         for column, values in zip(columns.values(), part.T, strict=True):
             column[start : start + len(part)] = values
         start += len(part)
+    columns.pop("sampler", None)
     return columns
 
 

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
 PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
 """Units of the variables in a state's file: one value a mode, and scalars."""
+SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -198,7 +199,7 @@ def transfer_state(p: Parameters, state: State) -> State:
     return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
-# ---- Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
+# ---- Conversion of `Parameters` and `State` to the engine's lanes and back
 
 # Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor series of one step
 Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
@@ -206,25 +207,16 @@ Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
 
 @dataclass(frozen=True, eq=False)
 class EngineCase:
-    """Constants of a case for the engine.  All runs of the case share them, and none writes to them.
-
-    start : the static start
-    amplitudes : `mode_amplitudes` of the states of the case
-    present : indices of the existing coordinates in the sequence a, b, alpha, beta of all modes; modes without nodal
-        diameter have no b and beta
-    places : their indices in `layout.EngineState.disc`
-    point : matrix from `layout.EngineState.disc` to u, u' (without the slope's share) and slope B under the slider
-    idle : workspaces that no run uses at present, by the order of their series; the only field that changes
-    """
+    """Constants of a case for the engine, shared by all runs of the case."""
 
     parameters: Parameters
     model: layout.Model
-    start: layout.EngineState
-    amplitudes: np.ndarray
-    present: np.ndarray
-    places: np.ndarray
-    point: np.ndarray
-    idle: defaultdict[int, list[Workspace]]
+    start: layout.EngineState  # the static start
+    amplitudes: np.ndarray  # `State.mode_amplitudes`
+    present: np.ndarray  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    places: np.ndarray  # their indices in `layout.EngineState.disc`
+    point: np.ndarray  # matrix from there to u, u' (without the slope's share) and slope B under the slider
+    idle: defaultdict[int, list[Workspace]]  # workspaces that no run uses at present, by the order of their series
 
     @cached_property
     def key(self) -> str:
@@ -309,9 +301,16 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[case.present]
-    if source.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
-        _check_height(case, source.u, state)
-    x = state.x
+    x, row = state.x, case.point[0]
+    if source.phase != "separation" and not case.model.compliant:  # the disc determines u, which would be ignored
+        w = float(row.dot(state.disc))
+        off = abs(source.u - w)
+        # the cheap comparison with w itself nearly always suffices
+        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+            rule = (
+                f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
+            )
+            raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
     x[layout.TIME], x[layout.TIME_LOW] = source.time, source.time_low
     x[layout.PSI], x[layout.F] = source.psi, source.f
     x[layout.U], x[layout.U_VELOCITY] = source.u, source.u_velocity
@@ -340,20 +339,6 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
         x[layout.PHASE], x[layout.DIRECTION] = layout.SLIP if f else layout.STICK, np.sign(f)
         return True
     return False
-
-
-SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
-
-
-def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
-    """Refuse another u in contact, where the disc determines the slider's height and u would be ignored."""
-    row = case.point[0]
-    w = float(row.dot(state.disc))
-    off = abs(u - w)
-    # the cheap comparison with w itself nearly always suffices
-    if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
-        rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
-        raise ParameterError(Fault(("initial_state", "u"), as_text(u), rule))
 
 
 def _faults(source: State, case: EngineCase) -> list[str]:
@@ -407,8 +392,6 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
     fits = size in (None, array.size) and (array.ndim == 1 or not flat)
     return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
 
-
-# ---- Order and local tolerance of the series, from the tolerance that a user gives
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors of event times over
 # a second equal the tolerance, as measured against the long-double references (docs/accuracy.md). Compliant contact
