@@ -33,6 +33,10 @@ RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
 # orthonormal, against 30 diameters and 8 circles), and growth rates and times depend on the frequencies.
 TRUSTED = 1e-4
+# diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes
+CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
+GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
+HORIZON = 600.0  # s, simulated at most until the first separation
 _PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters of a case
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
@@ -190,14 +194,6 @@ def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
 def real_modes(diameters: int, circles: int) -> int:
     """Number of real modes of a model: pairs count as two."""
     return (circles + 1) * (2 * diameters + 1)
-
-
-# ---- The choice
-
-# diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes
-CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
-GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
-HORIZON = 600.0  # s, simulated at most until the first separation
 
 
 def choose_modes(

@@ -27,13 +27,11 @@ from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
-
-
-# ---- The groups of a case
+Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def events_dataset(events: Any) -> xr.Dataset:
@@ -87,7 +85,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
         If the file cannot be written, for example because the disk is full.
     """
     if not isinstance(tree, xr.DataTree):
-        raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
+        raise ParameterError(Fault.of(("tree",), tree, "must be an xarray.DataTree"))
     write_atomically(regular_file(path), lambda name: _write(tree, name))
 
 
@@ -167,8 +165,6 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
 
 
 # ---- Tables of a result in files of several kinds
-
-Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def save_tables(tables: Tables, described: str, path: str | Path) -> None:
@@ -251,7 +247,7 @@ class UnreadableFile(DiscModelError):
 def regular_file(path: str | Path) -> Path:
     """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
     if not isinstance(path, str | os.PathLike) or (Path(path).exists() and not Path(path).is_file()):
-        raise ParameterError(Fault(("path",), as_text(str(path)), "must be the name of a file"))
+        raise ParameterError(Fault.of(("path",), str(path), "must be the name of a file"))
     return Path(path)
 
 
@@ -326,9 +322,6 @@ def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool =
     if (length := window.sizes["time"]) < at_least:
         raise Missing(f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed")
     return window
-
-
-# ---- Tables in Markdown
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:

@@ -139,15 +139,11 @@ def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
     return float(total / np.pi), float(abs(factor - 1) * tail / np.pi + ROUNDING * total)
 
 
-def _moment(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
-    """Radial moment at r = 1 of functions with the derivatives `w` (4, ...) there."""
-    return w[2] + nu * (w[1] - np.square(l) * w[0])
-
-
-def _shear(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
-    """Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
+def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:
+    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
     square = np.square(l)
-    return w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    shear = w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    return w[2] + nu * (w[1] - square * w[0]), shear
 
 
 def _power(n: Array, r: float) -> Array:
@@ -163,7 +159,7 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     largest = np.array([1.0, 1.0, inner, inner])[:, None]
     clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
-    moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
+    moment, shear = _free(l, nu, at_outer)
     matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged,
     # so that its powers are the last two
@@ -202,6 +198,6 @@ def _logarithmic(l: int, r: float) -> Array:
 def _with_edges(l: int, inner: float, x: float, nu: float) -> float:
     """Harmonic l = 0 or 1 at the load, where the particular solution is zero."""
     clamped, free, particular = _logarithmic(l, inner), _logarithmic(l, 1.0), _particular(l, x)
-    matrix = np.array([clamped[0], clamped[1], _moment(l, nu, free), _shear(l, nu, free)])
-    right = -np.array([0.0, 0.0, _moment(l, nu, particular), _shear(l, nu, particular)])
+    matrix = np.array([clamped[0], clamped[1], *_free(l, nu, free)])
+    right = -np.array([0.0, 0.0, *_free(l, nu, particular)])
     return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])

@@ -131,7 +131,7 @@ def radial_range(p: Parameters) -> tuple[float, float]:
     """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a disc has none."""
     if p.disc is None:
         return p.a, p.b
-    radii, _ = _given_shapes(p.disc, p.r_0)
+    radii = _given_shapes(p.disc, p.r_0)[0]
     return float(radii[0]), float(radii[-1])
 
 

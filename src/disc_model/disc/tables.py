@@ -30,6 +30,8 @@ COLUMNS = {
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
 SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")  # name of the column with the shapes at a radius
 STATIC_COMPLIANCE = "static_compliance_m_per_N"  # value that a comment line may give
+SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
+SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
 
 
 def read_disc(path: str | os.PathLike[str]) -> Disc:
@@ -51,12 +53,6 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
         return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
     except ParameterError as error:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
-
-
-# ---- Universal files of modal software
-
-SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
-SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
 
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
@@ -137,9 +133,6 @@ def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[float, float, flo
     return float(solution[0]), float(solution[1]) if l else 0.0, float(np.sum((moves - waves @ solution) ** 2))
 
 
-# ---- Tables as text
-
-
 def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
     """Names of the columns, and the cells of each mode; empty rows, which spreadsheets append, are skipped."""
     try:
@@ -192,7 +185,7 @@ def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str
 
 
 def damping_ratios(p: Parameters) -> Array:
-    """Damping ratios of the modes of a case; for a disc that is given by a table, exactly those of the table."""
+    """Damping ratios of the modes of a case; of a disc that is given by a table, exactly those of the table."""
     if p.disc is not None:
         return np.array(p.disc.damping_ratio)
     with np.errstate(invalid="ignore"):

@@ -72,13 +72,12 @@ class Execution:
     max_steps: int | None = None
 
     def __post_init__(self) -> None:
-        counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
-        shows = self.progress is None or isinstance(self.progress, bool) or callable(self.progress)
-        every = isinstance(self.audit_every_step, bool)
+        every, progress, most = self.audit_every_step, self.progress, self.max_steps
+        shows = progress is None or isinstance(progress, bool) or callable(progress)
         require(
-            (every, "audit_every_step", self.audit_every_step, "must be True or False"),
-            (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
-            (shows, "progress", self.progress, "must be a function of the time, or False"),
+            (isinstance(every, bool), "audit_every_step", every, "must be True or False"),
+            (most is None or (is_whole(most) and most >= 1), "max_steps", most, "must be a whole number >= 1"),
+            (shows, "progress", progress, "must be a function of the time, or False"),
         )
 
 
@@ -320,9 +319,6 @@ _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks 
 def _step_limit(model: layout.Model, duration: float) -> int:
     """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
-
-
-# ---- Initial states
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:

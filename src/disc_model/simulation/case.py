@@ -18,8 +18,6 @@ from disc_model.errors import Fault, ParameterError, as_text, raise_faults, requ
 from disc_model.parameters import AUTO, Parameters
 from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
-# ---- Recorded samples
-
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 

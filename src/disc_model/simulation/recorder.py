@@ -74,18 +74,14 @@ class Collector:
             self._events.append(events.copy())
         if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
             self.buffers = self.buffers._replace(event_rows=np.empty((BUFFER, len(event_loop.EVENT_ROW))))
-        for i in range(len(self._samples)):
-            self._take(i, rows[rows[:, 0] == i])
-
-    def _take(self, i: int, rows: Array) -> None:
-        fold, rest = self._folds[i], self._rest[i]
-        if len(rows):
-            (self._samples[i] if fold is None else rest).append(rows.copy())  # a view would keep the buffer
-        if fold is not None and sum(map(len, rest)) >= fold:
-            rows = np.concatenate(rest)
-            whole = len(rows) // fold * fold
-            rest[:] = [rows[whole:].copy()]
-            self._samples[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
+        for i, (fold, samples, rest) in enumerate(zip(self._folds, self._samples, self._rest, strict=True)):
+            if len(new := rows[rows[:, 0] == i]):  # a copy, as of every index that is a mask
+                (samples if fold is None else rest).append(new)
+            if fold is not None and sum(map(len, rest)) >= fold:
+                together = np.concatenate(rest)
+                whole = len(together) // fold * fold
+                rest[:] = [together[whole:].copy()]
+                samples.append(_fold(together[:whole].reshape(-1, fold, together.shape[1])))
 
     def events(self) -> Array:
         """All recorded events, shape (n, len(EVENT_ROW))."""

@@ -151,9 +151,6 @@ def modal_arrays(state: State) -> dict[str, Array]:
     return {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}
 
 
-# ---- States made without a simulation
-
-
 def static_start(p: Parameters) -> State:
     """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
     case = engine_case(p)
@@ -185,9 +182,8 @@ def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0
 
 
 def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case, transferred to case `p` at time 0. Modal coordinates are kept. If the modal amplitudes
-    differ, the slider keeps its distance from the disc, which is zero in rigid contact. A state with another number of
-    modes is passed on, and `simulate` refuses it."""
+    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance of slider and disc,
+    which is zero in rigid contact. A state with another number of modes is passed on, and `simulate` refuses it."""
     psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
@@ -268,7 +264,6 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
-    a, b, alpha, beta = modal.reshape(4, -1)
     x = state.x.tolist()
     phase, f = int(x[layout.PHASE]), x[layout.F]
     u, v = x[layout.U], x[layout.U_VELOCITY]
@@ -287,10 +282,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
         _roots=(int(x[layout.KNOWN]), int(x[layout.KNOWN_FORCE])),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
+        **dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
     )
 
 
