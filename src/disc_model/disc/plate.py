@@ -427,8 +427,7 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 
 
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
-    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x). Y and K are infinite
-    where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius."""
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
     from scipy import special  # takes 0.2 s, and merges and figures do without
 
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])

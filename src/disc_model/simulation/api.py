@@ -146,28 +146,32 @@ def simulate(  # noqa: PLR0913
     if duration is not None and is_number(end):
         end = time + end
     begin = time if states.is_finite(time) else 0.0
-    rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
-    rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
+    later, rule = is_number(end) and begin < end < math.inf, ""
+    if not later:
+        rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
+        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     rules = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
         (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
         (states.is_finite(time), "initial_state.time", time, "must be finite"),
-        (is_number(end) and begin < end < math.inf, name, end, rule),
+        (later, name, end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
     raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules, *request_faults(p, windows, ramps)])
     # numbers of other types would make the engine compile again, and would round differently
     start, end = float(time), float(end)
-    windows = resolved_windows(windows, start, end) if windows else {}
-    rule = f"must be <= {as_text(end)}, where the run ends"
-    late = [(name, window.start) for name, window in windows.items() if window.start > end]
-    raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
-    for name, window in windows.items():
-        if window.stop < start:  # no error: the parts of a run may share windows
-            where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
-            warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
+    windows = {} if windows is None else windows
+    if windows:
+        windows = resolved_windows(windows, start, end)
+        late = [(name, window.start) for name, window in windows.items() if window.start > end]
+        rule = f"must be <= {as_text(end)}, where the run ends"
+        raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
+        for name, window in windows.items():
+            if window.stop < start:  # no error: the parts of a run may share windows
+                where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
+                warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show

@@ -147,7 +147,7 @@ _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")  # readable names of groups that n
 
 def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]:
     """Faults of the windows of a run, each of which becomes a group of a file, beside others; and of its ramps."""
-    if isinstance(p, Parameters):
+    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
         turns = windows.values() if isinstance(windows, Mapping) else ()
         yield from ramp_faults(p, ramps, poincare=any(isinstance(window, Poincare) for window in turns))
     if windows is None:
@@ -232,14 +232,12 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
         return
     for name in RAMPED if ramps else ():
         if not getattr(p, name) > 0:
-            yield Fault((name,), as_text(getattr(p, name)), "must be > 0 where there are ramps")
-    for name in RAMPED:
-        of_name = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
-        of_name.sort(key=lambda entry: entry[1].start)
-        for (_, before), (i, ramp) in pairwise(of_name):
-            if ramp.start < before.end:
-                rule = f"must be >= {as_text(before.end)}, where the ramp of {name} before it ends"
-                yield Fault(("ramps", str(i), "start"), as_text(ramp.start), rule)
+            yield Fault.of((name,), getattr(p, name), "must be > 0 where there are ramps")
+        of_name = [(ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name]
+        for (_, _, end), (start, i, _) in pairwise(sorted(of_name)):
+            if start < end:
+                rule = f"must be >= {as_text(end)}, where the ramp of {name} before it ends"
+                yield Fault.of(("ramps", str(i), "start"), start, rule)
     if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
         rule = "must not be asked for on ramps of Omega: the drive has no period there"
         yield Fault(("record", "poincare"), "", rule)

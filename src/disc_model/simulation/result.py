@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,12 +87,10 @@ class Result(Summarised, Pictures):
         """The events as a table, made at its first use, because making it takes longer than a short simulation."""
         import pandas as pd
 
-        def words(name: str, meanings: tuple[str, ...]) -> pd.Categorical[str]:
-            return pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(meanings)))
-
-        columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
-        named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
-        return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
+        columns: dict[str, Any] = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
+            columns[name] = pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(words)))
+        return pd.DataFrame({name: column for name, column in columns.items() if name != "direction"})
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
         """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the shape of `times`.
