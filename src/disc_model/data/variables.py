@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from disc_model.errors import Status, StatusBase
 from disc_model.parameters import RATIOS, Parameters
 
+# in the order of the engine's numbers for them
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
-"""Phases and kinds of event, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
 
 
@@ -54,11 +54,11 @@ class CycleStatus(StatusBase):
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
+# Flags of the outcomes of motions that are followed until they settle, and of those that are followed to a horizon, or
+# until they separate; `failed`: not computed.
 LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
-"""Flags of the outcomes of motions that are followed until they settle; `failed`: not computed."""
 _SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
 OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
-"""Flags of the outcomes of motions that are followed to a horizon, or until they separate."""
 
 
 class Variable(NamedTuple):
@@ -93,8 +93,7 @@ class Variable(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
-STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
-"""Stable motions found near the static start: a cycle, steady sliding, rest on the disc."""
+STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")  # motions near the static start: a cycle, sliding, rest
 _FLAGS = {"kind": EVENT_KINDS, "phase": PHASES, "status": STATUSES}
 
 

@@ -200,6 +200,7 @@ class _Run:
     def __post_init__(self) -> None:
         self.case = case = states.engine_case(self.p)
         self.key = content_key(case.key + repr(self.ramps)) if self.ramps else case.key
+        self.compliant = self.p.contact_compliance != 0
         model, order, state = case.model, states.series_order(self.tol), self.initial_state
         self.state, self.probe, self.series = states.take_workspace(case, order)
         at_switch = state is not None and states.write_state(case, state, self.state, self.key)
@@ -209,7 +210,7 @@ class _Run:
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
-            states.series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            states.series_tolerance(self.tol, self.compliant),
             self.t_end,
             self.stop_at is None,
             min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
@@ -278,7 +279,7 @@ class _Run:
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
-            tol=states.used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            tol=min(self.tol, states.LOOSEST / states.LOCAL[self.compliant]),
             windows=self.windows,
             status=status,
             message=message,

@@ -7,7 +7,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -205,7 +205,7 @@ Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
 class EngineCase:
     """Constants of a case for the engine, shared by all runs of the case."""
 
-    parameters: Parameters
+    key: str  # `State.case_key`
     model: layout.Model
     start: layout.EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
@@ -213,10 +213,6 @@ class EngineCase:
     places: np.ndarray  # their indices in `layout.EngineState.disc`
     point: np.ndarray  # matrix from there to u, u' (without the slope's share) and slope B under the slider
     idle: defaultdict[int, list[Workspace]]  # workspaces that no run uses at present, by the order of their series
-
-    @cached_property
-    def key(self) -> str:
-        return self.parameters.key
 
 
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
@@ -245,7 +241,7 @@ def engine_case(p: Parameters) -> EngineCase:
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
-    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
+    return EngineCase(p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
@@ -390,11 +386,6 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
 # takes three times as many steps, and errors accumulate in the weakly damped vibration of the slider on it.
 LOCAL = (80.0, 5.0)
 LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event to event anyway, and may miss events
-
-
-def used_tolerance(tol: float, compliant: bool) -> float:
-    """The tolerance with which a run is computed: larger ones count as 1.25e-7, or 2e-6 on a compliant contact."""
-    return min(tol, LOOSEST / LOCAL[compliant])
 
 
 def series_tolerance(tol: float, compliant: bool = False) -> float:
