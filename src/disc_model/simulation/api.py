@@ -138,11 +138,10 @@ def simulate(  # noqa: PLR0913
         raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
-    name, until = ("t_end", t_end) if duration is None else ("duration", duration)
-    end: Any = until
-    if isinstance(until, str):
+    end: Any = t_end if duration is None else duration
+    if isinstance(end, str):
         with suppress(ValueError):
-            end = number(in_si(until, "s", [], ()))
+            end = number(in_si(end, "s", [], ()))
     if duration is not None and is_number(end):
         end = time + end
     begin = time if states.is_finite(time) else 0.0
@@ -155,7 +154,7 @@ def simulate(  # noqa: PLR0913
         (isinstance(events, bool), "events", events, "must be True or False"),
         (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
         (states.is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, name, end, rule),
+        (later, "t_end" if duration is None else "duration", end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )

@@ -51,11 +51,8 @@ def snapshots(
     numbers = _numbers(times)
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
-    rules = (
-        (starts, "initial_state", initial_state, "must be a State"),
-        (ascend, "times", times, "must be finite and ascend"),
-    )
-    raise_faults(foreign_case(p) + violations(*rules))
+    wrong = violations((starts, "initial_state", initial_state, "must be a State"))
+    raise_faults(foreign_case(p) + wrong + violations((ascend, "times", times, "must be finite and ascend")))
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state = static_start(p) if initial_state is None else initial_state
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"

@@ -147,13 +147,11 @@ class Pictures:
         >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
         require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
-        case, name = self._of(window, "end")
-        samples = draw("window_of", case, name)
         result: Any = self
+        samples = draw("window_of", *self._of(window, "end"))
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
-        states = import_module("disc_model.simulation.deflection").snapshots(
-            result.parameters, times, tol=result.tol, initial_state=result.initial_state
-        )
+        snapshots = import_module("disc_model.simulation.deflection").snapshots
+        states = snapshots(result.parameters, times, tol=result.tol, initial_state=result.initial_state)
         return draw("animate", result.parameters, states, samples, path, fps)
 
     def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
