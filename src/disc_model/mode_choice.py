@@ -1,9 +1,7 @@
 """How many modes a case needs: `choose_modes`, and requests for it in study files and on the command line.
 
-Files and the command line may give ``n_diameters: auto``, which `read_asked` reads. The choice by ``frequencies`` needs
-no simulation. The choice by a quantity of the motion takes the first model with which two larger ones agree; without
-agreement there is none, and the error gives the difference of the largest models. For a disc given by a table, the last
-candidate is the whole table.
+The choice by ``frequencies`` needs no simulation. The choice by a quantity of the motion takes the first model with
+which two larger ones agree; for a disc given by a table, the last candidate is the whole table.
 """
 
 from __future__ import annotations
@@ -29,13 +27,16 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
 FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
+# quantities by which modes may be chosen, and their default relative tolerances
 CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
-"""Quantities by which modes may be chosen, and their default relative tolerances."""
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
+# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
+# orthonormal, against 30 diameters and 8 circles), and growth rates and times depend on the frequencies.
 TRUSTED = 1e-4
-"""Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
-orthonormal, against 30 diameters and 8 circles).  A tighter tolerance would be met in appearance only, for any
-quantity, because growth rates and times depend on the frequencies."""
+# diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes
+CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
+GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
+HORIZON = 600.0  # s, simulated at most until the first separation
 _PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters of a case
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
@@ -84,21 +85,17 @@ class ModeChoice(Summarised):
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""
-        disc = self.parameters.disc
-        size = {"n_diameters": self.parameters.n_diameters, "n_circles": self.parameters.n_circles}
-        record: dict[str, Any] = {
-            **(size if disc is None else {"modes_of_the_table": len(disc.omega)}),
-            "tolerance": self.tolerance,
-            "error": self.error,
-            "modes": self.modes,
-            "compared_with": list(self.rich),
-        }
+        p, record = self.parameters, {name: getattr(self, name) for name in ("tolerance", "error", "modes")}
+        if p.disc is None:
+            record |= {"n_diameters": p.n_diameters, "n_circles": p.n_circles}
+        else:
+            record["modes_of_the_table"] = len(p.disc.omega)
         if self.quantity == FREQUENCIES:
             record["band"] = BAND
         else:
             values = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
             record |= {"quantity": self.quantity, "values": values}
-        return json.dumps(record, sort_keys=True)
+        return json.dumps(record | {"compared_with": list(self.rich)}, sort_keys=True)
 
 
 class ModeRequest(Strict):
@@ -157,14 +154,14 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one. The
-    parameters' own number of modes is then meaningless. Raises `ParameterError`."""
+    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one; the
+    parameters' own number of modes is then meaningless."""
     rest, request = asked_modes(values)
     return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None]:
-    """Values without those of `CHOOSING`, and the request that these make; raises `ParameterError`."""
+    """Values without those of `CHOOSING`, and the request that these make."""
     rest = {name: value for name, value in values.items() if name not in CHOOSING}
     stated = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
     if rest.get("n_diameters") != AUTO:
@@ -180,14 +177,14 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest 
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error of the coupled frequencies of ``p`` within the band, with ``rich`` as the reference. The
-    band reaches up to `BAND` times the disc's lowest frequency. A frequency of ``rich`` that is missing in ``p`` counts
-    as an error of 1."""
+    """Largest relative error of the coupled frequencies of ``p`` up to `BAND` times the disc's lowest frequency, with
+    ``rich`` as the reference."""
     mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
     return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
 
 
 def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
+    """Largest relative error of frequencies up to ``top``; 1 if one is missing."""
     right = right[right <= top]
     if mine.size < right.size:
         return 1.0
@@ -197,16 +194,6 @@ def _worst(mine: np.ndarray, right: np.ndarray, top: float) -> float:
 def real_modes(diameters: int, circles: int) -> int:
     """Number of real modes of a model: pairs count as two."""
     return (circles + 1) * (2 * diameters + 1)
-
-
-# ---- The choice
-
-CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
-"""Diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes."""
-GIVEN_UP = (4, 0)
-"""The search ends here if no model so far, of up to 34 modes, has the quantity: neither the candidates nor the models
-with which they are compared."""
-HORIZON = 600.0  # s, simulated at most until the first separation
 
 
 def choose_modes(
@@ -259,8 +246,7 @@ def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
 
 
 def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
-    """The requested choice: by a quantity of the motion, the first candidate with which larger models agree. Raises
-    `DiscModelError` if there is none."""
+    """The requested choice; raises `DiscModelError` if there is none."""
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
     values: dict[tuple[int, ...], float] = {}
@@ -274,11 +260,10 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
             count, chosen = count_modes(p, size), resized(p, size)
             return ModeChoice(chosen, request.tolerance, change, count, group[-1], request.quantity, values)
     changes = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
-    raise DiscModelError(
-        f"n_diameters: undecided: {request.quantity} still changes {changes} among {_listed(p, group)}, more than the "
-        f"tolerance {request.tolerance:g}; give the number of modes, a larger tolerance"
-        + ("" if p.contact_compliance else ", or contact_compliance='residual'")
-    )
+    changes += f" among {_listed(p, group)}, more than the tolerance {request.tolerance:g}"
+    advice = "give the number of modes, a larger tolerance"
+    advice += "" if p.contact_compliance else ", or contact_compliance='residual'"
+    raise DiscModelError(f"n_diameters: undecided: {request.quantity} still changes {changes}; {advice}")
 
 
 def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
@@ -304,7 +289,7 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
-# ---- Quantities of the motion. Most importers of this module do not need a simulation.
+# ---- Quantities of the motion; most importers of this module do not need a simulation
 
 
 def growth(p: Parameters) -> float:
@@ -319,9 +304,9 @@ def separation_rate(p: Parameters) -> float:
     first = _run(p, HORIZON, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
         return math.nan
-    start, length = first.first_separation + 20.0, 10.0
+    start = first.first_separation + 20.0
     late = _run(p, start, initial_state=first.final_state).final_state
-    return float(_run(p, start + length, initial_state=late).statistics["separations"]) / length
+    return float(_run(p, start + 10.0, initial_state=late).statistics["separations"]) / 10.0
 
 
 def _run(p: Parameters, t_end: float, **how: Any) -> Result:

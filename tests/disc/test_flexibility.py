@@ -81,8 +81,8 @@ def functions(s: float) -> list:
         *((lambda r, i=i: module._power(n, r)[:, i] * r ** n[i], lambda r, x=x: r**x) for i, x in enumerate(powers)),
         *((lambda r, i=i: module._logarithmic(0, r)[:, i], f) for i, f in enumerate(even)),
         *((lambda r, i=i: module._logarithmic(1, r)[:, i], f) for i, f in enumerate(odd)),
-        (lambda r: module._axisymmetric(s), lambda r: ((r**2 + s**2) * np.log(r / s) - r**2 + s**2) / 4),
-        (lambda r: module._first(s), lambda r: r**3 / (16 * s) - s * r * np.log(r / s) / 4 - s**3 / (16 * r)),
+        (lambda r: module._particular(0, s), lambda r: ((r**2 + s**2) * np.log(r / s) - r**2 + s**2) / 4),
+        (lambda r: module._particular(1, s), lambda r: r**3 / (16 * s) - s * r * np.log(r / s) / 4 - s**3 / (16 * r)),
     ]
 
 

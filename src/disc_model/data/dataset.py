@@ -3,9 +3,6 @@
 A case is a tree of groups, and so is its file. The root holds the scalars, and ``events`` has an entry for each event
 along `event`. Every recorded window is a group under its name, along `time`, and so is ``poincare``. No time stamps or
 run times are stored, so that equal runs give equal bytes.
-
-Files are written under a temporary name and then renamed, so that no file is ever half written. Arrays carry the
-checksums of HDF5 (fletcher32), which every reader compares.
 """
 
 from __future__ import annotations
@@ -29,13 +26,12 @@ from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
-
-
-# ---- The groups of a case
+Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def events_dataset(events: Any) -> xr.Dataset:
@@ -49,55 +45,33 @@ def events_dataset(events: Any) -> xr.Dataset:
 
 
 def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
-    """Samples of one window along the coordinate `time`; variables of an envelope end in ``_min`` and ``_max``.
-
-    theta : rad, angle at which ``w_point`` was taken
-    """
+    """Samples of one window along the coordinate `time`; ``w_point`` was taken at the angle `theta` (rad)."""
     kinds = {"phase": np.int8}
     data = {name: ("time", np.asarray(x, kinds.get(name, float)), attributes(name)) for name, x in samples.items()}
     return xr.Dataset(data, attrs={"theta": theta})
 
 
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
-    """The root of a case: its scalars.
-
-    values : values of `SCALARS` except the status; missing if not given, as most are of a case that failed
-    """
+    """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed, and the parameters."""
     known = {"status": STATUSES.index(status), **values}
     data: dict[str, Any] = {
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    numbers: dict[str, Any] = {"contact_compliance": _compliance(p)}
-    numbers["disc"] = p.disc.model_dump_json() if p.disc else ""  # netCDF variables cannot hold a mapping
+    numbers: dict[str, Any] = {"disc": p.disc.model_dump_json() if p.disc else ""}  # netCDF variables hold no mapping
+    if p.contact_compliance == RESIDUAL:
+        numbers["contact_compliance"] = math.nan  # if no modes are left out for it, which has made the case fail
+        with contextlib.suppress(DiscModelError):
+            numbers["contact_compliance"] = contact_compliance(p)
     if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
         numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
     for name, value in (p.model_dump() | numbers).items():
-        stored = np.int8(CHOICES[name].index(value)) if name in CHOICES else value
-        data[name] = ((), stored, attributes(name))
+        data[name] = ((), np.int8(CHOICES[name].index(value)) if name in CHOICES else value, attributes(name))
     attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
 
 
-def _compliance(p: Parameters) -> float:
-    """Compliance of the contact, m/N; nan if no modes are left out for it, which has then made the case fail."""
-    if p.contact_compliance != RESIDUAL:
-        return float(p.contact_compliance)
-    # imported here, because it imports scipy, for which jobs that only read results would have to wait
-    from disc_model.disc.flexibility import contact_compliance
-
-    try:
-        return contact_compliance(p)
-    except DiscModelError:
-        return math.nan
-
-
 # ---- Trees and files
-
-
-def to_tree(groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
-    """Groups by name, the root under "", as a tree."""
-    return xr.DataTree.from_dict({f"/{name}": dataset for name, dataset in groups.items()})
 
 
 def save(tree: xr.DataTree, path: str | Path) -> None:
@@ -111,14 +85,14 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
         If the file cannot be written, for example because the disk is full.
     """
     if not isinstance(tree, xr.DataTree):
-        raise ParameterError(Fault(("tree",), as_text(tree), "must be an xarray.DataTree"))
+        raise ParameterError(Fault.of(("tree",), tree, "must be an xarray.DataTree"))
     write_atomically(regular_file(path), lambda name: _write(tree, name))
 
 
 def _write(tree: xr.DataTree, name: str) -> None:
-    """Write a new file of a tree. All groups are defined before an array is written. `DataTree.to_netcdf` writes each
-    array as soon as it is defined, and for each one the library goes through all of the file's metadata: eight times
-    the time for 70 cases."""
+    """Write a new file of a tree, with all groups defined before an array is written. `DataTree.to_netcdf` writes each
+    array as soon as it is defined, after a pass through all of the file's metadata: eight times the time for 70
+    cases."""
     arrays: list[tuple[Any, Any]] = []
     collector = SimpleNamespace(add=lambda source, target: arrays.append((source, target)))
     with Dataset(name, "w") as root:
@@ -183,25 +157,25 @@ def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
+    """Encoding with the checksums of HDF5 (fletcher32), which every reader compares."""
     if variable.dtype.kind in "UO":
         return {"dtype": "S1"}
     compression = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
-    compressed = compression if variable.ndim and variable.size else {}
-    return {"_FillValue": None} | compressed
+    return {"_FillValue": None} | (compression if variable.ndim and variable.size else {})
 
 
 # ---- Tables of a result in files of several kinds
 
-Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
-
 
 def save_tables(tables: Tables, described: str, path: str | Path) -> None:
-    """Write tables and a text that describes them, as ".csv" or ".mat", atomically; `Result.save` says in which form.
-    Raises `ParameterError` if the suffix is another one, or MATLAB does not allow a table's name, and `WriteError`."""
+    """Write tables and a text that describes them, as ".csv" or ".mat", in the form of which `Result.save` tells."""
     file = regular_file(path)
     if file.suffix == ".csv":
         columns = json.dumps({name: [*table] for name, table in tables.items()})
-        frames = [pd.DataFrame({"table": name, **_in_words(table)}) for name, table in tables.items()]
+        frames = []
+        for name, table in tables.items():
+            words = {flag: np.array(meanings)[table[flag].astype(int)] for flag, meanings in _flags(table).items()}
+            frames.append(pd.DataFrame({"table": name, **table, **words}))
         text = f"# {columns}\n# {described}\n" + pd.concat([each for each in frames if len(each)]).to_csv(index=False)
         write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"))
     elif file.suffix == ".mat":
@@ -219,18 +193,16 @@ def save_tables(tables: Tables, described: str, path: str | Path) -> None:
 
 
 def load_tables(path: str | Path) -> tuple[str, Tables]:
-    """The text and the tables that `save_tables` has written; of netCDF the attribute `result` and the groups. The text
-    is empty if the file holds none. Raises `UnreadableFile`, and `MissingFile`."""
+    """The text, or "", and the tables that `save_tables` has written; of netCDF the attribute `result` and groups."""
     file = regular_file(path)
     if not file.exists():
         raise MissingFile(f"{path}: there is no such file")
     if file.suffix not in (".csv", ".mat"):
-        tree = load(file)
-        groups = {name: node.to_dataset(inherit=False).variables for name, node in tree.children.items()}
-        return tree.attrs.get("result", ""), {
-            name: {str(column): np.asarray(group[column], float) for column in sorted(group, key="time".__ne__)}
-            for name, group in groups.items()
-        }
+        tree, tables = load(file), {}
+        for name, node in tree.children.items():
+            group = node.to_dataset(inherit=False).variables
+            tables[name] = {str(key): np.asarray(group[key], float) for key in sorted(group, key="time".__ne__)}
+        return tree.attrs.get("result", ""), tables
     try:
         if file.suffix == ".mat":
             from scipy.io import loadmat
@@ -242,25 +214,19 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
         with file.open(encoding="utf-8") as lines:
             columns, described = json.loads(next(lines).removeprefix("# ")), next(lines).removeprefix("# ")
             frame = pd.read_csv(lines, dtype=str)  # since numpy reads numbers to the last bit
-        parts = {name: frame[frame["table"] == name].reindex(columns=known) for name, known in columns.items()}
-        return described, {name: _in_numbers(part) for name, part in parts.items()}
+        tables = {}
+        for name, known in columns.items():
+            part = frame[frame["table"] == name].reindex(columns=known)
+            numbers = {flag: pd.Categorical(part[flag], words).codes for flag, words in _flags(known).items()}
+            tables[name] = {key: np.array(numbers.get(key, part[key]), dtype=float) for key in known}
+        return described, tables
     except Exception as error:  # whatever a damaged file leads a library to
         raise UnreadableFile(f"{path}: cannot be read: {error}") from error
 
 
-def _in_words(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Columns in which flags are words."""
-    flags = {name: SERIES[name].flags for name in table if name in SERIES}
-    return {name: np.array(flags[name])[x.astype(int)] if flags.get(name) else x for name, x in table.items()}
-
-
-def _in_numbers(frame: pd.DataFrame) -> dict[str, Any]:
-    """Columns in which flags are numbers again."""
-    flags = {str(name): SERIES[str(name)].flags for name in frame if name in SERIES}
-    return {
-        str(name): np.array(pd.Categorical(x, flags[str(name)]).codes if flags.get(str(name)) else x, dtype=float)
-        for name, x in frame.items()
-    }
+def _flags(table: Iterable[Any]) -> dict[str, tuple[str, ...]]:
+    """The words of those columns that are flags."""
+    return {name: SERIES[name].flags for name in table if name in SERIES and SERIES[name].flags}
 
 
 # ---- Whole files
@@ -279,22 +245,15 @@ class UnreadableFile(DiscModelError):
 
 
 def regular_file(path: str | Path) -> Path:
-    """A path that leads to a file or to nothing; raises `ParameterError` otherwise, as for a folder or a device."""
+    """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
     if not isinstance(path, str | os.PathLike) or (Path(path).exists() and not Path(path).is_file()):
-        raise ParameterError(Fault(("path",), as_text(str(path)), "must be the name of a file"))
+        raise ParameterError(Fault.of(("path",), str(path), "must be the name of a file"))
     return Path(path)
 
 
 def write_atomically(path: Path, write: Callable[[str], object]) -> None:
-    """Write a file under a temporary name and rename it: after a failure `path` is unchanged.
-
-    A symbolic link stays, and the file that it leads to is replaced. Raises `WriteError` if the folder does not exist,
-    the disk is full, or the file may not be that large.
-
-    Parameters
-    ----------
-    write : function that writes the file whose name it receives, a new one in the same folder
-    """
+    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is unchanged. A symbolic
+    link stays, and the file that it leads to is replaced. Raises `WriteError`."""
     target = Path(os.path.realpath(path))
     if not target.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
@@ -314,21 +273,20 @@ def write_atomically(path: Path, write: Callable[[str], object]) -> None:
 
 def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
     """Read files that other jobs wrote by `save`; one `UnreadableFile` names all that cannot be read."""
-    trees, unreadable = [], []
+    trees, unreadable = [], {}
     for path in paths:
         try:
             trees.append(load(path))
         except UnreadableFile as error:
-            unreadable.append((path, str(error)))
+            unreadable[str(path)] = str(error)
     if unreadable:
-        command = "rm " + " ".join(shlex.quote(str(path)) for path, _ in unreadable)
-        advice = f"Delete what cannot be read and run the same command again, which computes it anew:\n{command}"
-        raise UnreadableFile("\n".join([*(text for _, text in unreadable), advice]))
+        advice = "Delete what cannot be read and run the same command again, which computes it anew:"
+        raise UnreadableFile("\n".join([*unreadable.values(), advice, f"rm {shlex.join(unreadable)}"]))
     return trees
 
 
 def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
-    """Read files as `load_inputs` does, into a mapping by the names of the files, such as those of cases or studies."""
+    """The trees of `load_inputs` by the names of their files, such as those of cases or studies."""
     return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
 
 
@@ -366,14 +324,7 @@ def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool =
     return window
 
 
-# ---- Tables in Markdown
-
-
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
     """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell is escaped."""
-    names = list(head)
-    return [_line(names), _line(["---"] * len(names)), *map(_line, rows)]
-
-
-def _line(cells: Iterable[object]) -> str:
-    return "| " + " | ".join(str(cell).replace("|", r"\|") for cell in cells) + " |"
+    cells = [[str(cell).replace("|", r"\|") for cell in row] for row in (head, *rows)]
+    return [f"| {' | '.join(row)} |" for row in (cells[0], ["---"] * len(cells[0]), *cells[1:])]

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from disc_model.errors import Status, StatusBase
 from disc_model.parameters import RATIOS, Parameters
 
+# in the order of the engine's numbers for them
 PHASES = ("stick", "slip", "separation")
 EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
-"""Phases and kinds of event, in the order of the engine's numbers for them."""
 STATUSES = (*(status.value for status in Status), "failed")
 
 
@@ -54,41 +54,32 @@ class CycleStatus(StatusBase):
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
+# Flags of the outcomes of motions that are followed until they settle, and of those that are followed to a horizon, or
+# until they separate; `failed`: not computed.
 LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
-"""Flags of the outcomes of motions that are followed until they settle; `failed`: not computed."""
 _SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
 OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
-"""Flags of the outcomes of motions that are followed to a horizon, or until they separate."""
 
 
 class Variable(NamedTuple):
-    """Unit, name in words and, for a flag, the words that its values stand for.
-
-    dims : dimensions beyond those of the grid, for a variable that is computed at the points of a grid
-    whole : whether its values are whole numbers
-    """
+    """A variable of a dataset."""
 
     units: str
     long_name: str
-    flags: tuple[str, ...] = ()
-    dims: tuple[str, ...] = ()
-    whole: bool = False
+    flags: tuple[str, ...] = ()  # the words that the values of a flag stand for
+    dims: tuple[str, ...] = ()  # dimensions beyond those of the grid on which it is computed
+    whole: bool = False  # whether its values are whole numbers
 
     @property
     def attributes(self) -> dict[str, Any]:
         """The variable's CF attributes; without ``units`` if they are "", as for words."""
-        attrs: dict[str, Any] = {"units": self.units} if self.units else {}
-        attrs["long_name"] = self.long_name
-        if self.flags:
-            attrs["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
-            attrs["flag_meanings"] = " ".join(self.flags)
-        return attrs
+        flags = {"flag_values": np.arange(len(self.flags), dtype=np.int8), "flag_meanings": " ".join(self.flags)}
+        units = {"units": self.units} if self.units else {}
+        return {**units, "long_name": self.long_name, **(flags if self.flags else {})}
 
     @property
     def dtype(self) -> type[np.generic]:
-        if self.flags:
-            return np.int8
-        return np.int64 if self.whole else np.float64
+        return np.int8 if self.flags else np.int64 if self.whole else np.float64
 
     @property
     def missing(self) -> float:
@@ -102,13 +93,11 @@ class Variable(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
-STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
-"""Stable motions found near the static start: a cycle, steady sliding, rest on the disc."""
+STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")  # motions near the static start: a cycle, sliding, rest
 _FLAGS = {"kind": EVENT_KINDS, "phase": PHASES, "status": STATUSES}
 
 
 def _variables(section: str) -> dict[str, Variable]:
-    """Variables of a section of the table, by their names."""
     return {
         name: Variable(units, long_name, _FLAGS.get(name, ()), whole="whole" in marks)
         for name, (units, long_name, *marks) in _TABLES[section].items()
@@ -125,9 +114,9 @@ CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
 }
 _OF_RATIOS = {name: Variable("1", f"{name_above} relative to {other}") for name, (name_above, other) in RATIOS.items()}
+# names in tables and figures of points without a stick-slip cycle, by their status
 WITHOUT_CYCLE = {"no_cycle": "no cycle found", "separates": "immediate separation"}
 WITHOUT_CYCLE |= {"no_stick_slip": "steady sliding", "at_rest": "permanent stick"}
-"""Names in tables and figures of points without a stick-slip cycle, by their status."""
 EXCLUDED = "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
 START = "start"  # the dimension of a grid along which the initial conditions vary
 SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distributed parameters
@@ -161,16 +150,16 @@ def typeset(text: str) -> str:
 
 
 class Shown(NamedTuple):
-    """Presentation of a variable to readers: name, symbol, unit, and the factor from SI to that unit."""
+    """Presentation of a variable to readers."""
 
     name: str
     symbol: str
     unit: str
-    factor: float = 1.0
+    factor: float = 1.0  # from SI to the unit
 
 
+# numeric parameters, their ratios, perturbations, and sampled variables
 SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
-"""Presentation of numeric parameters, their ratios, perturbations, and sampled variables."""
 SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "") for name, pair in RATIOS.items()}
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
@@ -185,10 +174,7 @@ def presentation_of(name: str) -> Shown:
 
 
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
-    """Label of the axis of a variable or of a number of a mode, and the factor from SI to its unit.
-
-    where : text after the name, such as an angle
-    """
+    """Label of an axis, with a text after the name, such as an angle; and the factor from SI to its unit."""
     shown = presentation_of(name)
     unit = f" ({shown.unit})" if shown.unit else ""
     return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
@@ -200,15 +186,13 @@ def stated_in(study: Any, what: str) -> dict[str, Any]:
 
 
 def angles_text(angles: Iterable[float]) -> str:
-    """Different angles, with their unit: "0.5 and 1 rad"."""
+    """Different angles: "0.5 and 1 rad"."""
     return " and ".join(f"{angle:g}" for angle in sorted({*angles})) + " rad"
 
 
 def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})) -> str:
-    """Text with N, Omega and all parameter values that differ from Table 1, with units.
-
-    units : other units than those of `SHOWN`, with the factor from SI, by parameter
-    """
+    """Text with N, Omega and all parameter values that differ from Table 1, in the units of `SHOWN` or in other
+    `units`, given with the factor from SI."""
     texts = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):

@@ -1,9 +1,7 @@
 """Modes of an axisymmetric solid by finite elements of its section: from the drawing of a disc with a hat to a `Disc`.
 
 With u_r cos(l theta), u_z cos(l theta) and u_theta sin(l theta) the elasticity of a solid of revolution separates into
-one problem on the section for each number l of nodal diameters.  It is solved with quadratic quadrilaterals of
-scikit-fem (extra ``fe``).  The shapes are mass-normalised over the whole solid, so that the axial displacement under
-the slider is the amplitude that a `Disc` requires.
+one problem on the section for each number l of nodal diameters.  Shapes are mass-normalised over the whole solid.
 """
 
 from __future__ import annotations
@@ -28,25 +26,14 @@ if TYPE_CHECKING:
     from skfem import MeshQuad
 
 SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
-MOST_ELEMENTS = 100_000
-"""Largest number of elements in the rectangle around a section; more indicate a mistake in units."""
-MOST_MODES = 64
-"""Largest number of modes with equal nodal diameters; more indicate a mistake in units, and would take minutes."""
+# more indicate a mistake in units
+MOST_ELEMENTS = 100_000  # in the rectangle around a section
+MOST_MODES = 64  # with equal nodal diameters
 
 
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
-    """Make a mesh of a section that is a union of rectangles.
-
-    Parameters
-    ----------
-    rectangles : (r from, r to, z from, z to) of each rectangle, m
-    size : m, largest edge of an element
-
-    Returns
-    -------
-    skfem.MeshQuad
-        With a line of nodes along every edge of every rectangle.
-    """
+    """A mesh of a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every edge of each;
+    `size`: m, largest edge of an element."""
     mesh_type = _skfem().MeshQuad
     numbers = [tuple(map(float, rectangle)) for rectangle in rectangles]
     for i, box in enumerate(numbers or [()]):
@@ -83,7 +70,7 @@ def disc_of_section(
     highest_Hz: float,
     damping_ratio: float = 0.0,
 ) -> Disc:
-    """Find the modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
+    """The modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
@@ -138,8 +125,8 @@ def _pieces(mesh: MeshQuad) -> int:
 def _harmonic(
     basis: Any, l: int, material: tuple[float, float, float], held: Any, measured: NDArray[np.intp], highest: float
 ) -> tuple[list[float], list[list[float]]]:
-    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of some unknowns. The
-    sign of a mode makes the first of these unknowns positive."""
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of the measured
+    unknowns, the first of which the sign of a mode makes positive."""
     from scipy.sparse.linalg import eigsh
 
     stiffness, mass = _matrices(basis, l, *material)
@@ -178,9 +165,8 @@ def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any,
 
     def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
         first, second = strain(u, w, v, point.x[0]), strain(u_, w_, v_, point.x[0])
-        doubled = sum(
-            (2 * shear if i < 3 else shear) * a * b for i, (a, b) in enumerate(zip(first, second, strict=True))
-        )
+        factors = [2 * shear] * 3 + [shear] * 3
+        doubled = sum(c * a * b for c, a, b in zip(factors, first, second, strict=True))
         return (lame * sum(first[:3]) * sum(second[:3]) + doubled) * point.x[0]
 
     def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:

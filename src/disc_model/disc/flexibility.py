@@ -2,8 +2,7 @@
 
 Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over all its modes.  That
 is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in
-closed form here.  The difference from the sum over the modes kept is the residual flexibility, which
-``contact_compliance="residual"`` places in the contact.
+closed form.  The difference from the sum over the modes kept is the residual flexibility.
 
 For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of the two edges: four
 functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
@@ -21,11 +20,9 @@ from disc_model.display import Summarised, number_text
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
-HIGHEST_HARMONIC = 4096
-"""Highest harmonic of the sum; beyond it the plate is as if unbounded, unless the slider runs on its very edge."""
+HIGHEST_HARMONIC = 4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
 ROUNDING = 1e-13  # relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l
-MODAL_SUM = (60, 20)
-"""Diameters and circles of the modal sum that represents all modes if the modes are ``as_published``."""
+MODAL_SUM = (60, 20)  # diameters and circles of the sum that stands for all modes if these are ``as_published``
 
 
 @dataclass(frozen=True)
@@ -81,39 +78,33 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     '3.17e-07 m/N'
     """
     raise_faults(foreign_case(p))
-    of_kept_modes = _modal_sum(p)
+    kept = _modal_sum(p)
     if p.disc is not None:
         if p.disc.static_compliance is None:
             rule = "must be given for the compliance of the modes left out"
             raise ParameterError(Fault(("disc", "static_compliance"), "None", rule))
-        return Flexibility(p.disc.static_compliance, of_kept_modes, 0.0)
+        return Flexibility(p.disc.static_compliance, kept, 0.0)
     if p.normalization == "orthonormal":
         value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
-        return Flexibility(value * p.b**2 / p.D, of_kept_modes, bound * p.b**2 / p.D)
+        return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
     diameters, circles = MODAL_SUM
     whole = _modal_sum(p.replace(n_diameters=diameters, n_circles=circles))
     half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
-    return Flexibility(whole, of_kept_modes, (whole - half) / 3)
+    return Flexibility(whole, kept, (whole - half) / 3)
 
 
 def contact_compliance(p: Parameters) -> float:
-    """Compliance of a case's contact as a number, m/N.
-
-    Raises
-    ------
-    ParameterError
-        If the residual flexibility is requested, but the modes of the case leave no mode out.
-    """
+    """Compliance of a case's contact, m/N; raises `ParameterError` if "residual" is asked for and no mode left out."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
-    value = residual_flexibility(p).residual
-    if not value > 0:
+    flexibility = residual_flexibility(p)
+    if not flexibility.residual > 0:
         if p.disc is not None:
-            rule = f"must be greater than what its modes give at the slider, {residual_flexibility(p).kept:.6g} m/N"
+            rule = f"must be greater than what its modes give at the slider, {flexibility.kept:.6g} m/N"
             raise ParameterError(Fault.of(("disc", "static_compliance"), p.disc.static_compliance, rule))
         rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
         raise ParameterError(Fault.of(("contact_compliance",), RESIDUAL, rule))
-    return value
+    return flexibility.residual
 
 
 def _modal_sum(p: Parameters) -> float:
@@ -126,13 +117,11 @@ def _modal_sum(p: Parameters) -> float:
 
 
 def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
-    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`.
-
-    The plate's point deflects by the harmonic l = 0 over 2 pi plus the sum of the others over pi.  Shape of `l`.
-    """
+    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`. The plate's
+    point deflects by the harmonic l = 0 over 2 pi plus the sum of the others over pi."""
     value = np.empty(l.shape)
-    for order, particular in ((0, _axisymmetric), (1, _first)):
-        value[l == order] = _with_edges(order, particular(x), inner, x, nu)
+    for order in (0, 1):
+        value[l == order] = _with_edges(order, inner, x, nu)
     value[l >= 2] = _high_harmonics(l[l >= 2], inner, x, nu)
     return value
 
@@ -150,15 +139,11 @@ def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
     return float(total / np.pi), float(abs(factor - 1) * tail / np.pi + ROUNDING * total)
 
 
-def _moment(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
-    """Radial moment at r = 1 of functions with the derivatives `w` (4, ...) there."""
-    return w[2] + nu * (w[1] - np.square(l) * w[0])
-
-
-def _shear(l: NDArray[np.int64] | int, nu: float, w: Array) -> Array:
-    """Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
+def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:
+    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
     square = np.square(l)
-    return w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    shear = w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    return w[2] + nu * (w[1] - square * w[0]), shear
 
 
 def _power(n: Array, r: float) -> Array:
@@ -174,43 +159,30 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     largest = np.array([1.0, 1.0, inner, inner])[:, None]
     clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
-    moment, shear = _moment(l, nu, at_outer), _shear(l, nu, at_outer)
+    moment, shear = _free(l, nu, at_outer)
     matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged,
     # so that its powers are the last two
     near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
     outside = [far / (n - 1), -far * x**2 / (n + 1)]
-    right = np.stack(
-        [
-            inside[0] + inside[1],
-            (inside[0] * n + inside[1] * (n + 2)) / n,
-            (outside[0] * moment[3] + outside[1] * moment[2]) / n**2,
-            (outside[0] * shear[3] + outside[1] * shear[2]) / n**3,
-        ]
-    )
+    at_clamp = [inside[0] + inside[1], (inside[0] * n + inside[1] * (n + 2)) / n]
+    at_edge = [(outside[0] * w[3] + outside[1] * w[2]) / n**i for i, w in ((2, moment), (3, shear))]
+    right = np.stack([*at_clamp, *at_edge])
     edges = np.linalg.solve(np.moveaxis(matrix, -1, 0), -right.T[..., None])[..., 0]
     return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * at_slider, axis=0)
 
 
-def _axisymmetric(s: float) -> Array:
-    """Derivatives 0 to 3 at r = 1 of [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, which is flat up to the load: l = 0."""
+def _particular(l: int, s: float) -> Array:
+    """Derivatives 0 to 3 at r = 1 of a solution that is flat up to the load at s. For l = 0 it is
+    [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
     log = -np.log(s)
-    values = (1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2
-    return np.array(values) / 4
-
-
-def _first(s: float) -> Array:
-    """As `_axisymmetric` for l = 1: r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
-    log = -np.log(s)
-    return np.array(
-        [
-            1 / (16 * s) - s * log / 4 - s**3 / 16,
-            3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16,
-            6 / (16 * s) - s / 4 - 2 * s**3 / 16,
-            6 / (16 * s) + s / 4 + 6 * s**3 / 16,
-        ]
-    )
+    if l == 0:
+        return (
+            np.array([(1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2]) / 4
+        )
+    first = [1 / (16 * s) - s * log / 4 - s**3 / 16, 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16]
+    return np.array([*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16])
 
 
 def _logarithmic(l: int, r: float) -> Array:
@@ -223,9 +195,9 @@ def _logarithmic(l: int, r: float) -> Array:
     return np.array([[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]).T
 
 
-def _with_edges(l: int, particular: Array, inner: float, x: float, nu: float) -> float:
-    """Harmonic l = 0 or 1 at the load, where the particular solution is zero; `particular` is at r = 1."""
-    clamped, free = _logarithmic(l, inner), _logarithmic(l, 1.0)
-    matrix = np.array([clamped[0], clamped[1], _moment(l, nu, free), _shear(l, nu, free)])
-    right = -np.array([0.0, 0.0, _moment(l, nu, particular), _shear(l, nu, particular)])
+def _with_edges(l: int, inner: float, x: float, nu: float) -> float:
+    """Harmonic l = 0 or 1 at the load, where the particular solution is zero."""
+    clamped, free, particular = _logarithmic(l, inner), _logarithmic(l, 1.0), _particular(l, x)
+    matrix = np.array([clamped[0], clamped[1], *_free(l, nu, free)])
+    right = -np.array([0.0, 0.0, *_free(l, nu, particular)])
     return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])

@@ -2,12 +2,10 @@
 
 With w = R(r) cos/sin(l theta), R = A J_l + B Y_l + C I_l + G K_l of beta r and beta^4 = rho h omega^2 / D,
 the four edge conditions are a homogeneous system whose determinant vanishes at the modes (the paper's Eqs.
-(13) to (17)). Lengths are measured in outer radii here: x = r/b, lambda = beta b; the spectrum lambda depends
-on a/b, nu and l alone.
+(13) to (17)). Lengths are in outer radii: x = r/b, lambda = beta b; lambda depends on a/b, nu and l alone.
 
-Bessel functions span hundreds of decades (Y_60(1) is about 1e96), so that each of the four columns is scaled
-by a factor whose logarithm is kept; see `_columns`. Roots are bracketed on a grid, refined inside their
-brackets, and checked against the oscillation count: mode c of any l has exactly c nodal circles.
+Bessel functions span hundreds of decades, so that each of the four columns is scaled by a factor whose logarithm is
+kept. Roots are bracketed on a grid, refined, and checked: mode c of any l has exactly c nodal circles.
 """
 
 from __future__ import annotations
@@ -30,8 +28,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
-WIDEST = 1e11
-"""Greatest ratio of squared frequencies of disc and slider. Their error is then 1e-5, compared with 60 digits."""
+WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
 
 def plate_modes(p: Parameters) -> pd.DataFrame:
@@ -100,10 +97,7 @@ class Modes:
 
 
 def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """The modes of `plate_modes` without the cost of a table: the same read-only arrays at every call.
-
-    normalization : replaces that of the case if it is given
-    """
+    """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization` replaces the case's."""
     if p.disc is not None:
         return modes_of_table(p.disc)
     return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
@@ -137,12 +131,12 @@ def radial_range(p: Parameters) -> tuple[float, float]:
     """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a disc has none."""
     if p.disc is None:
         return p.a, p.b
-    radii, _ = _given_shapes(p.disc, p.r_0)
+    radii = _given_shapes(p.disc, p.r_0)[0]
     return float(radii[0]), float(radii[-1])
 
 
 def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and the shapes of a table at these; at the slider the amplitudes replace the shapes."""
+    """Radii, and the shapes of a table at these; at the slider the amplitudes replace them."""
     if not disc.radii:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
@@ -186,22 +180,8 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:
-    """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending.
-
-    Parameters
-    ----------
-    compliance : m/N, compliance of the contact, instead of that of the case
-    kept : index or mask of the n modes of the disc that take part, by default of all
-
-    Returns
-    -------
-    shape (n,); (n + 1,) on a compliant contact
-
-    Raises
-    ------
-    ModeError
-        If the frequencies differ so much that rounding makes the highest inaccurate.
-    """
+    """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending: (n,),
+    or (n + 1,) with a `compliance` of the contact (m/N). `kept` selects n of the disc's modes. Raises `ModeError`."""
     return np.sort(1 / np.sqrt(_inverse_squares(p, compliance, kept, eigvals_only=True)))
 
 
@@ -227,20 +207,16 @@ def _inverse_squares(p: Parameters, compliance: float, taking_part: Any = slice(
     except (linalg.LinAlgError, ValueError):  # a matrix that is singular by rounding, or not finite
         resolved = False
     if not resolved:
-        raise ModeError(
-            f"disc and slider at rest: m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N "
-            f"and disc modes of {omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s: squared frequencies "
-            f"must be within a factor of {WIDEST:g}"
-        )
+        case = f"m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N and disc modes of "
+        case += f"{omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s"
+        rule = f"squared frequencies must be within a factor of {WIDEST:g}"
+        raise ModeError(f"disc and slider at rest: {case}: {rule}")
     return solution
 
 
 def _coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
-    """Both matrices of M y = lambda^-2 K y: the problem of `coupled_natural_frequencies` with y = omega v.
-
-    Dividing by the frequencies keeps the lowest ones accurate beside the highest. On a compliant contact the last
-    coordinate is u over the square root of its compliance.
-    """
+    """Both matrices of M y = lambda^-2 K y: `coupled_natural_frequencies` with y = omega v, so that low frequencies
+    stay accurate beside high ones. On a compliant contact the last coordinate is u over the root of its compliance."""
     phi = psi / omega
     if compliance == 0:
         return np.diag(omega**-2) + m * np.outer(phi, phi), np.eye(omega.size) + k * np.outer(phi, phi)
@@ -272,8 +248,7 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
     """Modes, cached by exactly the values on which they depend, so that another load or speed reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
-        none = np.zeros(0, dtype=np.int64)
-        return Modes(none, none.copy(), np.zeros(0), np.zeros(0))
+        return Modes(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
     with np.errstate(all="ignore"):  # numpy's floats overflow without an exception, and the outcome is checked
@@ -288,10 +263,10 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
 
 @dataclass(frozen=True)
 class _Shapes:
-    """Radial shapes R(x), x = r/b, of all modes of a plate with the radii `inner` and 1; n modes.
+    """Radial shapes R(x), x = r/b, of the n modes of a plate with the radii `inner` and 1, by circles, then diameters.
 
     R = sum over J, Y, I, K of coefficients (4, n) times function / exp(exponents (4, n)), and `norm` (n,) is
-    2 pi * integral of R^2 x dx. Rows of modes are ordered by circles, then diameters.
+    2 pi * integral of R^2 x dx.
     """
 
     inner: float
@@ -309,11 +284,9 @@ class _Shapes:
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             amplitude = value / self.coefficients[0] * np.exp(self.exponents[0])
         if not np.all(np.isfinite(amplitude)):
-            l = self.l[~np.isfinite(amplitude)][0]
-            raise ModeError(
-                f"normalization='as_published': the mode with {l} nodal diameters at a/b={self.inner:g} overflows when "
-                "its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
-            )
+            mode = f"the mode with {self.l[~np.isfinite(amplitude)][0]} nodal diameters at a/b={self.inner:g}"
+            rule = "overflows when its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
+            raise ModeError(f"normalization='as_published': {mode} {rule}")
         return amplitude
 
 
@@ -325,10 +298,8 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     lam = _roots(inner, nu, n_diameters, n_circles).ravel()
     matrix, exponents = _columns(l, lam, inner, nu)
     if not np.all(np.isfinite(matrix)):
-        raise ModeError(
-            f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} must not be so near 0 for "
-            f"{n_diameters} nodal diameters: the modes cannot be computed"
-        )
+        rule = f"must not be so near 0 for {n_diameters} nodal diameters: the modes cannot be computed"
+        raise ModeError(f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} {rule}")
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
@@ -357,10 +328,8 @@ def _check_circles(values: Array, l: NDArray[np.int64], circles: NDArray[np.int6
         clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
         circles_counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
         if circles_counted != expected:
-            raise ModeError(
-                f"plate modes: root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g} "
-                f"has {circles_counted} nodal circles; a root was missed or doubled"
-            )
+            root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
+            raise ModeError(f"plate modes: {root} has {circles_counted} nodal circles; one was missed or doubled")
 
 
 def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
@@ -421,18 +390,17 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
     """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,): (n,)."""
     m, _ = _columns(l, lam, inner, nu)
     # Laplace expansion: minors of the clamped edge (rows 0, 1) times those of the free edge (rows 2, 3).
-    i, j = np.array([0, 2, 0, 1, 0, 1]), np.array([1, 3, 2, 3, 3, 2])
+    i, j, partner = [0, 2, 0, 1, 0, 1], [1, 3, 2, 3, 3, 2], [1, 0, 3, 2, 5, 4]
     clamped = m[0, i] * m[1, j] - m[0, j] * m[1, i]
     free = m[2, i] * m[3, j] - m[2, j] * m[3, i]
-    partner = np.array([1, 0, 3, 2, 5, 4])
     sign = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])[:, None]
     return np.sum(sign * clamped * free[partner], axis=0)
 
 
 def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
     """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken out of its columns.
-    Rows: R and R' at the inner edge; radial moment and Kirchhoff shear at the outer one, in the variable lambda x. The
-    true column is exp(logarithm) times the one returned."""
+    The rows are R and R' at the inner edge, radial moment and Kirchhoff shear at the outer one, in the variable lambda
+    x."""
     value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
     exponents = np.max(logs, axis=1)
@@ -448,8 +416,8 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
 
 
 def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
-    """J, Y, I, K of order l and their derivatives at `x` (..., n), both times exp of the third: (4, ..., n) each. The
-    larger of value and derivative is 1 in magnitude."""
+    """J, Y, I, K of order l and their derivatives at `x` (..., n), the larger of them 1 in magnitude, and the
+    logarithms of their factors: (4, ..., n) each."""
     value, exponent = _bessel(l, x)
     following, exponent_next = _bessel(l + 1, x)
     sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape((4,) + (1,) * x.ndim)
@@ -459,8 +427,7 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 
 
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
-    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x). Y and K are infinite
-    where they leave the range of floats: beyond 50 diameters below some 5e-5 of the outer radius."""
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
     from scipy import special  # takes 0.2 s, and merges and figures do without
 
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])

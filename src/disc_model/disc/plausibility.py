@@ -30,10 +30,8 @@ class ImplausibleValue(UserWarning):
 
 
 class Rule(NamedTuple):
-    """A test of plausibility: the parameters that it reads, and its message about a case, "" if that is plausible."""
-
-    names: tuple[str, ...]
-    doubt: Callable[[Parameters], str]
+    names: tuple[str, ...]  # the parameters that it reads
+    doubt: Callable[[Parameters], str]  # its message about a case, "" if that is plausible
 
 
 def doubts(p: Parameters) -> dict[str, str]:

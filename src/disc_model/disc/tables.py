@@ -29,24 +29,30 @@ COLUMNS = {
 }
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
 SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")  # name of the column with the shapes at a radius
-STATIC_COMPLIANCE = "static_compliance_m_per_N"
-"""Value that a comment line may give, as ``# static_compliance_m_per_N: 1.2e-7``."""
+STATIC_COMPLIANCE = "static_compliance_m_per_N"  # value that a comment line may give
+SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
+SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
 
 
 def read_disc(path: str | os.PathLike[str]) -> Disc:
     """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
-    lines = _text(path).splitlines()
-    values: dict[str, Any] = {"static_compliance": _static_compliance(lines, path)}
+    try:
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, TypeError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
+        raise _fault(path, f"must be a text file that can be read ({reason})") from None
+    stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
+    static = [match[1] for line in lines if (match := stated.fullmatch(line))]
+    if len(static) > 1:
+        raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
+    try:
+        values: dict[str, Any] = {"static_compliance": float(static[0]) if static else None}
+    except ValueError:
+        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(static[0])}: must be a number") from None
     try:
         return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
     except ParameterError as error:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
-
-
-# ---- Universal files of modal software
-
-SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
-SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
 
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
@@ -68,31 +74,22 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     modes = [_uff_mode(data, positions, r_0, path) for data in sets if data["type"] == 55]
     pairs: list[list[dict[str, Any]]] = []
     for mode in sorted((mode for mode in modes if mode), key=lambda mode: mode["omega"]):
-        halves = next((pair for pair in pairs if _is_half(mode, pair)), None)
-        if halves is None:
-            pairs.append([mode])
+        for pair in (pair for pair in pairs if len(pair) == 1 and pair[0]["diameters"] == mode["diameters"] > 0):
+            if mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]:
+                pair.append(mode)
+                break
         else:
-            halves.append(mode)
+            pairs.append([mode])
     if not pairs:
         raise _fault(path, "must hold a mode across the disc, as a dataset 55")
     radii = sorted(set.intersection(*({*half["shape"]} for pair in pairs for half in pair)))
-    means = [{name: float(np.mean([half[name] for half in pair])) for name in ("omega", "damping")} for pair in pairs]
-    return Disc(
-        diameters=[pair[0]["diameters"] for pair in pairs],
-        omega=[mean["omega"] for mean in means],
-        damping_ratio=[mean["damping"] for mean in means],
-        amplitude=[float(np.mean([half["amplitude"] for half in pair])) for pair in pairs],
-        radii=radii if len(radii) > 1 else [],
-        shapes=[[float(np.mean([half["shape"][r] for half in pair])) for r in radii] for pair in pairs]
-        if len(radii) > 1
-        else [],
-    )
-
-
-def _is_half(mode: dict[str, Any], pair: list[dict[str, Any]]) -> bool:
-    """Whether a mode is the other half of a pair, of which one is known."""
-    same = mode["diameters"] == pair[0]["diameters"] > 0 and len(pair) == 1
-    return same and mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]
+    shapes = [[float(np.mean([half["shape"][r] for half in pair])) for r in radii] for pair in pairs]
+    means: dict[str, Any] = {
+        name: [float(np.mean([half[name] for half in pair])) for pair in pairs]
+        for name in ("omega", "damping_ratio", "amplitude")
+    }
+    known: dict[str, Any] = {"radii": radii, "shapes": shapes} if len(radii) > 1 else {}
+    return Disc(diameters=[pair[0]["diameters"] for pair in pairs], **means, **known)
 
 
 def _uff_mode(
@@ -114,8 +111,8 @@ def _uff_mode(
     require((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule))
     require((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale"))
     fits = [_harmonic_fit(angle[circle], moves[circle], l) for l in range(min(60, (int(circle.sum()) - 1) // 2) + 1)]
-    l = int(np.argmin([rest for _, rest in fits]))
-    (cosine, sine), rest = fits[l]
+    l = int(np.argmin([rest for *_, rest in fits]))
+    cosine, sine, rest = fits[l]
     if rest > 0.5 * float(np.sum(moves[circle] ** 2)):
         return None
     amplitude, turn, scale = math.hypot(cosine, sine), math.atan2(sine, cosine), 1 / math.sqrt(mass)
@@ -125,17 +122,15 @@ def _uff_mode(
         if on_radius.sum() > 2 * l:
             wave = np.cos(l * angle[on_radius] - turn)
             shape[float(r)] = scale * float(wave @ moves[on_radius] / (wave @ wave))
-    return {"diameters": l, "omega": omega, "damping": float(damping), "amplitude": scale * amplitude, "shape": shape}
+    numbers = {"omega": omega, "damping_ratio": float(damping), "amplitude": scale * amplitude}
+    return {"diameters": l, "shape": shape, **numbers}
 
 
-def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[tuple[float, float], float]:
+def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[float, float, float]:
     """Cosine and sine of a harmonic around the axis, and the sum of squares that it leaves."""
     waves = np.stack([np.cos(l * angle), np.sin(l * angle)], axis=1)[:, : 1 if l == 0 else 2]
     solution = np.linalg.lstsq(waves, moves, rcond=None)[0]
-    return (float(solution[0]), float(solution[1]) if l else 0.0), float(np.sum((moves - waves @ solution) ** 2))
-
-
-# ---- Tables as text
+    return float(solution[0]), float(solution[1]) if l else 0.0, float(np.sum((moves - waves @ solution) ** 2))
 
 
 def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
@@ -145,23 +140,22 @@ def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
     except csv.Error as error:
         raise ParameterError(Fault((), "", f"must be a table of comma-separated values ({error})")) from None
     names, *rows = [row for row in table if any(row)] or [[]]
-    counts = [(i, len(row)) for i, row in enumerate(rows, 1) if len(row) != len(names)]
-    rule = f"must be as many as columns, {len(names)}"
-    uneven = [Fault((), "", f"mode {i} has {count} values: {rule}") for i, count in counts[:3]]
-    raise_faults(_column_faults(names) or uneven)
+    rule = f"values: must be as many as columns, {len(names)}"
+    uneven = [f"mode {i} has {len(row)} {rule}" for i, row in enumerate(rows, 1) if len(row) != len(names)]
+    raise_faults(_column_faults(names) or uneven[:3])
     return names, rows
 
 
 def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
     """The disc of a table; a fault in a number names its column, mode and cell."""
-    radii = {float(match[1]): column for column, name in enumerate(names) if (match := SHAPE.fullmatch(name))}
-    columns: dict[tuple[str, ...], int] = {}
+    radii = sorted((float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name)))
+    columns: dict[tuple[str, ...], int] = {("shapes", str(i)): column for i, (_, column) in enumerate(radii)}
     for column, (target, factor) in ((column, COLUMNS[name]) for column, name in enumerate(names) if name in COLUMNS):
         columns[target,] = column
         values[target] = [_number(row[column], factor) for row in rows]
     if radii:
-        values |= {"radii": sorted(radii), "shapes": [[_number(row[radii[r]]) for r in sorted(radii)] for row in rows]}
-        columns |= {("shapes", str(i)): radii[r] for i, r in enumerate(sorted(radii))}
+        values["radii"] = [r for r, _ in radii]
+        values["shapes"] = [[_number(row[column]) for _, column in radii] for row in rows]
     try:
         disc = Disc(**values)
     except ParameterError as error:
@@ -174,7 +168,7 @@ def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Di
 
 
 def _number(cell: str, factor: float = 1.0) -> float | str:
-    """The number in a cell; other text is returned unchanged, and `Disc` refuses it."""
+    """The number in a cell; `Disc` refuses other text."""
     try:
         return float(cell) * factor
     except ValueError:
@@ -182,6 +176,7 @@ def _number(cell: str, factor: float = 1.0) -> float | str:
 
 
 def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str], rows: list[list[str]]) -> Fault:
+    """A fault of a `Disc` with column, cell and mode of the table."""
     if len(fault.path) < 2 or (column := columns.get((fault.path[0], *fault.path[2:]))) is None:
         return fault
     i = int(fault.path[1])
@@ -190,7 +185,7 @@ def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str
 
 
 def damping_ratios(p: Parameters) -> Array:
-    """Damping ratios of the modes of a case; for a disc that is given by a table, exactly those of the table."""
+    """Damping ratios of the modes of a case; of a disc that is given by a table, exactly those of the table."""
     if p.disc is not None:
         return np.array(p.disc.damping_ratio)
     with np.errstate(invalid="ignore"):
@@ -223,25 +218,6 @@ def _text_of(numbers: tuple[Any, ...], further: dict[str, Any], static: float | 
     rows = [[*columns], *zip(*columns.values(), strict=True)]
     comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
-
-
-def _text(path: str | os.PathLike[str]) -> str:
-    try:
-        return Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, TypeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
-        raise _fault(path, f"must be a text file that can be read ({reason})") from None
-
-
-def _static_compliance(lines: list[str], path: object) -> float | None:
-    stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
-    values = [match[1] for line in lines if (match := stated.fullmatch(line))]
-    if len(values) > 1:
-        raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
-    try:
-        return float(values[0]) if values else None
-    except ValueError:
-        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(values[0])}: must be a number") from None
 
 
 def _column_faults(names: list[str]) -> list[Fault]:

@@ -8,7 +8,7 @@ import time as clock
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -19,25 +19,13 @@ from disc_model.display import Progress, simulating
 from disc_model.engine import audit, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, Fault, Status, as_text, raise_faults, require, violations
+from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
+from disc_model.simulation import states
 from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
 from disc_model.simulation.recorder import Collector
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import (
-    State,
-    engine_case,
-    is_finite,
-    perturb,
-    read_state,
-    series_order,
-    series_tolerance,
-    static_start,
-    take_workspace,
-    transfer_state,
-    used_tolerance,
-    write_state,
-)
+from disc_model.simulation.states import State
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults, number
 
@@ -45,9 +33,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 log = logging.getLogger(__name__)
-
-Choose = Callable[[Parameters, str], tuple[Parameters, str]]
-"""Maps a case and the JSON text of its choice of modes to the case with its modes and a record of the choice."""
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 STEPS_PER_PAUSE = 100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -87,13 +72,12 @@ class Execution:
     max_steps: int | None = None
 
     def __post_init__(self) -> None:
-        counts = self.max_steps is None or (is_whole(self.max_steps) and self.max_steps >= 1)
-        shows = self.progress is None or isinstance(self.progress, bool) or callable(self.progress)
-        every = isinstance(self.audit_every_step, bool)
+        every, progress, most = self.audit_every_step, self.progress, self.max_steps
+        shows = progress is None or isinstance(progress, bool) or callable(progress)
         require(
-            (every, "audit_every_step", self.audit_every_step, "must be True or False"),
-            (counts, "max_steps", self.max_steps, "must be a whole number >= 1"),
-            (shows, "progress", self.progress, "must be a function of the time, or False"),
+            (isinstance(every, bool), "audit_every_step", every, "must be True or False"),
+            (most is None or (is_whole(most) and most >= 1), "max_steps", most, "must be a whole number >= 1"),
+            (shows, "progress", progress, "must be a function of the time, or False"),
         )
 
 
@@ -149,20 +133,34 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
+    if (t_end is None) == (duration is None):
+        rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside {duration=!s}"
+        raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside duration={duration}"
-    wrong = (t_end is None) == (duration is None)
-    raise_faults([Fault(("t_end",), "" if t_end is None else as_text(t_end), rule)] * wrong)
-    until: Any = t_end if duration is None else duration
-    if isinstance(until, str):
+    time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
+    end: Any = t_end if duration is None else duration
+    if isinstance(end, str):
         with suppress(ValueError):
-            until = number(in_si(until, "s", [], ()))
-    if duration is not None and isinstance(initial_state, State) and is_number(until):
-        until = initial_state.time + until
-    name = "t_end" if duration is None else "duration"
-    raise_faults(_faults(p, name, until, tol, initial_state, windows, events, stop_at, ramps, execution))
+            end = number(in_si(end, "s", [], ()))
+    if duration is not None and is_number(end):
+        end = time + end
+    begin = time if states.is_finite(time) else 0.0
+    later, rule = is_number(end) and begin < end < math.inf, ""
+    if not later:
+        rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
+        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    rules = violations(
+        (isinstance(events, bool), "events", events, "must be True or False"),
+        (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
+        (states.is_finite(time), "initial_state.time", time, "must be finite"),
+        (later, "t_end" if duration is None else "duration", end, rule),
+        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
+        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
+    )
+    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules, *request_faults(p, windows, ramps)])
     # numbers of other types would make the engine compile again, and would round differently
-    start, end = 0.0 if initial_state is None else float(initial_state.time), float(until)
+    start, end = float(time), float(end)
     windows = {} if windows is None else windows
     if windows:
         windows = resolved_windows(windows, start, end)
@@ -184,65 +182,34 @@ def simulate(  # noqa: PLR0913
     return run.result(_STATUS[code])
 
 
-def _faults(  # noqa: PLR0913
-    p: object,
-    name: str,
-    t_end: Any,
-    tol: Any,
-    state: Any,
-    windows: Any,
-    events: object,
-    stop_at: Any,
-    ramps: object,
-    execution: Any,
-) -> list[str]:
-    """Every fault of the arguments of `simulate`, which has made a ramp a tuple; `name` is that of `t_end`."""
-    time = state.time if isinstance(state, State) else 0.0
-    start = time if is_finite(time) else 0.0
-    later, rule = is_number(t_end) and start < t_end < math.inf, ""
-    if not later:
-        rule = f"must be finite and > {as_text(start)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(t_end, str) else rule
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    faults = foreign_case(p) + limits_faults("tol", tol, TOLERANCES)
-    faults += violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (state is None or isinstance(state, State), "initial_state", state, "must be a State"),
-        (is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, name, t_end, rule),
-        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
-    )
-    return [*faults, *request_faults(p, windows, ramps)]
-
-
 @dataclass(eq=False)
 class _Run:
     """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that collect rows."""
 
     p: Parameters
     t_end: float
-    tol: float = 1e-10
-    initial_state: State | None = None
-    windows: Windows = field(default_factory=dict)
-    events: bool = True
-    stop_at: str | None = None
-    ramps: tuple[Ramp, ...] = ()
-    execution: Execution = _PLAIN
+    tol: float
+    initial_state: State | None
+    windows: Windows
+    events: bool
+    stop_at: str | None
+    ramps: tuple[Ramp, ...]
+    execution: Execution
 
     def __post_init__(self) -> None:
-        self.case = case = engine_case(self.p)
+        self.case = case = states.engine_case(self.p)
         self.key = content_key(case.key + repr(self.ramps)) if self.ramps else case.key
-        model, order, state = case.model, series_order(self.tol), self.initial_state
-        self.state, self.probe, self.series = take_workspace(case, order)
-        at_switch = state is not None and write_state(case, state, self.state, self.key)
+        self.compliant = self.p.contact_compliance != 0
+        model, order, state = case.model, states.series_order(self.tol), self.initial_state
+        self.state, self.probe, self.series = states.take_workspace(case, order)
+        at_switch = state is not None and states.write_state(case, state, self.state, self.key)
         start, every_step, most = self.time, self.execution.audit_every_step, self.execution.max_steps
         longest = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
-            series_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            states.series_tolerance(self.tol, self.compliant),
             self.t_end,
             self.stop_at is None,
             min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
@@ -299,21 +266,25 @@ class _Run:
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
-        """Arguments of `event_loop.run`."""
         return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its arrays."""
+        x = self.state.x
+        message = f"{status.value}: at t = {self.time:.9g} s in {PHASES[int(x[layout.PHASE])]}"
+        if status is Status.PARADOX:
+            slope = float(np.dot(self.model.dw_dtheta, self.state.z))
+            message += f", psi = {x[layout.PSI]:.6g} rad, f = {x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
-            tol=used_tolerance(self.tol, compliant=self.p.contact_compliance != 0),
+            tol=min(self.tol, states.LOOSEST / states.LOCAL[self.compliant]),
             windows=self.windows,
             status=status,
-            message=_message(status, self.state, self.model),
+            message=message,
             event_rows=self.collector.events(),
             first_separation=self.collector.first_separation,
-            final_state=read_state(self.case, self.state, self.key),
+            final_state=states.read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples=self.collector.finish(),
@@ -326,21 +297,16 @@ class _Run:
     def _statistics(self) -> dict[str, float]:
         def relative(residual: int, scale: int, turnover: int) -> float:
             """Sum of the residuals over the largest energy present plus all energy exchanged."""
-            size = total[scale] + total[turnover]
-            if not every_step:
-                return math.nan
-            return abs(total[residual]) / size if size > 0 else 0.0
+            size = total[scale] + total[turnover] if every_step else math.nan
+            return abs(total[residual]) / size if size else 0.0
 
         buffers, every_step, coupled = self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled)
         count, total = buffers.counters.tolist(), buffers.audit.tolist()
-        stick, slip, separation = buffers.phase_times.tolist()
         return {
             "steps": count[event_loop.STEPS],
             "events": count[event_loop.EVENTS],
             "separations": count[event_loop.SEPARATIONS],
-            "time_stick": stick,
-            "time_slip": slip,
-            "time_separation": separation,
+            **{f"time_{phase}": time for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)},
             "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
             "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
             "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
@@ -351,8 +317,7 @@ class _Run:
         }
 
 
-_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
-"""Compiled engines by blocks of lanes, laws of contact and ramp."""
+_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks of lanes, laws of contact and ramp
 
 
 def _step_limit(model: layout.Model, duration: float) -> int:
@@ -360,22 +325,9 @@ def _step_limit(model: layout.Model, duration: float) -> int:
     return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
-def _message(status: Status, state: layout.EngineState, model: layout.Model) -> str:
-    time, phase = float(state.x[layout.TIME]), PHASES[int(state.x[layout.PHASE])]
-    text = f"{status.value}: at t = {time:.9g} s in {phase}"
-    if status is Status.PARADOX:
-        slope = float(np.dot(model.dw_dtheta, state.z))
-        text += f", psi = {state.x[layout.PSI]:.6g} rad, f = {state.x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
-    return text
-
-
-# ---- Initial states
-
-
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
     """The initial state of a motion of case `p`, at time 0; None is the static start. Raises `SimulationError` if the
-    preceding motion ends early, `ParameterError` if its parameters break a rule, or its disc has another number of
-    modes."""
+    preceding motion ends early, `ParameterError` if its disc has another number of modes."""
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
     if start.prerun is not None:
@@ -383,12 +335,12 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
         sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
         path, rule = "start.prerun.parameters.", "must be that of the case, "
         require(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
-        state = transfer_state(p, _end_of(other, start.prerun.time, tol))
-    return perturb(p, static_start(p) if state is None else state, **kick) if kick else state
+        state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
+    return states.perturb(p, states.static_start(p) if state is None else state, **kick) if kick else state
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
-    """The state of case `p` at a time (s) after its start; raises `SimulationError` if the motion ends earlier."""
+    """The state of case `p` at a time (s) after its start; raises `SimulationError`."""
     run = simulate(p, time, tol=tol, initial_state=make_initial_state(p, start, tol), events=False)
     return run.raise_for_status().final_state
 
@@ -398,26 +350,16 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
     return simulate(p, time, tol=tol).raise_for_status().final_state
 
 
-# ---- A case of a study
+def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
+    """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is recorded as a status.
+    `choose` is `disc_model.mode_choice.choose_when_run`, which only a case with `modes` needs."""
+    import xarray as xr
 
-
-def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
-    """Simulate a named case of a study; `disc_model.data.dataset` describes the layout of the tree.
-
-    A failure is recorded as a status in the dataset and does not end the study.
-
-    Parameters
-    ----------
-    choose : function that chooses the modes by a quantity of the motion, see `disc_model.mode_choice`; needed only
-        for a case that asks for such a choice
-    """
-    from disc_model.data.dataset import json_attribute, scalars_dataset, to_tree
+    from disc_model.data.dataset import json_attribute, scalars_dataset
 
     p, truncation = spec.parameters, spec.truncation
     try:
         if spec.modes:
-            if choose is None:
-                raise TypeError("choose is needed where the modes are to be chosen")
             p, truncation = choose(p, spec.modes)
             log.info("modes chosen: %s", truncation)
         start = make_initial_state(p, spec.start, spec.tol)
@@ -428,11 +370,15 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
     except DiscModelError as error:
         log.error("no result: %s", error)
         known = {"t_end": spec.t_end, "tol": spec.tol}
-        tree = to_tree({"": scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}")})
+        tree = xr.DataTree(scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}"))
     else:
         log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
         tree = result.to_tree()
-        tree["events"].dataset = _kept_events(tree["events"].to_dataset(), spec.events)
+        events, within, span = tree["events"].to_dataset(), slice(0), {}
+        if spec.events is not None:
+            within = slice(*events["time"].values.searchsorted(spec.events))
+            span = dict(zip(("kept_from", "kept_until"), spec.events, strict=True))
+        tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
     if truncation:
@@ -445,10 +391,3 @@ def run_case(spec: CaseSpec, choose: Choose | None = None) -> xr.DataTree:
         "specification_key": spec.key,
     }
     return tree
-
-
-def _kept_events(events: xr.Dataset, span: tuple[float, float] | None) -> xr.Dataset:
-    if span is None:
-        return events.isel(event=slice(0))
-    within = events.isel(event=slice(*events["time"].values.searchsorted(span)))
-    return within.assign_attrs(kept_from=span[0], kept_until=span[1])

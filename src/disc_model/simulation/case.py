@@ -14,17 +14,26 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import AUTO, Parameters
 from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
-
-# ---- Recorded samples
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 
 
-class Span(Checked):
+class Interval(Checked):
+    """An interval of time, from a `start` to a later `stop` or `end`."""
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        values = dict(self)
+        start, end = values["start"], "end" if "end" in values else "stop"
+        require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
+        return self
+
+
+class Span(Interval):
     """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of it.
 
     Parameters
@@ -38,16 +47,14 @@ class Span(Checked):
     last: Seconds | None = None
 
     @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.start < self.stop:
-            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < stop={as_text(self.stop)}"))
-        if self.last is not None and (self.start > 0 or self.stop < math.inf):
-            raise ParameterError(Fault(("last",), as_text(self.last), "must not be given beside start or stop"))
+    def _either(self) -> Self:
+        alone = self.last is None or (self.start == 0 and self.stop == math.inf)
+        require((alone, "last", self.last, "must not be given beside start or stop"))
         return self
 
     @model_serializer(mode="wrap")
     def _plain(self, handler: Any) -> dict[str, Any]:
-        """Leave out an absent ``last``, so that the content address of a case with absolute times stays the same."""
+        """Leave out an absent ``last``, so that older content addresses stay valid."""
         return {name: value for name, value in handler(self).items() if name != "last" or value is not None}
 
     def resolved(self, start: float, t_end: float) -> Self:
@@ -61,8 +68,7 @@ class Span(Checked):
         first, stop = self.ends(start, t_end)
         if (first, stop) == (self.start, self.stop):
             return self
-        if not first < t_end:
-            raise ParameterError(Fault(("start",), as_text(first), f"must be < t_end={as_text(t_end)}"))
+        require((first < t_end, "start", first, f"must be < t_end={as_text(t_end)}"))
         return self.replace(start=first, stop=stop, last=None)
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
@@ -119,7 +125,7 @@ class Window(Span):
         return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
 
-class Poincare(Checked):
+class Poincare(Interval):
     """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc point at `theta`.
 
     Examples
@@ -134,16 +140,9 @@ class Poincare(Checked):
     stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
     theta: Angle = 1.0
 
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.start < self.stop:
-            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < stop={as_text(self.stop)}"))
-        return self
-
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
-_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")
-"""Names that netCDF accepts for a group, whatever their length in bytes, and that are readable."""
+_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")  # readable names of groups that netCDF accepts, however long in bytes
 
 
 def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]:
@@ -166,8 +165,7 @@ def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]
 
 
 def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
-    """The windows with absolute times, for a run from ``start`` to ``t_end``. Raises `ParameterError` if one begins at
-    the end of the run or later."""
+    """The windows with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`."""
     faults: list[str] = []
     resolved: dict[str, Window | Poincare] = {}
     for name, window in windows.items():
@@ -181,11 +179,10 @@ def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
 
-Ramped = Literal["Omega", "N"]
-RAMPED: tuple[Ramped, ...] = ("Omega", "N")
+RAMPED = ("Omega", "N")
 
 
-class Ramp(Checked):
+class Ramp(Interval):
     """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant afterwards.
 
     The slider's spring k is held where it was: N is the load beside it.
@@ -205,24 +202,16 @@ class Ramp(Checked):
     array([15.1 , 10.05,  5.  ])
     """
 
-    parameter: Ramped
+    parameter: Literal["Omega", "N"]
     to: Annotated[Positive, Unit(of="parameter")]
-    start: Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
+    start: Time
     end: Seconds
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Self:
-        if not self.start < self.end:
-            raise ParameterError(Fault(("start",), as_text(self.start), f"must be < end={as_text(self.end)}"))
-        return self
 
 
 class Piece(NamedTuple):
-    """An interval of time over which Omega and N change at constant rates.
+    """An interval of time (s) over which Omega (rad/s) and N (N) change at constant rates; values are at ``begin``.
 
-    begin, end : s
-    angle : rad, of the drive point at ``begin``
-    Omega, Omega_rate, N, N_rate : rad/s, rad/s^2, N, N/s; values at ``begin``
+    angle : rad, of the drive point
     constant : whether Omega and N are those of the case, before any ramp
     """
 
@@ -243,14 +232,12 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
         return
     for name in RAMPED if ramps else ():
         if not getattr(p, name) > 0:
-            yield Fault((name,), as_text(getattr(p, name)), "must be > 0 where there are ramps")
-    for name in RAMPED:
-        of_name = [(i, ramp) for i, ramp in enumerate(ramps) if ramp.parameter == name]
-        of_name.sort(key=lambda entry: entry[1].start)
-        for (_, before), (i, ramp) in pairwise(of_name):
-            if ramp.start < before.end:
-                rule = f"must be >= {as_text(before.end)}, where the ramp of {name} before it ends"
-                yield Fault(("ramps", str(i), "start"), as_text(ramp.start), rule)
+            yield Fault.of((name,), getattr(p, name), "must be > 0 where there are ramps")
+        of_name = [(ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name]
+        for (_, _, end), (start, i, _) in pairwise(sorted(of_name)):
+            if start < end:
+                rule = f"must be >= {as_text(end)}, where the ramp of {name} before it ends"
+                yield Fault.of(("ramps", str(i), "start"), start, rule)
     if poincare and any(ramp.parameter == "Omega" for ramp in ramps):
         rule = "must not be asked for on ramps of Omega: the drive has no period there"
         yield Fault(("record", "poincare"), "", rule)
@@ -299,8 +286,6 @@ def _at(line: list[tuple[float, float, float]], time: float) -> tuple[float, flo
 
 # ---- Initial states
 
-Coordinate = Literal["u", "u_velocity", "f"]
-
 _OPTIONAL: Any = {name: (Annotated[x.annotation, x], None) for name, x in Parameters.model_fields.items()}
 SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL)
 """Parameters of which any may be absent; rules between several are checked if all of them are present."""
@@ -335,17 +320,18 @@ class Start(Strict):
     """
 
     prerun: Prerun | None = None
-    perturbation: Annotated[dict[Coordinate, Finite], Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"})] = Field({})
+    perturbation: Annotated[
+        dict[Literal["u", "u_velocity", "f"], Finite], Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"})
+    ] = Field({})
 
 
 # ---- One case ready to be run, and its content address
 
-_LATER = ("start", "truncation", "modes", "ramps")
-"""Fields added later: a default is left out of the text, so that older content addresses stay valid."""
+_LATER = ("start", "truncation", "modes", "ramps")  # fields whose defaults older content addresses do not have
 
 
 class CaseSpec(Strict):
-    """A case ready to be run: everything that a simulation depends on, and nothing else (no titles)."""
+    """A case ready to be run: everything that a simulation depends on, and nothing else."""
 
     parameters: Parameters
     t_end: float
@@ -356,10 +342,8 @@ class CaseSpec(Strict):
     events: tuple[float, float] | None = None
     audit_every_step: bool = False
     start: Start = Start()
-    truncation: str = ""
-    """Record of how the number of modes was chosen, as JSON; empty if it was given, or is still to be chosen."""
-    modes: str = ""
-    """Quantity and tolerance by which the run shall choose the number of modes, as JSON; empty if it is known."""
+    truncation: str = ""  # how the number of modes was chosen, as JSON; empty if it was given, or is still to be chosen
+    modes: str = ""  # quantity and tolerance by which the run shall choose the number of modes, as JSON, if it shall
     ramps: tuple[Ramp, ...] = ()
 
     @property

@@ -52,8 +52,7 @@ def snapshots(
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
     wrong = violations((starts, "initial_state", initial_state, "must be a State"))
-    wrong += violations((ascend, "times", times, "must be finite and ascend"))
-    raise_faults(foreign_case(p) + wrong)
+    raise_faults(foreign_case(p) + wrong + violations((ascend, "times", times, "must be finite and ascend")))
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state = static_start(p) if initial_state is None else initial_state
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
@@ -97,8 +96,24 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     """
     import xarray as xr
 
-    states_in_order, radii, angles = _checked(p, states, r, theta)
-    modes = mode_arrays(p)
+    raise_faults(foreign_case(p))
+    modes, (low, high), radii, angles = mode_arrays(p), radial_range(p), _numbers(r), _numbers(theta)
+    states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
+    within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
+    limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
+    faults = violations(
+        (within, "r", r, f"must be within {limits}"), (angles is not None, "theta", theta, "must be finite")
+    )
+    for i, state in enumerate(states_in_order):
+        path, n_modes = ("states", str(i)), len(modes.psi)
+        if not isinstance(state, State):
+            faults.append(Fault.of(path, state, "must be a State"))
+        elif len(state.a) != n_modes:
+            faults.append(Fault(path, "", f"must have {n_modes} modes, as the case, and not {len(state.a)}"))
+        else:
+            faults += amplitude_faults(state, modes.psi, path)
+    if faults or radii is None or angles is None:
+        raise ParameterError(*faults)
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
@@ -112,29 +127,6 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     }
     attrs = {"units": "m", "long_name": "displacement of the disc"}
     return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)
-
-
-def _checked(p: Parameters, states: object, r: ArrayLike, theta: ArrayLike) -> tuple[list[State], Array, Array]:
-    """The arguments of `deflection` as lists and arrays; raises one `ParameterError` that lists every fault."""
-    raise_faults(foreign_case(p))
-    states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
-    psi, (low, high) = mode_arrays(p).psi, radial_range(p)
-    radii, angles = _numbers(r), _numbers(theta)
-    within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
-    limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
-    faults = violations((within, "r", r, f"must be within {limits}"))
-    faults += violations((angles is not None, "theta", theta, "must be finite"))
-    for i, state in enumerate(states_in_order):
-        if not isinstance(state, State):
-            faults += violations((False, f"states.{i}", state, "must be a State"))
-        elif len(state.a) != len(psi):
-            rule = f"must have {len(psi)} modes, as the case, and not {len(state.a)}"
-            faults.append(Fault(("states", str(i)), "", rule))
-        else:
-            faults += amplitude_faults(state, psi, ("states", str(i)))
-    if faults or radii is None or angles is None:
-        raise ParameterError(*faults)
-    return states_in_order, radii, angles
 
 
 def _numbers(values: ArrayLike) -> Array | None:

@@ -21,11 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from disc_model.simulation.result import Result
-
 CYCLES = 4  # of stick and slip that are shown of the end of a run, with at most four times as many separations
-BINS, RATE = 600, 4000.0
-"""Bins of the envelope of a run, and its samples per second; of a short run there are more samples."""
+BINS, RATE = 600, 4000.0  # bins of the envelope of a run, and its samples per second at least
 FOLDED = 16  # samples for a spectrum per period of the highest mode: what is beyond its eighth multiple is weak
 FINE = 4000  # samples of the last cycles
 
@@ -149,47 +146,40 @@ class Pictures:
         >>> import disc_model as dm
         >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
-        counts = (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1")
-        require(counts)
-        case, name = self._of(window, "end")
-        samples = draw("window_of", case, name)
+        require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
         result: Any = self
+        samples = draw("window_of", *self._of(window, "end"))
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
-        states = import_module("disc_model.simulation.deflection").snapshots(
-            result.parameters, times, tol=result.tol, initial_state=result.initial_state
-        )
+        snapshots = import_module("disc_model.simulation.deflection").snapshots
+        states = snapshots(result.parameters, times, tol=result.tol, initial_state=result.initial_state)
         return draw("animate", result.parameters, states, samples, path, fps)
 
     def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
         return (self._case(otherwise), otherwise) if window is None else (self._case(), window)
 
     @property
-    def _span(self) -> float:
-        result: Any = self
-        start = 0.0 if result.initial_state is None else float(result.initial_state.time)
-        return float(result.final_state.time) - start
+    def _span(self: Any) -> float:
+        """Duration of the run, s."""
+        start = 0.0 if self.initial_state is None else float(self.initial_state.time)
+        return float(self.final_state.time) - start
 
     @property
-    def _last_cycles(self) -> float:
+    def _last_cycles(self: Any) -> float:
         """Length of the last cycles, s: from a release of stick on."""
-        result: Any = self
-        kinds, end = result.events["kind"], float(result.final_state.time)
-        lengths = [self._span]
+        kinds, end, lengths = self.events["kind"], float(self.final_state.time), [self._span]
         for kind, number in ("stick_to_slip", CYCLES), ("separation", 4 * CYCLES):
-            times = result.events["time"][kinds == kind].to_numpy()
+            times = self.events["time"][kinds == kind].to_numpy()
             length = end - float(times[-1 - number]) if len(times) > number else 0.1
             lengths.append(length if length < 1.0 else 0.1)
         return min(lengths)
 
-    def _case(self, *names: str) -> xr.DataTree:
+    def _case(self: Any, *names: str) -> xr.DataTree:
         """The run as a tree of windows: those that were recorded, or others, for which it is simulated once more."""
-        result: Result = self  # type: ignore[assignment]
         if not names:
-            return result.to_tree()
-        end, span = float(result.final_state.time), self._span
-        rate = max(RATE, BINS / span)
-        late = min(8.0, span / 2)
-        omega = import_module("disc_model.disc.plate").mode_arrays(result.parameters).omega
+            return self.to_tree()
+        end, span = float(self.final_state.time), self._span
+        rate, late = max(RATE, BINS / span), min(8.0, span / 2)
+        omega = import_module("disc_model.disc.plate").mode_arrays(self.parameters).omega
         highest = float(omega.max(initial=0.0)) / math.tau
         windows = {
             "run": Window(start=end - span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))),
@@ -197,7 +187,6 @@ class Pictures:
             "late": Window(start=end - late, rate=max(RATE, FOLDED * highest)),
             "poincare": Poincare(start=end - span),
         }
-        how: dict[str, Any] = {"tol": result.tol, "ramps": result.ramps, "initial_state": result.initial_state}
+        how = {"tol": self.tol, "ramps": self.ramps, "initial_state": self.initial_state}
         simulate = import_module("disc_model.simulation.api").simulate
-        again: Result = simulate(result.parameters, end, {name: windows[name] for name in names}, **how)
-        return again.to_tree()
+        return simulate(self.parameters, end, {name: windows[name] for name in names}, **how).to_tree()

@@ -19,7 +19,6 @@ Array = NDArray[Any]
 
 BUFFER = 1 << 15  # rows of a buffer: large enough for cheap draining, small enough to stay in the cache
 SMALL_BUFFER = 1 << 8  # rows of the first buffer of events: a large one takes longer to make than a short simulation
-_COLUMN = {name: i for i, name in enumerate(dense_output.ROW)}
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
@@ -48,8 +47,7 @@ class Collector:
         self.buffers = event_loop.RunBuffers(
             counters, np.zeros(3), np.zeros(N_SUMS), samplers, sampled, sample_rows, capacity, event_rows
         )
-        self.first_separation = math.nan
-        """Time of the first loss of contact, s; nan if there was none."""
+        self.first_separation = math.nan  # s
         # recorded arrays in order of time; those of the rest, rows of bins that are not full
         self._events: list[Array] = []
         self._samples: list[list[Array]] = [[] for _ in grids]
@@ -76,18 +74,14 @@ class Collector:
             self._events.append(events.copy())
         if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
             self.buffers = self.buffers._replace(event_rows=np.empty((BUFFER, len(event_loop.EVENT_ROW))))
-        for i in range(len(self._samples)):
-            self._take(i, rows[rows[:, 0] == i])
-
-    def _take(self, i: int, rows: Array) -> None:
-        fold, rest = self._folds[i], self._rest[i]
-        if len(rows):
-            (self._samples[i] if fold is None else rest).append(rows.copy())  # a view would keep the buffer
-        if fold is not None and sum(map(len, rest)) >= fold:
-            rows = np.concatenate(rest)
-            whole = len(rows) // fold * fold
-            rest[:] = [rows[whole:].copy()]
-            self._samples[i].append(_fold(rows[:whole].reshape(-1, fold, rows.shape[1])))
+        for i, (fold, samples, rest) in enumerate(zip(self._folds, self._samples, self._rest, strict=True)):
+            if len(new := rows[rows[:, 0] == i]):  # a copy, as of every index that is a mask
+                (samples if fold is None else rest).append(new)
+            if fold is not None and sum(map(len, rest)) >= fold:
+                together = np.concatenate(rest)
+                whole = len(together) // fold * fold
+                rest[:] = [together[whole:].copy()]
+                samples.append(_fold(together[:whole].reshape(-1, fold, together.shape[1])))
 
     def events(self) -> Array:
         """All recorded events, shape (n, len(EVENT_ROW))."""
@@ -97,16 +91,13 @@ class Collector:
 
     def finish(self) -> dict[str, dict[str, Array]]:
         """Samples of each window."""
-        columns = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
-        shaped = list(map(_columns, self._samples, columns))
-        for samples in shaped:
-            samples.pop("sampler", None)
-        return dict(zip(self._names, shaped, strict=True))
+        names = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
+        return dict(zip(self._names, map(_columns, self._samples, names), strict=True))
 
 
 def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
-    """Columns of all parts, concatenated; they are filled part by part, because a part fits into the cache. Each part
-    is removed from the list, so that memory never holds more than one part twice."""
+    """Columns of all parts, filled part by part, as a part fits into the cache. Each part is removed from the list, so
+    that memory never holds more than one part twice."""
     columns = {name: np.empty(sum(map(len, parts))) for name in names}
     start = 0
     parts.reverse()
@@ -115,16 +106,15 @@ def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
         for column, values in zip(columns.values(), part.T, strict=True):
             column[start : start + len(part)] = values
         start += len(part)
+    columns.pop("sampler", None)
     return columns
 
 
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples, columns)."""
-    out = [cells[:, :, _COLUMN["time"]].mean(axis=1)]
-    for name in _FOLDED:
-        column = cells[:, :, _COLUMN[name]]
-        out += [column.min(axis=1), column.max(axis=1)]
-    return np.stack(out, axis=1)
+    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *_FOLDED)]
+    ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
+    return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
 
 
 def _memory() -> float:
@@ -136,27 +126,20 @@ def _memory() -> float:
 
 
 def _grid(window: Window | Poincare, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
-    """Sampling grid of a window in a run, as `dense_output.sample_step` has it."""
+    """Sampling grid of a window in a run, as `dense_output.sample_step` has it; without samples if the drive rests."""
     if isinstance(window, Window):
-        return _uniform(window, start, t_end)
-    return _stroboscopic(window, p.Omega, start, t_end)
-
-
-def _uniform(window: Window, start: float, t_end: float) -> tuple[float, ...]:
-    interval = min(1 / window.rate, sys.float_info.max)
-    skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
-    reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)
-    if not skipped <= reached < math.inf:
-        return start, interval, 0, window.theta, t_end
-    skip = math.ceil(skipped)
-    return window.start + skip * interval, interval, max(0, math.floor(reached) - skip + 1), window.theta, t_end
-
-
-def _stroboscopic(poincare: Poincare, Omega: float, start: float, t_end: float) -> tuple[float, ...]:
-    """Sampling grid at whole multiples of the drive's period, as `_uniform`; no samples if the drive rests."""
-    if Omega == 0:
-        return 0.0, 1.0, 0, poincare.theta, t_end
-    period = min(2 * math.pi / Omega, sys.float_info.max)
-    first = math.ceil(max(poincare.start, start) / period - 1e-9)
-    last = math.floor(min(poincare.stop, t_end) / period + 1e-9)
-    return first * period, period, max(0, last - first + 1), poincare.theta, t_end
+        interval = min(1 / window.rate, sys.float_info.max)
+        skipped = max(0.0, (start - window.start) * window.rate - 1e-9)
+        reached = min(window.last_sample, (t_end - window.start) * window.rate + 1e-9)
+        if not skipped <= reached < math.inf:
+            return start, interval, 0, window.theta, t_end
+        index, last = math.ceil(skipped), math.floor(reached)
+        first = window.start + index * interval
+    elif p.Omega == 0:
+        return 0.0, 1.0, 0, window.theta, t_end
+    else:
+        interval = min(2 * math.pi / p.Omega, sys.float_info.max)
+        index = math.ceil(max(window.start, start) / interval - 1e-9)
+        last = math.floor(min(window.stop, t_end) / interval + 1e-9)
+        first = index * interval
+    return first, interval, max(0, last - index + 1), window.theta, t_end

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,11 +17,11 @@ from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine.event_loop import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status, as_text, require, suggestion
+from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters, in_words
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
 from disc_model.simulation.pictures import Pictures
-from disc_model.simulation.states import MODAL, PLAIN, Array, State, is_finite_array
+from disc_model.simulation.states import PLAIN, Array, State, is_finite_array, modal_arrays
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -87,12 +87,10 @@ class Result(Summarised, Pictures):
         """The events as a table, made at its first use, because making it takes longer than a short simulation."""
         import pandas as pd
 
-        def words(name: str, meanings: tuple[str, ...]) -> pd.Categorical[str]:
-            return pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(meanings)))
-
-        columns = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
-        named = {"time": columns["time"], "kind": words("kind", EVENT_KINDS), "phase": words("phase", PHASES)}
-        return pd.DataFrame(named | {name: columns[name] for name in ("psi", "f", "u", "u_velocity", "P")})
+        columns: dict[str, Any] = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
+            columns[name] = pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(words)))
+        return pd.DataFrame({name: column for name, column in columns.items() if name != "direction"})
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
         """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the shape of `times`.
@@ -102,10 +100,10 @@ class Result(Summarised, Pictures):
         ParameterError
             If the name is another one, or a time is not a finite number.
         """
-        known = isinstance(name, str) and name in RAMPED
-        finite = is_finite_array(times, flat=False)
-        rule = f"must be one of {', '.join(RAMPED)}"
-        require((known, "name", name, rule), (finite, "times", times, "must be finite numbers"))
+        require(
+            (isinstance(name, str) and name in RAMPED, "name", name, f"must be one of {', '.join(RAMPED)}"),
+            (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
+        )
         return values_at(self.parameters, self.ramps, name, times)
 
     def __getitem__(self, name: str) -> xr.Dataset:
@@ -121,13 +119,15 @@ class Result(Summarised, Pictures):
 
         Its root holds the scalars, and its groups are "events" (along `event`), and each window (along `time`).
         """
-        from disc_model.data.dataset import events_dataset, scalars_dataset, to_tree
+        import xarray as xr
+
+        from disc_model.data.dataset import events_dataset, scalars_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         windows = {name: self[name] for name in self.samples}
-        return to_tree({"": scalars, "events": events_dataset(self.events), **windows})
+        return xr.DataTree.from_dict({"/": scalars, "events": events_dataset(self.events), **windows})
 
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
@@ -177,7 +177,7 @@ class Result(Summarised, Pictures):
             "statistics": {name: value for name, value in self.statistics.items() if name != "wall_time"},
             **{name: getattr(self, name) for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")},
         }
-        modal = {which: _modal(state) for which, state in states.items()}
+        modal = {which: modal_arrays(state) for which, state in states.items()}
         events, text = dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), json.dumps(described)
         if dataset.regular_file(path).suffix != ".nc":
             dataset.save_tables({"events": events, **modal, **self.samples}, text, path)
@@ -203,31 +203,20 @@ class Result(Summarised, Pictures):
         from disc_model.data import dataset
 
         text, tables = dataset.load_tables(path)
-        if not text or not {"events", "final_state"} <= tables.keys():
-            raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by Result.save"))
-        described = json.loads(text)
-        kinds = {"Window": Window, "Poincare": Poincare}
-        events = tables.pop("events")
-        states = {}
-        for which in ("final_state", "initial_state"):
-            if which in described:
-                modal = tables.pop(which)
-                for values in modal.values():
-                    values.setflags(write=False)
-                states[which] = State(**described[which], **modal)
-        return cls(
-            **described
-            | states
-            | {
-                "parameters": Parameters(**described["parameters"]),
-                "status": Status(described["status"]),
-                "windows": {name: kinds[kind](**values) for name, (kind, values) in described["windows"].items()},
-                "ramps": tuple(Ramp(**values) for values in described["ramps"]),
-                "statistics": described["statistics"] | {"wall_time": math.nan},
-                "event_rows": np.stack([events[name] for name in EVENT_ROW], axis=1),
-                "samples": tables,
-            }
-        )
+        whole = text and {"events", "final_state"} <= tables.keys()
+        require((whole, "path", str(path), "must be a file written by Result.save"))
+        values, events, kinds = json.loads(text), tables.pop("events"), {"Window": Window, "Poincare": Poincare}
+        for which in values.keys() & {"final_state", "initial_state"}:
+            modal = tables.pop(which)
+            for array in modal.values():
+                array.setflags(write=False)
+            values[which] = State(**values[which], **modal)
+        values["parameters"] = Parameters(**values["parameters"])
+        values["status"] = Status(values["status"])
+        values["windows"] = {name: kinds[kind](**window) for name, (kind, window) in values["windows"].items()}
+        values["ramps"] = tuple(Ramp(**ramp) for ramp in values["ramps"])
+        values["statistics"]["wall_time"] = math.nan
+        return cls(**values, event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1), samples=tables)
 
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
@@ -259,9 +248,3 @@ class Result(Summarised, Pictures):
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
-
-
-def _modal(state: State) -> dict[str, Array]:
-    """Modal coordinates of a state, and the amplitudes of the modes as far as they are known."""
-    arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
-    return {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}

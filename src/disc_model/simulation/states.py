@@ -7,7 +7,7 @@ import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +20,15 @@ from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitu
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
 Array = NDArray[np.float64]
+MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
+PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
+"""Units of the variables in a state's file: one value a mode, and scalars."""
+SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,8 +78,7 @@ class State(Summarised):
     time_low: float = 0.0
     case_key: str = ""
     mode_amplitudes: Array | None = None
-    _roots: tuple[int, int] = (0, 0)
-    """Multiplicity of the roots of event function and contact force at this instant: `layout.KNOWN`, `KNOWN_FORCE`."""
+    _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `layout.KNOWN` and `KNOWN_FORCE`
 
     def replace(self, **changes: Any) -> State:
         """Return a copy with some values changed; raises `ParameterError` for names and numbers that no state has.
@@ -83,14 +86,12 @@ class State(Summarised):
         A new time is exact and sets `time_low` to 0.  Any other change separates the state from the case in which it
         was computed, and empties `case_key`.
         """
-        if "time" in changes:
-            changes = {"time_low": 0.0} | changes
-        if not changes.keys() <= {"time", "time_low"}:
-            changes = {"case_key": ""} | changes
+        implied: dict[str, Any] = {"time_low": 0.0} if "time" in changes else {}
+        implied |= {} if changes.keys() <= {"time", "time_low"} else {"case_key": ""}
         known = [each.name for each in dataclasses.fields(self)]
         require(*((x in known, x, value, f"is not of a state{suggestion(x, known)}") for x, value in changes.items()))
         require(*((is_finite(changes[name]), name, changes[name], "must be finite") for name in PLAIN.keys() & changes))
-        return dataclasses.replace(self, **changes)
+        return dataclasses.replace(self, **implied | changes)
 
     def __repr__(self) -> str:
         return (
@@ -115,8 +116,8 @@ class State(Summarised):
 
         from disc_model.data import dataset
 
-        known = MODAL | ({} if self.mode_amplitudes is None else {"mode_amplitudes": "kg-1/2"})
-        modal = {name: ("mode", np.asarray(getattr(self, name), float), {"units": x}) for name, x in known.items()}
+        units = MODAL | {"mode_amplitudes": "kg-1/2"}
+        modal = {name: ("mode", values, {"units": units[name]}) for name, values in modal_arrays(self).items()}
         plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in PLAIN.items()}
         whole = {"direction": ((), np.int64(self.direction)), "roots": ("kind", np.array(self._roots, np.int64))}
         attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
@@ -136,22 +137,18 @@ class State(Summarised):
         from disc_model.data import dataset
 
         data = dataset.load(path).to_dataset()
-        wanted = (*MODAL, *PLAIN, "direction", "roots")
-        if "phase" not in data.attrs or not {*wanted} <= data.data_vars.keys():
-            raise ParameterError(Fault(("path",), as_text(str(path)), "must be a file written by State.save"))
-        values: dict[str, Any] = {name: data[name].values for name in MODAL}
+        whole = "phase" in data.attrs and {*MODAL, *PLAIN, "direction", "roots"} <= data.data_vars.keys()
+        require((whole, "path", str(path), "must be a file written by State.save"))
+        values: dict[str, Any] = {name: data[name].values for name in (*MODAL, "mode_amplitudes") if name in data}
         values |= {name: float(data[name]) for name in PLAIN}
         values |= {"direction": int(data["direction"]), "_roots": tuple(data["roots"].values.tolist())}
-        values |= {name: data[name].values for name in ("mode_amplitudes",) if name in data}
         return cls(phase=str(data.attrs["phase"]), case_key=str(data.attrs.get("case_key", "")), **values)
 
 
-MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
-PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
-"""Units of the variables in a state's file: one value a mode, and scalars."""
-
-
-# ---- States made without a simulation
+def modal_arrays(state: State) -> dict[str, Array]:
+    """Modal coordinates of a state, and the amplitudes of the modes as far as they are known."""
+    arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
+    return {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}
 
 
 def static_start(p: Parameters) -> State:
@@ -163,10 +160,7 @@ def static_start(p: Parameters) -> State:
 def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
     """A state with perturbed coordinates of the slider; the disc under the slider moves with it.
 
-    Parameters
-    ----------
-    u : m, with the disc's deflection under a steady force at the slider: a_l increases by
-        u (psi_l/omega_l^2) / sum psi^2/omega^2
+    u : m, with the disc's deflection under a steady force: a_l increases by u (psi_l/omega_l^2) / sum psi^2/omega^2
     u_velocity : m/s, as after a blow at the slider: alpha_l increases by u_velocity psi_l / sum psi^2
     f : rad/s; a sticking slider then slips, and one whose f becomes 0 sticks
     """
@@ -188,9 +182,8 @@ def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0
 
 
 def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case, transferred to case `p` at time 0. Modal coordinates are kept. If the modal amplitudes
-    differ, the slider keeps its distance from the disc, which is zero in rigid contact. A state with another number of
-    modes is passed on, and `simulate` refuses it."""
+    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance of slider and disc,
+    which is zero in rigid contact. A state with another number of modes is passed on, and `simulate` refuses it."""
     psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
@@ -202,39 +195,24 @@ def transfer_state(p: Parameters, state: State) -> State:
     return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
-# ---- Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
+# ---- Conversion of `Parameters` and `State` to the engine's lanes and back
 
+# Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor series of one step
 Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
-"""Arrays to which the engine writes, for one run at a time: the run's state, the state at a trial time ahead of it, and
-Taylor series of one step, which the next step overwrites."""
 
 
 @dataclass(frozen=True, eq=False)
 class EngineCase:
-    """Constants of a case for the engine.  All runs of the case share them, and none writes to them.
+    """Constants of a case for the engine, shared by all runs of the case."""
 
-    parameters, model, start : the case, the engine's constants, and the static start
-    amplitudes : `mode_amplitudes` of the states of the case
-    present : indices of the existing coordinates in the sequence a, b, alpha, beta of all modes; modes without nodal
-        diameter have no b and beta
-    places : their indices in `layout.EngineState.disc`
-    point : matrix from `layout.EngineState.disc` to u, u' (without the slope's share) and slope B under the slider
-    idle : workspaces that no run uses at present, by the order of their series; the only field that changes
-    """
-
-    parameters: Parameters
+    key: str  # `State.case_key`
     model: layout.Model
-    start: layout.EngineState
-    amplitudes: np.ndarray
-    present: np.ndarray
-    places: np.ndarray
-    point: np.ndarray
-    idle: defaultdict[int, list[Workspace]]
-
-    @cached_property
-    def key(self) -> str:
-        """`case_key` of the states of the case."""
-        return self.parameters.key
+    start: layout.EngineState  # the static start
+    amplitudes: np.ndarray  # `State.mode_amplitudes`
+    present: np.ndarray  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    places: np.ndarray  # their indices in `layout.EngineState.disc`
+    point: np.ndarray  # matrix from there to u, u' (without the slope's share) and slope B under the slider
+    idle: defaultdict[int, list[Workspace]]  # workspaces that no run uses at present, by the order of their series
 
 
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
@@ -263,12 +241,11 @@ def engine_case(p: Parameters) -> EngineCase:
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
-    return EngineCase(p, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
+    return EngineCase(p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace for one run, at the static start; the run gives it back to `EngineCase.idle` at its end. Workspaces
-    are reused, because making one takes as long as 30 steps."""
+    """A workspace at the static start; the run gives it back to `EngineCase.idle`, as making one takes 30 steps."""
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
@@ -283,7 +260,6 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
-    a, b, alpha, beta = modal.reshape(4, -1)
     x = state.x.tolist()
     phase, f = int(x[layout.PHASE]), x[layout.F]
     u, v = x[layout.U], x[layout.U_VELOCITY]
@@ -302,27 +278,27 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
         _roots=(int(x[layout.KNOWN]), int(x[layout.KNOWN_FORCE])),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
+        **dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
     )
 
 
 def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
-    """Write ``source`` to the engine's state; key: the `case_key` if it differs from the case's own, as on ramps.
-
-    Returns whether the engine has to determine the phase at this instant first: the state lies at an event of another
-    case.  Raises `ParameterError` if arrays have the wrong shape, numbers are not finite, the phase contradicts the
-    velocities, or the state belongs to other modes.
-    """
+    """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine has to determine the
+    phase at this instant first: the state lies at an event of another case. Raises `ParameterError`."""
     raise_faults(_faults(source, case))
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[case.present]
-    if source.phase != "separation" and not case.model.compliant:  # otherwise u is an independent coordinate
-        _check_height(case, source.u, state)
-    x = state.x
+    x, row = state.x, case.point[0]
+    if source.phase != "separation" and not case.model.compliant:  # the disc determines u, which would be ignored
+        w = float(row.dot(state.disc))
+        off = abs(source.u - w)
+        # the cheap comparison with w itself nearly always suffices
+        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+            rule = (
+                f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
+            )
+            raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
     x[layout.TIME], x[layout.TIME_LOW] = source.time, source.time_low
     x[layout.PSI], x[layout.F] = source.psi, source.f
     x[layout.U], x[layout.U_VELOCITY] = source.u, source.u_velocity
@@ -333,9 +309,8 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here. A slider
-    that touches the disc with zero relative velocity is put into contact, and the engine then determines whether it
-    stays there. Returns whether that is so."""
+    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here. Returns
+    whether the engine must determine if contact lasts: a slider that rests on the disc is put into contact."""
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
     f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])
@@ -354,26 +329,11 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     return False
 
 
-SAME_HEIGHT = 1e-9
-"""Tolerance of heights, relative to the disc's deflection: far above rounding, far below any intended difference."""
-
-
-def _check_height(case: EngineCase, u: float, state: layout.EngineState) -> None:
-    """Refuse another u in contact, where the disc determines the slider's height and u would be ignored silently."""
-    row = case.point[0]
-    w = float(row.dot(state.disc))
-    off = abs(u - w)
-    # the cheap comparison with w itself nearly always suffices
-    if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
-        rule = f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
-        raise ParameterError(Fault(("initial_state", "u"), as_text(u), rule))
-
-
 def _faults(source: State, case: EngineCase) -> list[str]:
-    n_modes = len(case.amplitudes)
+    n_modes, path = len(case.amplitudes), ("initial_state",)
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     wrong = [name for name in MODAL if not is_finite_array(getattr(source, name), n_modes)]
-    faults: list[str] = [Fault(("initial_state", name), "", rule) for name in wrong]
+    faults: list[str] = [Fault((*path, name), "", rule) for name in wrong]
     finite = {name: is_finite(getattr(source, name)) for name in PLAIN}
     # the clock's compensation is at most a unit in the last place of the time
     small = finite["time_low"] and (not finite["time"] or abs(source.time_low) <= math.ulp(source.time))
@@ -388,9 +348,8 @@ def _faults(source: State, case: EngineCase) -> list[str]:
         (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),
         (not against, "f", f"must have the sign of direction={source.direction}"),
     )
-    faults += amplitude_faults(source, case.amplitudes, ("initial_state",))
-    named = ((holds, f"initial_state.{name}", getattr(source, name), rule) for holds, name, rule in rules)
-    return faults + violations(*named)
+    faults += amplitude_faults(source, case.amplitudes, path)
+    return faults + [Fault.of((*path, name), getattr(source, name), rule) for holds, name, rule in rules if not holds]
 
 
 def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> list[str]:
@@ -409,7 +368,6 @@ def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> 
 
 
 def is_finite(value: object) -> bool:
-    """Whether a value is a finite number."""
     return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
 
 
@@ -423,26 +381,16 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
     return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
 
 
-# ---- Order and local tolerance of the series, from the tolerance that a user gives
-
-# Local truncation error for a tolerance of 1.  With it the errors of event times over a second of motion equal the
-# tolerance, as measured against the long-double references (docs/accuracy.md).
-LOCAL = 80.0
-# The same on a compliant contact: it takes three times as many steps, and errors accumulate in the weakly damped
-# vibration of the slider on the contact.
-LOCAL_COMPLIANT = LOCAL / 16
-# A looser tolerance is no cheaper, because the series must reach from event to event anyway, and it may miss events.
-LOOSEST = 1e-5
-
-
-def used_tolerance(tol: float, compliant: bool = False) -> float:
-    """The tolerance with which a run is computed: larger ones count as 1.25e-7, or 2e-6 on a compliant contact."""
-    return min(tol, LOOSEST / (LOCAL_COMPLIANT if compliant else LOCAL))
+# Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors of event times over
+# a second equal the tolerance, as measured against the long-double references (docs/accuracy.md). Compliant contact
+# takes three times as many steps, and errors accumulate in the weakly damped vibration of the slider on it.
+LOCAL = (80.0, 5.0)
+LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event to event anyway, and may miss events
 
 
 def series_tolerance(tol: float, compliant: bool = False) -> float:
     """Size of the last terms of a step, relative to the state's scale."""
-    return min((LOCAL_COMPLIANT if compliant else LOCAL) * tol, LOOSEST)
+    return min(LOCAL[compliant] * tol, LOOSEST)
 
 
 @cache
