@@ -1,10 +1,8 @@
 """The contract of a method: its input, its result, and the events between phases for those that stop at each.
 
 A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
-``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way.
-
-Only the integration is timed: modes, compiling and setting up are left out for every method.  Times are processor
-times. On a core of its own these equal wall-clock times, and elsewhere other processes do not distort them.
+``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way. Only the
+integration is timed, in processor time, which other processes do not distort.
 """
 
 from __future__ import annotations
@@ -38,22 +36,14 @@ class RunStatus(enum.StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """An initial-value problem: start and end of the motion.
-
-    parameters : the case
-    start : state in the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
-    t_end : s, absolute, greater than start.time
-    stop : whether to end at the first separation
-    watched : whether the range of the disc is requested, which costs some methods time
-    max_step : s, longest step of methods that would miss events with longer ones
-    """
+    """An initial-value problem: start and end of the motion."""
 
     parameters: Parameters
     start: State
-    t_end: float
-    stop: bool = False
-    watched: bool = False
-    max_step: float = math.inf
+    t_end: float  # s, absolute, greater than start.time
+    stop: bool = False  # whether to end at the first separation
+    watched: bool = False  # whether the range of the disc is requested, which costs some methods time
+    max_step: float = math.inf  # s, longest step of methods that would miss events with longer ones
 
     @property
     def span(self) -> float:
@@ -63,53 +53,29 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class MethodResult:
-    """Result of a method.
+    """Result of a method."""
 
-    times : s, shape (n_events,)
-    kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
-    final : state at t_end, or where the method stopped
-    seconds : processor time of the integration
-    work : number of right-hand sides, or of steps for methods that work with series
-    outcome, message : how it ended
-    longest_step : s, longest step taken; nan if not known
-    heights : m, least and greatest w of the disc under the slider; nan if not watched
-    glue : s of them spent in Python between compiled phases; nan where that was not measured
-    """
-
-    times: Array
-    kinds: tuple[str, ...]
-    final: State
-    seconds: float
-    work: int
+    times: Array  # of events, s, (n_events,)
+    kinds: tuple[str, ...]  # of events, words of `disc_model.data.variables.EVENT_KINDS`
+    final: State  # at t_end, or where the method stopped
+    seconds: float  # processor time of the integration
+    work: int  # number of right-hand sides, or of steps for methods that work with series
     outcome: RunStatus
     message: str = ""
-    longest_step: float = math.nan
-    heights: tuple[float, float] = (math.nan, math.nan)
-    glue: float = math.nan
-
-    @property
-    def separations(self) -> int:
-        """Number of separations."""
-        return self.kinds.count("separation")
+    longest_step: float = math.nan  # s; nan if not known
+    heights: tuple[float, float] = (math.nan, math.nan)  # m, least and greatest w under the slider; nan if not watched
+    glue: float = math.nan  # s of them spent in Python between compiled phases; nan where that was not measured
 
 
 class GaveUp(Exception):
-    """Raised inside a run that cannot go on."""
-
-    def __init__(self, message: str, outcome: RunStatus = RunStatus.FAILED) -> None:
-        super().__init__(message)
-        self.outcome = outcome
+    """Raised inside a run that cannot go on: its status and the reason."""
 
 
 class Meter:
-    """A run of a problem, with the constants of its case (``physics``, and ``modes`` and ``c`` for `kernels`).
-
-    It counts right-hand sides, watches the clock and, if requested, the disc's range.
-    """
+    """The constants of a run, and what it comes to: right-hand sides, time and, if requested, the disc's range."""
 
     def __init__(self, problem: Problem, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, Physics(problem.parameters), budget
-        self.modes, self.c = kernels.tables(self.physics)
         self.work, self.longest_step, self.low, self.high = 0, math.nan, math.nan, math.nan
         self.outcome, self.message = RunStatus.FINISHED, ""
 
@@ -120,14 +86,14 @@ class Meter:
         try:
             yield
         except GaveUp as reason:
-            self.outcome, self.message = reason.outcome, str(reason)
+            self.outcome, self.message = reason.args
         self.seconds, self.wall = clock.thread_time() - self.began, clock.perf_counter() - wall
 
     def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
         """The result of a method with the meter's counts; times are those from the start on."""
         seconds, work, heights = self.seconds, self.work, (self.low, self.high)
-        events = self.problem.start.time + np.array(times), tuple(kinds), final
-        return MethodResult(*events, seconds, work, self.outcome, self.message, self.longest_step, heights)
+        motion = self.problem.start.time + np.array(times), tuple(kinds), final
+        return MethodResult(*motion, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
         """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size). If
@@ -148,7 +114,7 @@ class Meter:
     def check(self) -> None:
         """Raise `GaveUp` if the time is used up."""
         if clock.thread_time() - self.began > self.budget:
-            raise GaveUp(f"not finished after {self.budget:g} s", RunStatus.TOO_SLOW)
+            raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
         """``function``, counting its calls and looking at the clock every 64 of them."""
@@ -166,23 +132,18 @@ class Meter:
 CROWD = 50  # greatest number of events at one instant; with more the method is stuck
 NOT_FINITE = "the state is no longer finite"
 ENDS = (3, 2, 1)
-"""By the number of a phase in `kernels`: functions of the state that end it where they fall through zero. The first is
-the contact force (1 if bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards
-in stick. Ties are decided in that order.
-"""
+"""By the number of a phase in `kernels`: functions of the state that end it where they fall through zero, ties in this
+order: the contact force (1 if bonded) or the gap; f in slip, or the margins of friction forwards and backwards."""
 Ended = tuple[int | None, float, Array]
-"""End of ``advance``: index of the function that stopped it (None at t_end), local time (s), and the state, which the
-caller may change.
-"""
+"""Index of the function that ended a phase (None at t_end), local time (s), and a state that the caller may change."""
 Advance = Callable[[int, int, float, Array, float], Ended]
 """Integrates a phase ``(phase, direction, t, y, t_end)``, given by its number in `kernels` and the sign of f in it (0
-except in slip), from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` is not changed.
-"""
+except in slip), from local time ``t`` (s, 0 at the start) on; ``y`` is not changed."""
 
 
 def run_phases(advance: Advance, meter: Meter) -> MethodResult:
     """Integrate phase by phase to the end of the problem."""
-    problem, physics, modes, c = meter.problem, meter.physics, meter.modes, meter.c
+    problem, physics, modes, c = meter.problem, meter.physics, meter.physics.modes, meter.physics.c
     phase, direction = PHASES.index(problem.start.phase), problem.start.direction
     t, y, span = 0.0, physics.pack(problem.start), problem.span
     new = np.zeros(2, np.int64)
@@ -202,7 +163,7 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
                 break
             phase, direction, added = kernels.switch(modes, c, phase, cause, y, new)
             if added < 0:
-                raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
+                raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
             crowd = crowd + 1 if times and t - times[-1] < 1e-12 else 0  # s, at one instant
             for index in range(added):
                 times.append(t)
@@ -210,7 +171,7 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
             if problem.stop and phase == kernels.SEPARATION:
                 break
             if crowd > CROWD:
-                raise GaveUp(f"more than {CROWD} events at one instant", RunStatus.STALLED)
+                raise GaveUp(RunStatus.STALLED, f"more than {CROWD} events at one instant")
         if not math.isfinite(y.sum()):
-            raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
+            raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
     return meter.result(times, kinds, physics.unpack(problem.start.time + t, PHASES[phase], direction, y))

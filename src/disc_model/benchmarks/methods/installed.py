@@ -1,26 +1,21 @@
 """Methods that need no extra: this package's engine, the paper's fixed-step Runge-Kutta, and scipy's integrators.
 
-A whole run of the engine or of RK4 is one compiled call. RK4 uses the last rate of a step as the first of the next, and
-its contact force for the event conditions at the end. A step is searched if a condition changes sign or dips. Dips are
-detected by the parabola through three step ends, so that a loss of contact much shorter than a step is missed.
-
 scipy's integrators are restarted at every event, or run once through a regularised model that has no events. It is one
 stiff ODE, with a smooth friction law and a penalty for penetration.
 
     friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
     contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
 
-``eps`` (rad/s) is the setting.  The penalty is K = `PENALTY`/eps, so that one number sets the distance from the model
-with events.  Stick is a creep abs(f) < 3 eps. Events are found afterwards at the crossings of abs(f) = 3 eps and of P =
-0.  The model error is about eps^(2/3): stick ends by slow passage through the maximum of the law, a fold.  The error
-falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps falls. Explicit methods are hopeless, and
-implicit ones take many steps at every event.
+``eps`` (rad/s) is the setting, and K is `PENALTY`/eps. Stick is a creep abs(f) < 3 eps. Events are found afterwards at
+the crossings of abs(f) = 3 eps and of P = 0. The model error is about eps^(2/3): stick ends by slow passage through the
+maximum of the law, a fold. It falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps falls.
 """
 
 import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -33,19 +28,32 @@ from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.errors import Status
 from disc_model.simulation.api import Execution, simulate
 from disc_model.simulation.case import Window
-from disc_model.simulation.states import State
-
-Function = Callable[[float, Array], Any]
 
 
 def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
     """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
-    meter = Meter(problem, budget)
+    meter, margins = Meter(problem, budget), np.empty(3)
     scale, least = absolute_scale(meter.physics), 2.3e-14  # scipy accepts no smaller relative tolerance
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
-        rate, slopes, events = _functions(meter, phase, direction)
+        modes, c = meter.physics.modes, meter.physics.c
+
+        def rate(_t: float, y: Array) -> Array:
+            dy = np.empty_like(y)
+            kernels.rate(modes, c, phase, direction, y, dy)
+            return dy
+
+        def slopes(_t: float, y: Array) -> Array:
+            J = np.empty((len(y), len(y)))
+            kernels.jacobian(modes, c, phase, direction, y, J)
+            return J
+
+        def margin(index: int, _t: float, y: Array) -> float:
+            kernels.switch_values(modes, c, phase, direction, y, margins)
+            return float(margins[index])
+
         more = {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
+        events = [_event(partial(margin, index), -1, last=True) for index in range(ENDS[phase])]
         with np.errstate(over="ignore", invalid="ignore"):
             solution = solve_ivp(
                 meter.counted(rate), (t, t_end), y,
@@ -53,41 +61,18 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
             )  # fmt: skip
         meter.steps(solution.t, solution.y.T)
         if solution.status == -1:
-            raise GaveUp(solution.message)
+            raise GaveUp(RunStatus.FAILED, solution.message)
         cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)
         return cause, float(solution.t[-1]), solution.y[:, -1].copy()
 
     return run_phases(advance, meter)
 
 
-def _functions(meter: Meter, phase: int, direction: int) -> tuple[Function, Function, list[Function]]:
-    """Right-hand side and Jacobian of a phase, and the functions that fall through zero at its end."""
-    modes, c, values = meter.modes, meter.c, np.empty(3)
-
-    def rate(_t: float, y: Array) -> Array:
-        dy = np.empty_like(y)
-        kernels.rate(modes, c, phase, direction, y, dy)
-        return dy
-
-    def slopes(_t: float, y: Array) -> Array:
-        J = np.empty((len(y), len(y)))
-        kernels.jacobian(modes, c, phase, direction, y, J)
-        return J
-
-    def event(index: int) -> Function:
-        def value(_t: float, y: Array) -> float:
-            kernels.switch_values(modes, c, phase, direction, y, values)
-            return float(values[index])
-
-        return crossing(value, -1, last=True)
-
-    return rate, slopes, [event(index) for index in range(ENDS[phase])]
-
-
-def crossing(function: Any, direction: int, *, last: bool) -> Function:
+def _event(function: Callable[[float, Array], float], direction: int, *, last: bool) -> Any:
     """An event in scipy's form: the sign of the change of ``function`` (0: either), and whether it is terminal."""
-    function.terminal, function.direction = last, direction
-    return function  # type: ignore[no-any-return]
+    event: Any = partial(function)
+    event.terminal, event.direction = last, direction
+    return event
 
 
 def absolute_scale(physics: Physics) -> Array:
@@ -96,9 +81,8 @@ def absolute_scale(physics: Physics) -> Array:
     deflection = p.N * np.abs(physics.shape) / physics.stiffness
     velocity = deflection * physics.omega
     angle = p.mu_s * p.N / (p.k_p * p.r_0)
-    speed = max(p.Omega, 1e-3)
     height = max(abs(physics.u_0), 1e-12)
-    tail = (max(angle, 1e-9), speed, height, height * float(physics.omega.min()))
+    tail = (max(angle, 1e-9), max(p.Omega, 1e-3), height, height * float(physics.omega.min()))
     return np.concatenate([deflection, deflection, velocity, velocity, tail])
 
 
@@ -108,43 +92,52 @@ CREEP = 3.0  # abs(f)/eps below which the slider counts as sticking
 RTOL = 1e-8
 
 
-class Law:
-    """Regularised friction and contact for one eps."""
+def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
+    """An algorithm of scipy on the regularised model; ``value`` is eps."""
+    meter, p, start = Meter(problem, budget), problem.parameters, problem.start
+    physics, stiffness = meter.physics, PENALTY / value
+    damping = 2.0 * math.sqrt(stiffness / (1.0 / p.m + physics.compliance))
+    case = (physics.modes, physics.c, np.array([value, _excess(p.mu_s, p.mu_k), stiffness, damping]))
 
-    def __init__(self, physics: Physics, eps: float) -> None:
-        self.physics, self.eps = physics, eps
-        self.K = PENALTY / eps
-        C = 2.0 * math.sqrt(self.K / (1.0 / physics.p.m + physics.compliance))
-        self.modes, self.c = kernels.tables(physics)
-        self.constants = np.array([eps, _excess(physics.p.mu_s, physics.p.mu_k), self.K, C])
+    def force(_t: float, y: Array) -> float:
+        return float(kernels.smooth_force(*case, y))
 
-    def force(self, y: Array) -> float:
-        """Signed penalty force; contact where it is positive."""
-        return float(kernels.smooth_force(self.modes, self.c, self.constants, y))
-
-    def rate(self, y: Array) -> Array:
-        """dy/dt, shape of ``y``."""
+    def rate(_t: float, y: Array) -> Array:
         dy = np.empty_like(y)
-        kernels.smooth_rate(self.modes, self.c, self.constants, y, dy)
+        kernels.smooth_rate(*case, y, dy)
         return dy
 
-    def start(self, start: State) -> Array:
-        """A state whose penetration carries the contact force; the slider moves with the disc's point."""
-        physics = self.physics
-        y = physics.pack(start)
-        if start.phase != "separation":
-            y[physics.u], y[physics.v] = physics.disc_point(y)
-            y[physics.u] -= kernels.contact(self.modes, self.c, start.direction, y)[0] / self.K
-        return y
-
-    def state(self, time: float, y: Array) -> State:
-        """The state that a vector stands for."""
-        f = float(y[self.physics.f])
-        if self.force(y) <= 0:
-            return self.physics.unpack(time, "separation", 0, y)
-        if abs(f) < CREEP * self.eps:
-            return self.physics.unpack(time, "stick", 0, y)
-        return self.physics.unpack(time, "slip", 1 if f > 0 else -1, y)
+    t, y = 0.0, physics.pack(start)
+    if start.phase != "separation":  # the penetration carries the contact force
+        y[physics.u], y[physics.v] = physics.disc_point(y)
+        y[physics.u] -= kernels.contact(physics.modes, physics.c, start.direction, y)[0] / stiffness
+    rate(t, y)  # compiles
+    creep = _event(lambda _t, y: abs(y[physics.f]) - CREEP * value, 0, last=False)
+    events = [creep, _event(force, 0, last=False), *([_event(force, -1, last=True)] if problem.stop else [])]
+    switches: list[tuple[float, str]] = []
+    with meter.running(), np.errstate(over="ignore", invalid="ignore"):
+        solution = solve_ivp(
+            meter.counted(rate), (t, problem.span), y,
+            method=algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
+        )  # fmt: skip
+        meter.steps(solution.t, solution.y.T)
+        t, y = float(solution.t[-1]), solution.y[:, -1]
+        for time, state in zip(solution.t_events[0], solution.y_events[0], strict=True):
+            if force(time, state) > 0:  # in separation a zero of f is no event
+                leaving = np.sign(state[physics.f]) * rate(time, state)[physics.f] > 0
+                switches.append((float(time), "stick_to_slip" if leaving else "slip_to_stick"))
+        for time, state in zip(solution.t_events[1], solution.y_events[1], strict=True):
+            rising = force(time, state + 1e-9 * rate(time, state)) > force(time, state)
+            switches.append((float(time), "reattachment" if rising else "separation"))
+        if solution.status < 0:
+            raise GaveUp(RunStatus.FAILED, solution.message)
+    if not np.all(np.isfinite(y)):
+        meter.outcome = RunStatus.NON_FINITE
+    merged, f = _merged(switches), float(y[physics.f])
+    phase = "separation" if force(t, y) <= 0 else "stick" if abs(f) < CREEP * value else "slip"
+    direction = (1 if f > 0 else -1) if phase == "slip" else 0
+    final = physics.unpack(start.time + t, phase, direction, y)
+    return meter.result([time for time, _ in merged], [kind for _, kind in merged], final)
 
 
 def _excess(mu_s: float, mu_k: float) -> float:
@@ -157,51 +150,10 @@ def _excess(mu_s: float, mu_k: float) -> float:
     return excess
 
 
-def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
-    """An algorithm of scipy on the regularised model; ``value`` is eps."""
-    meter = Meter(problem, budget)
-    physics, law = meter.physics, Law(meter.physics, value)
-    y = law.start(problem.start)
-    law.rate(y)  # compiles
-    events = [
-        crossing(lambda _t, z: abs(z[physics.f]) - CREEP * value, 0, last=False),
-        crossing(lambda _t, z: law.force(z), 0, last=False),
-    ]
-    if problem.stop:
-        events.append(crossing(lambda _t, z: law.force(z), -1, last=True))
-    switches: list[tuple[float, str]] = []
-    t = 0.0
-    with meter.running(), np.errstate(over="ignore", invalid="ignore"):
-        solution = solve_ivp(
-            meter.counted(lambda _t, z: law.rate(z)), (t, problem.span), y,
-            method=algorithm, rtol=RTOL, atol=RTOL * absolute_scale(physics), events=events,
-        )  # fmt: skip
-        meter.steps(solution.t, solution.y.T)
-        t, y = float(solution.t[-1]), solution.y[:, -1]
-        switches = _read_off(law, solution.t_events, solution.y_events)
-        if solution.status < 0:
-            raise GaveUp(solution.message)
-    if not np.all(np.isfinite(y)):
-        meter.outcome = RunStatus.NON_FINITE
-    times, kinds = [time for time, _ in switches], [kind for _, kind in switches]
-    return meter.result(times, kinds, law.state(problem.start.time + t, y))
-
-
-def _read_off(law: Law, times: list[Array], states: list[Array]) -> list[tuple[float, str]]:
-    """Events in order of time; the rates at each crossing give its direction."""
-    events: list[tuple[float, str]] = []
-    f = law.physics.f
-    for t, y in zip(times[0], states[0], strict=True):
-        if law.force(y) <= 0:
-            continue  # in separation a zero of f is no event
-        leaving = float(np.sign(y[f]) * law.rate(y)[f]) > 0
-        events.append((float(t), "stick_to_slip" if leaving else "slip_to_stick"))
-    for t, y in zip(times[1], states[1], strict=True):
-        rising = law.force(y + 1e-9 * law.rate(y)) > law.force(y)
-        events.append((float(t), "reattachment" if rising else "separation"))
+def _merged(events: list[tuple[float, str]]) -> list[tuple[float, str]]:
+    """Events in order of time; a stick shorter than a microsecond, in which f only passes zero, is a slip reversal."""
     merged: list[tuple[float, str]] = []
     for t, kind in sorted(events):
-        # in a stick shorter than a microsecond f only passes zero
         if kind == "stick_to_slip" and merged and merged[-1][1] == "slip_to_stick" and t - merged[-1][0] < 1e-6:
             merged[-1] = (merged[-1][0], "slip_reversal")
         else:
@@ -231,14 +183,8 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         problem.parameters, problem.t_end, windows, tol=value, initial_state=problem.start,
         stop_at="first_separation" if problem.stop else None, execution=Execution(max_steps=steps),
     )  # fmt: skip
-    outcome = {
-        Status.OK: RunStatus.FINISHED,
-        Status.STOPPED: RunStatus.FINISHED,
-        Status.STEP_LIMIT: RunStatus.TOO_SLOW,
-        Status.STALLED: RunStatus.STALLED,
-        Status.NON_FINITE: RunStatus.NON_FINITE,
-    }.get(result.status, RunStatus.FAILED)
-    seen = result.samples.get("whole", {})
+    failures = {Status.STEP_LIMIT: RunStatus.TOO_SLOW, Status.PARADOX: RunStatus.FAILED}
+    status, seen = result.status, result.samples.get("whole", {})
     reached = len(seen.get("w_min", ()))  # of a bin that a run ends before, there is nothing
     return MethodResult(
         times=result.events["time"].to_numpy(),
@@ -247,7 +193,7 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         # the time of the steps; of a long run, which other processes may have interrupted, that of the call
         seconds=min(result.statistics["wall_time"], clock.thread_time() - began),
         work=int(result.statistics["steps"]),
-        outcome=outcome,
+        outcome=RunStatus.FINISHED if status.complete else failures.get(status) or RunStatus(status.value),
         message=result.message,
         heights=(float(seen["w_min"].min()), float(seen["w_max"].max())) if reached else (math.nan, math.nan),
     )
@@ -262,8 +208,7 @@ def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodRe
     start = problem.start
     if give > value or start.phase == "separation":
         return solve_by_series(problem, value, budget)
-    none = np.empty(0)
-    rigid = start.replace(u=0.0, u_velocity=0.0, **dict.fromkeys(("a", "b", "alpha", "beta"), none))
+    rigid = start.replace(u=0.0, u_velocity=0.0, **dict.fromkeys(("a", "b", "alpha", "beta"), np.empty(0)))
     case = problem.parameters.replace(n_diameters=-1)
     result = solve_by_series(replace(problem, parameters=case, start=rigid), value, budget)
     end = result.final
@@ -276,7 +221,7 @@ def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
     meter, start = Meter(problem, budget), problem.start
     y = meter.physics.pack(start)
     track = (np.empty(MAX_EVENTS), np.empty(MAX_EVENTS, np.int64), np.array([math.inf, -math.inf]))
-    case = (meter.modes, meter.c, PHASES.index(start.phase), start.direction)
+    case = (meter.physics.modes, meter.physics.c, PHASES.index(start.phase), start.direction)
     steps = int(max(1, min(budget, 1e6) * RK4_STEPS_PER_SECOND))
     kernels.rk4_run(*case, y.copy(), (0.0, value, 1, problem.stop), track)  # compiles
     limits = (problem.span, value, steps, problem.stop)
