@@ -17,13 +17,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 from scipy.signal import find_peaks
 
 from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.benchmarks.truncation import CONTACTS
@@ -91,7 +90,6 @@ def start_of(name: str) -> State:
 
 
 # ---- Replies of a method that integrates, by the name of the answer, from the events that it finds within a budget (s)
-Array = NDArray[np.float64]
 Solve = Callable[[Problem, float], MethodResult]
 Replies = dict[str, Reply]
 AFTER_SEPARATION = ("separation_rate", "disc_range", "period")  # names of the answers of `after_separation`

@@ -274,16 +274,13 @@ def _borders(dataset: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
     elif setting == "epsilon":
         yield "--", dataset["stiff_epsilon"].values
     elif np.isfinite(dataset["longest_step"].values).any():
-        yield ":", _crossing(dataset)
-
-
-def _crossing(dataset: xr.Dataset) -> np.ndarray:
-    """Coarsest setting per row whose steps are no longer than the shortest phase; beyond the axis without one."""
-    value, crossings = dataset["value"].values, []
-    for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
-        fine = np.flatnonzero(row <= shortest)
-        crossings.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
-    return np.array(crossings)
+        # the coarsest setting whose steps are no longer than the shortest phase; beyond the axis without one
+        value, crossings = dataset["value"].values, []
+        for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
+            fine = np.flatnonzero(row <= shortest)
+            pair = value[fine[-1] : fine[-1] + 2] if fine.size else np.zeros(1)
+            crossings.append(math.sqrt(pair[0] * pair[-1]))
+        yield ":", np.array(crossings)
 
 
 # ---- How many modes

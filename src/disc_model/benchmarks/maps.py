@@ -15,8 +15,7 @@ import xarray as xr
 from disc_model.benchmarks import answers, scenes
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, Solve, setting_of
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.installed import STABILITY_LIMIT
+from disc_model.benchmarks.methods.base import STABILITY_LIMIT, Problem
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
 from disc_model.disc.plate import mode_arrays

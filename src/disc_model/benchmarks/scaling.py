@@ -7,7 +7,6 @@ of the same area, so that fine and coarse grids have the same mix of motions.
 import os
 import time
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -32,19 +31,19 @@ def scaling(
     several: tuple[int, int] = SEVERAL,
 ) -> xr.Dataset:
     """A row for each study; of ``grids``, growth rates leave out the first, outcomes the last."""
-    points = [_point("points", "floquet", grid=grid) for grid in grids[1:]]
-    points += [_point("points", "outcome", grid=grid) for grid in grids[:-1]]
-    points += [_point("modes", quantity, grid=several, model=model, horizon=SHORT)
-               for quantity in ("floquet", "outcome") for model in models]  # fmt: skip
-    points += [_point("horizon", "outcome", grid=several, horizon=horizon) for horizon in horizons]
+    points: list[Row] = [{"varies": "points", "quantity": "floquet", "grid": grid} for grid in grids[1:]]
+    points += [{"varies": "points", "quantity": "outcome", "grid": grid} for grid in grids[:-1]]
+    for quantity in ("floquet", "outcome"):
+        common = {"varies": "modes", "quantity": quantity, "grid": several, "horizon": SHORT}
+        points += [common | {"model": model} for model in models]
+    common = {"varies": "horizon", "quantity": "outcome", "grid": several}
+    points += [common | {"horizon": horizon} for horizon in horizons]
     return run("scaling", points, measure, cores=CORES, title="How cost grows", Conventions="CF-1.11")
 
 
-def _point(varies: str, quantity: str, **other: Any) -> Row:
-    return {"varies": varies, "quantity": quantity, "model": (4, 0), "horizon": HORIZON} | other
-
-
-def measure(varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int], horizon: float) -> Iterator[Row]:
+def measure(
+    varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int] = (4, 0), horizon: float = HORIZON
+) -> Iterator[Row]:
     """The cost of one study as a row."""
     options = {"horizon": horizon} if quantity == "outcome" else {}
     base = dict(zip(("n_diameters", "n_circles"), model, strict=True))

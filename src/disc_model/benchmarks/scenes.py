@@ -23,8 +23,6 @@ from disc_model.simulation.states import State
 JUDGED = ("stick_slip", "separating")  # scenes for short comparisons of methods: a second each
 CONVERGED = 1e-6  # greatest event-time error of a converged answer with all events, s
 LOST = 2.0  # relative energy norm of an unstable answer's error; sqrt(2) is that of unrelated motions of equal energy
-
-
 Verdict = enum.IntEnum("Verdict", "CONVERGED INACCURATE WRONG_EVENTS UNSTABLE GAVE_UP NOT_RUN", start=0)
 
 

@@ -80,7 +80,7 @@ def run(
 
 @contextmanager
 def few_cores(count: int) -> Iterator[None]:
-    """Restrict this process, and threads and processes begun meanwhile, to so many cores; release it afterwards."""
+    """Restrict this process, and what it begins meanwhile, to so many cores, where the system can do that."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return

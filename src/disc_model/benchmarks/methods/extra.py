@@ -26,7 +26,6 @@ from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, RunStatus, run_phases
-from disc_model.benchmarks.methods.installed import absolute_scale
 from disc_model.benchmarks.methods.kernels import SHIFT, Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
@@ -170,7 +169,7 @@ HEAD = 3  # number of entries before the scalars in the callbacks' data: phase, 
 def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
     """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
     meter = Meter(problem, budget)
-    physics, n, scale = meter.physics, meter.physics.n, value * absolute_scale(meter.physics)
+    physics, n, scale = meter.physics, meter.physics.n, value * meter.physics.scale()
     state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], physics.c, physics.modes.ravel()])
     time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)

@@ -65,6 +65,14 @@ class Physics:
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
+    def scale(self) -> Array:
+        """Scale of each entry of the vector for absolute tolerances: static deflection, and its velocity."""
+        p, deflection = self.p, self.p.N * np.abs(self.shape) / self.stiffness
+        velocity, angle = deflection * self.omega, p.mu_s * p.N / (p.k_p * p.r_0)
+        height = max(abs(self.u_0), 1e-12)
+        tail = (max(angle, 1e-9), max(p.Omega, 1e-3), height, height * float(self.omega.min()))
+        return np.concatenate([deflection, deflection, velocity, velocity, tail])
+
     def distance(self, state: State, other: State) -> float:
         """Energy norm of the difference of two states, that of the slider's height included, over that of ``other``."""
         right = self.pack(other)
@@ -175,7 +183,7 @@ STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `installed`."""
+    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `base`."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
