@@ -27,14 +27,12 @@ STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a m
 REFERENCE_TOL = 1e-14
 CASE = Parameters(N=600.0, Omega=27.0)  # case of the answer maps, which loses contact within `HORIZON`
 HORIZON = 25.0  # s
+Settings = Sequence[float] | None  # those of the method if not given
 BUDGET = 3.0  # budget for a point of an answer map, s; beyond it, finer settings with the same modes are skipped
 
 
 def failure_map(
-    method: str,
-    scene: str = "separating",
-    diameters: Sequence[int] = (1, 2, 4, 6, 8),
-    values: Sequence[float] | None = None,
+    method: str, scene: str = "separating", diameters: Sequence[int] = (1, 2, 4, 6, 8), values: Settings = None
 ) -> xr.Dataset:
     """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
     judged = METHODS[method].economical()
@@ -59,9 +57,7 @@ def failure_map(
     return _with_facts(judged, study, facts, "failure_map_facts")
 
 
-def answer_map(
-    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
-) -> xr.Dataset:
+def answer_map(method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Settings = None) -> xr.Dataset:
     """Verdicts on a method's first separation along (diameters, value), from coarse to fine."""
     judged = METHODS[method].economical()
     reference = setting_of(METHODS["series"], REFERENCE_TOL)

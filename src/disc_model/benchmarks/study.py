@@ -93,7 +93,7 @@ def few_cores(count: int) -> Iterator[None]:
 
 
 def machine() -> str:
-    """Processor and number of cores, as reported by the system."""
+    """Processor and number of cores, as the system reports them."""
     model = platform.processor() or platform.machine()
     with suppress(OSError, StopIteration):
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

@@ -27,10 +27,7 @@ MOST_GROWTH = 80  # greatest number of real modes for growth rates, which need f
 
 
 def contact_study(
-    models: Sequence[tuple[int, int]] = MODELS,
-    cases: Mapping[str, Mapping[str, Any]] = SEPARATING,
-    *,
-    horizon: float = 200.0,
+    models: Sequence[tuple[int, int]] = MODELS, cases: Mapping[str, Row] = SEPARATING, *, horizon: float = 200.0
 ) -> xr.Dataset:
     """Measure the variables ``contact_truncation`` along (case, contact, model); nan where there is none."""
 

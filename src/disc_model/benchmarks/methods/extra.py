@@ -129,9 +129,8 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
         below = 1.0 + p.m * physics.compliance
         by = s / below
         held = each((p.k - p.m * physics.stiffness) * by, a) + each((p.c - p.m * physics.damping) * by, alpha)
-        P = combined(
-            (1.0 / below, load), *held, *each(2.0 * p.m * l * by, fbeta, turning), *each(p.c * l * by, fb, turning)
-        )
+        swept = each(2.0 * p.m * l * by, fbeta, turning) + each(p.c * l * by, fb, turning)
+        P = combined((1.0 / below, load), *held, *swept)
     if turning and touches:
         tilt = combined(*each(l * by, b, turning))
         P = P - f * combined(*each(p.m * l**2 * by, fa, turning)) + tilt * F
@@ -159,6 +158,7 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
 
 
 # ---- SUNDIALS CVODE, with scikit-sundae
+Pointer = ctypes.c_void_p
 CVODE_STEPS = 5_000  # number of steps between two checks of the clock
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL, ONE_STEP = 1, 2
@@ -173,7 +173,7 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
     state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], physics.c, physics.modes.ravel()])
     time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)
-    call, switches = _library(), ctypes.c_void_p(_callbacks()[1].address)
+    call, switches = _library(), Pointer(_callbacks()[1].address)
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         state[:], constants[:2], time.value = y, (phase, direction), t
@@ -208,7 +208,7 @@ def _library() -> Any:
 
     library = ctypes.CDLL(extension.__file__)
     for name in ("CVodeCreate", "N_VMake_Serial", "SUNNonlinSol_FixedPoint", "SUNDenseMatrix", "SUNLinSol_Dense"):
-        getattr(library, name).restype = ctypes.c_void_p
+        getattr(library, name).restype = Pointer
     return library
 
 
@@ -249,30 +249,26 @@ def _callbacks() -> tuple[Any, ...]:
 
 
 @contextmanager
-def _solver(
-    family: str, y: Array, tol: float, atol: Array, constants: Array
-) -> Iterator[tuple[ctypes.c_void_p, ctypes.c_void_p]]:
+def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) -> Iterator[tuple[Pointer, Pointer]]:
     """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
     call = _library()
-    rate, _, jacobian = (ctypes.c_void_p(callback.address) for callback in _callbacks())
-    context, size = ctypes.c_void_p(), len(y)
+    rate, _, jacobian = (Pointer(callback.address) for callback in _callbacks())
+    context, size = Pointer(), len(y)
     call.SUNContext_Create(0, ctypes.byref(context))
     call.SUNContext_ClearErrHandlers(context)
-    vector, least = (
-        ctypes.c_void_p(call.N_VMake_Serial(size, x.ctypes.data_as(ctypes.c_void_p), context)) for x in (y, atol)
-    )
-    memory = ctypes.c_void_p(call.CVodeCreate(FAMILIES[family], context))
+    vector, least = (Pointer(call.N_VMake_Serial(size, x.ctypes.data_as(Pointer), context)) for x in (y, atol))
+    memory = Pointer(call.CVodeCreate(FAMILIES[family], context))
     call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
     call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
-    call.CVodeSetUserData(memory, constants.ctypes.data_as(ctypes.c_void_p))
+    call.CVodeSetUserData(memory, constants.ctypes.data_as(Pointer))
     call.CVodeSetMaxNumSteps(memory, ctypes.c_long(CVODE_STEPS))
     if family == "Adams":
-        iteration = ctypes.c_void_p(call.SUNNonlinSol_FixedPoint(vector, 0, context))
+        iteration = Pointer(call.SUNNonlinSol_FixedPoint(vector, 0, context))
         call.CVodeSetNonlinearSolver(memory, iteration)
         made = [("SUNNonlinSolFree", iteration)]
     else:
-        matrix = ctypes.c_void_p(call.SUNDenseMatrix(size, size, context))
-        linear = ctypes.c_void_p(call.SUNLinSol_Dense(vector, matrix, context))
+        matrix = Pointer(call.SUNDenseMatrix(size, size, context))
+        linear = Pointer(call.SUNLinSol_Dense(vector, matrix, context))
         call.CVodeSetLinearSolver(memory, linear, matrix)
         call.CVodeSetJacFn(memory, jacobian)
         made = [("SUNLinSolFree", linear), ("SUNMatDestroy", matrix)]
