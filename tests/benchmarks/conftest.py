@@ -93,7 +93,7 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     def ask(model):
         count = model["n_diameters"]
         status = AnswerStatus.FOUND if count else AnswerStatus.NONE
-        yield "first_separation", Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)
+        return {"first_separation": Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)}
 
     def onset(p, tol):
         return Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND)
@@ -103,7 +103,8 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
     for name, function in (("ask_model", ask), ("cycle_onset", onset), ("cycle_growth_rate", growth_rate)):
         monkeypatch.setattr(answers, name, function)
-    monkeypatch.setattr(answers, "_richest", lambda: dict(ask({"n_diameters": 8})))
+    monkeypatch.setattr(answers, "_richest", lambda: ask({"n_diameters": 8}))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
     parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))]
-    return answers.merged([*parts, answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))])
+    parts += [answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))]
+    return xr.concat(parts, "row", combine_attrs="override")

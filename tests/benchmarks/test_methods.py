@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, Method, MethodUnavailable, installed
+from disc_model.benchmarks.methods import METHODS, Method, MethodUnavailable, base
 from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
@@ -127,5 +127,5 @@ def test_the_regularised_model_is_of_order_two_thirds_in_eps_and_stiff_in_propor
     late = np.array([float(result.times[0] - answer("stick_slip").times[0]) for result in results])
     assert fitted_order(1.0 / eps, late) == pytest.approx(2 / 3, abs=0.12)
     stuck = Problem(BASE, start, 0.004)  # nothing moves but the drive
-    coarse, fine = (installed.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01))
+    coarse, fine = (base.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01))
     assert fine > 4 * coarse

@@ -43,8 +43,7 @@ def test_points_are_measured_in_turn_on_one_core(monkeypatch: pytest.MonkeyPatch
             yield {"size": float(len(turns)), "state": Verdict.CONVERGED}
 
     points = [{"kind": kind, "count": count} for kind in "ba" for count in (2, 1)]
-    flags, unmeasured = {"state": Verdict}, {"state": Verdict.NOT_RUN}
-    dataset = study.run("made_up", points, measure, ["kind", "count"], rounds=3, flags=flags, unmeasured=unmeasured)
+    dataset = study.run("made_up", points, measure, ["kind", "count"], rounds=3, flags={"state": Verdict})
     assert turns == [("b", 2), ("b", 1), ("a", 2), ("a", 1)] * 3
     assert "kind=b count=2 size=1.0 state=0" in caplog.messages
     assert (dataset["kind"].values.tolist(), dataset["count"].values.tolist()) == (["b", "a"], [2, 1])
@@ -133,13 +132,13 @@ def test_the_engine_gives_the_right_answers() -> None:
 def test_models_answer_by_their_own_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     """With the modes of the references all is right; without pairs of modes nothing ever grows."""
     monkeypatch.setattr(answers, "RICHEST", {})
-    replies = dict(answers.ask_model({}))
+    replies = answers.ask_model({})
     assert (replies.pop("region").value, answers.QUESTIONS.keys() - replies) == (0, {"region"})
     assert {verdict(name, reply, answers.reference(name).value) for name, reply in replies.items()} == {RIGHT}
     # what a deviation of finite size adds to the rate at which an infinitesimal one grows
     assert replies["growth_rate"].value == pytest.approx(answers.reference("growth_rate").value, abs=2e-5)
     assert replies["onset"].value == pytest.approx(15.0949, abs=5e-5)
-    none = dict(answers.ask_model({"n_diameters": 0}))
+    none = answers.ask_model({"n_diameters": 0})
     assert none["onset"][2:4] == (AnswerStatus.NONE, "no fold from 14.5 to 16 rad/s")
     assert none["period"][2:4] == (AnswerStatus.NONE, "no separation within 400 s")
     assert none["region"].value > 0

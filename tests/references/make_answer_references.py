@@ -76,9 +76,7 @@ def region() -> tuple[list[str], dict[str, Any]]:
     maps = []
     for tol in (TIGHT, TIGHTER):
         solve = by_heyoka(tol)
-        maps.append(
-            [answers.cell(solve, answers.cell_parameters(index), np.inf)[0] for index in range(answers.SIDE**2)]
-        )
+        maps.append([answers.cell(solve, np.inf, index)[0] for index in range(answers.SIDE**2)])
     rows = np.array(maps[1]).reshape(answers.SIDE, answers.SIDE)
     unlike = float(np.mean(np.array(maps[0]) != np.array(maps[1])))
     return ["".join("01"[int(x)] for x in row) for row in rows], {"value": 0.0, "error": unlike, "by": HEYOKA}

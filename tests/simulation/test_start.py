@@ -101,9 +101,8 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
     p = APART.replace(**change)
     start = transfer_state(p, switch())
     physics = Physics(p)
-    force, _ = kernels.contact(
-        *kernels.tables(physics), 1, physics.pack(start)
-    )  # by formulas that share nothing with the engine
+    # by formulas that share nothing with the engine
+    force, _ = kernels.contact(physics.modes, physics.c, 1, physics.pack(start))
     assert abs(force) > 1e-3
     window = Window(start=0, stop=2e-3, rate=1e6)
     run = simulate(p, 2e-3, windows={"w": window}, initial_state=start)

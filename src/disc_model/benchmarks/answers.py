@@ -1,14 +1,5 @@
 """What each answer costs: questions that methods are compared by, their correct answers, and replies to them.
 
-``first_separation``: N = 385 N, Omega = 15.1 rad/s, when contact is lost for the first time after the static start
-``separation_rate``, ``disc_range``, ``period``: N = 300 N, Omega = 20 rad/s, long after contact was first lost:
-separations per second, how far the disc moves under the slider, after how many releases from stick the motion repeats
-``onset``: N = 385 N, lowest speed from which the static start leads to a separation within `ONSET_HORIZON` s; by
-continuation of the cycle, the fold in which the quiet cycle ends
-``growth_rate``: N = 200 N, Omega = 20 rad/s, how fast a small deviation from the stick-slip cycle grows
-``region``: `SIDE` x `SIDE` cells of speed and preload, share of the cells for which it is said wrongly whether the
-static start leads to a separation within `REGION_HORIZON` s
-
 ``data/answers.json`` has correct answers with their errors, by ``tests/references/make_answer_references.py``, which
 shares no code with the engine. Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate
 without a simulation. In the lines ``rigid`` and ``residual`` the number of nodal diameters varies, and errors are those
@@ -20,18 +11,18 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache, partial, wraps
+from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.optimize import curve_fit
 from scipy.signal import find_peaks
 
 from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.benchmarks.truncation import CONTACTS
@@ -48,49 +39,23 @@ from disc_model.stability.cycle import floquet
 SEPARATING = Parameters(N=385.0, Omega=15.1)
 SETTLED = Parameters(N=300.0, Omega=20.0)
 GROWING = Parameters(N=200.0, Omega=20.0)
-
 SEPARATION_HORIZON = 55.0  # simulated time for the first separation, s
-SETTLED_AT, SETTLED_SPAN = 250.0, 5.0
-"""Begin and length of the examined motion after separation, s: slightly more than two periods."""
-ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02
-"""Interval in which the onset speed is searched, and precision of the search, rad/s."""
-ONSET_HORIZON = 65.0
-"""Horizon of the onset, s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s."""
-GROWING_AT, GROWING_SPAN = 100.0, 10.0
-"""Begin and length of the examined motion, s; by then only a growing deviation is left."""
-SIDE = 32
-REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)
-REGION_HORIZON = 25.0
+SETTLED_AT, SETTLED_SPAN = 250.0, 5.0  # begin and length of the examined motion, s: a little more than two periods
+ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02  # interval and precision of the search for the onset, rad/s
+ONSET_HORIZON = 65.0  # s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s
+GROWING_AT, GROWING_SPAN = 100.0, 10.0  # the same of a motion from a cycle; by then one deviation is left that grows
+SIDE = 32  # number of cells of the region along each axis
+REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)  # rad/s, N
+REGION_HORIZON = 25.0  # s
+QUESTIONS: dict[str, dict[str, Any]] = {
+    name: dict(zip(("title", "units", "enough"), entry, strict=True)) for name, entry in TABLES["questions"].items()
+}
+"""Name in words, unit, and the tolerance (in the unit) of a correct answer."""
 
 
-class Question(NamedTuple):
-    """A question: its name in words, its unit, and the tolerance (in the unit) of a correct answer."""
-
-    title: str
-    units: str
-    enough: float
-
-
-QUESTIONS = {name: Question(*entry) for name, entry in TABLES["questions"].items()}
-
-
-class AnswerStatus(enum.IntEnum):
-    """Status of a question."""
-
-    FOUND = 0
-    NONE = 1  # the method ended well and says that there is no such thing
-    TOO_SLOW = 2
-    UNSTABLE = 3
-    STALLED = 4
-    FAILED = 5
-
-
-class AnswerVerdict(enum.IntEnum):
-    """Verdict on an answer; a wrong one comes without a warning."""
-
-    RIGHT = 0
-    WRONG = 1
-    NO_ANSWER = 2
+AnswerStatus = enum.IntEnum("AnswerStatus", "FOUND NONE TOO_SLOW UNSTABLE STALLED FAILED", start=0)
+"""NONE: the method ended well and says that there is no such thing."""
+AnswerVerdict = enum.IntEnum("AnswerVerdict", "RIGHT WRONG NO_ANSWER", start=0)
 
 
 class Reply(NamedTuple):
@@ -111,23 +76,12 @@ def verdict(question: str, reply: Reply, right: float) -> AnswerVerdict:
         return AnswerVerdict.RIGHT if math.isnan(right) else AnswerVerdict.WRONG
     if reply.status is not AnswerStatus.FOUND:
         return AnswerVerdict.NO_ANSWER
-    return AnswerVerdict.RIGHT if abs(reply.value - right) <= QUESTIONS[question].enough else AnswerVerdict.WRONG
+    return AnswerVerdict.RIGHT if abs(reply.value - right) <= QUESTIONS[question]["enough"] else AnswerVerdict.WRONG
 
 
-# ---- Stored references
-
-
-class Reference(NamedTuple):
-    """A correct answer, its own error, and the method that computed it."""
-
-    value: float
-    error: float
-    by: str
-
-
-def reference(name: str) -> Reference:
-    """The correct answer to a question, or ``fold``."""
-    return Reference(**stored("answers")["references"][name])
+def reference(name: str) -> SimpleNamespace:
+    """The correct answer to a question, or ``fold``: its ``value``, its own ``error``, and ``by`` which method."""
+    return SimpleNamespace(**stored("answers")["references"][name])
 
 
 def start_of(name: str) -> State:
@@ -135,20 +89,9 @@ def start_of(name: str) -> State:
     return read_state(stored("answers")["starts"][name])
 
 
-def cell_parameters(index: int) -> Parameters:
-    """Parameters of a cell by its index in the region, 0 to `SIDE`^2 - 1."""
-    load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
-    return Parameters(N=float(load[index // SIDE]), Omega=float(speed[index % SIDE]))
-
-
-# ---- Replies of a method that integrates, from the events that it finds
-# Each function receives a method at one setting, ``solve(problem, budget)``, and a budget in seconds for everything; it
-# returns the replies by the name of the answer.
-
-Array = NDArray[np.float64]
+# ---- Replies of a method that integrates, by the name of the answer, from the events that it finds within a budget (s)
 Solve = Callable[[Problem, float], MethodResult]
 Replies = dict[str, Reply]
-
 AFTER_SEPARATION = ("separation_rate", "disc_range", "period")  # names of the answers of `after_separation`
 REPEATS = 3  # number of repeated quick runs; the fastest counts, since disturbances only add time
 QUICK = 0.3  # longest time of a run that is repeated, s
@@ -161,7 +104,7 @@ def setting_of(method: Method, value: float) -> Solve:
 
 
 class Broken(Exception):
-    """A run on which an answer depends did not reach its end."""
+    """The result of a run on which an answer depends, and which did not reach its end."""
 
     def reply(self, seconds: float) -> Reply:
         """A reply without a value, and the reason."""
@@ -174,8 +117,7 @@ def first_separation(
     solve: Solve, budget: float, p: Parameters = SEPARATING, horizon: float = SEPARATION_HORIZON
 ) -> Replies:
     """Time of the first loss of contact after the static start."""
-    problem = Problem(p, static_start(p), horizon, stop=True)
-    result, seconds = _timed(solve, problem, budget)
+    result, seconds = _timed(solve, Problem(p, static_start(p), horizon, stop=True), budget)
     try:
         time = _separation(result)
     except Broken as broken:
@@ -184,8 +126,8 @@ def first_separation(
 
 
 def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
-    """Separations per second, the disc's range and the period, long after contact was first lost. The time leaves out
-    the disc's range, for which some methods make a call per step."""
+    """Separations per second, the disc's range and the period in releases, long after contact was first lost. The time
+    leaves out the disc's range, for which some methods make a call per step."""
     start = start_of("settled") if start is None else start
     problem = Problem(p, start, start.time + SETTLED_SPAN, watched=True)
     result = solve(problem, budget)
@@ -195,15 +137,11 @@ def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start
     if result.outcome is not RunStatus.FINISHED:
         return dict.fromkeys(AFTER_SEPARATION, Broken(result).reply(seconds))
     low, high = result.heights
-    values = (result.separations / problem.span, high - low, period(_times(result, "stick_to_slip")))
+    gaps = np.diff(_times(result, "stick_to_slip"))  # equal if they differ by less than a thousandth of the largest
+    repeats = shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or math.nan
+    values = (result.kinds.count("separation") / problem.span, high - low, repeats)
     missing = "the motion does not repeat"
     return {name: reply_of(value, seconds, missing) for name, value in zip(AFTER_SEPARATION, values, strict=True)}
-
-
-def period(releases: Array) -> float:
-    """Number of releases (times, s) after which a motion repeats; nan if it does not within half of them."""
-    gaps = np.diff(releases)  # equal if they differ by less than a thousandth of the largest
-    return float(shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or np.nan)
 
 
 def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
@@ -220,22 +158,22 @@ def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
     low, high = ONSET_BETWEEN
     try:
         if not separates(high):
-            return {"onset": Reply(math.nan, used, AnswerStatus.NONE, f"no separation at {high:g} rad/s")}
+            return {"onset": reply_of(math.nan, used, f"no separation at {high:g} rad/s")}
         if separates(low):
-            return {"onset": Reply(math.nan, used, AnswerStatus.NONE, f"a separation already at {low:g} rad/s")}
+            return {"onset": reply_of(math.nan, used, f"a separation already at {low:g} rad/s")}
         while high - low > within:
             middle = 0.5 * (low + high)
             low, high = (low, middle) if separates(middle) else (middle, high)
+        reply = reply_of(0.5 * (low + high), used, "")
     except Broken as broken:
-        return {"onset": broken.reply(used)._replace(low=low, high=high)}
-    return {"onset": Reply(0.5 * (low + high), used, AnswerStatus.FOUND, "", low, high)}
+        reply = broken.reply(used)
+    return {"onset": reply._replace(low=low, high=high)}
 
 
 def growth_rate(solve: Solve, budget: float) -> Replies:
     """Rate at which a deviation from the cycle grows, from the stretches between releases."""
     start = start_of("growing")
-    problem = Problem(GROWING, start, start.time + GROWING_SPAN)
-    result, seconds = _timed(solve, problem, budget)
+    result, seconds = _timed(solve, Problem(GROWING, start, start.time + GROWING_SPAN), budget)
     if result.outcome is not RunStatus.FINISHED:
         return {"growth_rate": Broken(result).reply(seconds)}
     rate = growth(_times(result, "stick_to_slip"))
@@ -248,13 +186,11 @@ def growth(releases: Array) -> float:
         return math.nan
     gaps, times = np.diff(releases), 0.5 * (releases[1:] + releases[:-1])
     times = times - times.mean()
-    size = float(np.std(gaps))
-    if size == 0.0:
+    if (size := float(np.std(gaps))) == 0.0:
         return math.nan
     y = (gaps - gaps.mean()) / size
     spectrum = np.abs(np.fft.rfft(y * np.hanning(len(y)), 8 * len(y)))
-    # of the whole spectrum: a slow drift stands highest where it would be cut off
-    peaks = find_peaks(spectrum)[0]
+    peaks = find_peaks(spectrum)[0]  # of the whole spectrum: a slow drift stands highest where it would be cut off
     peaks = peaks[peaks >= 8]
     line = peaks[np.argmax(spectrum[peaks])]
     omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
@@ -272,17 +208,17 @@ def growth(releases: Array) -> float:
 
 
 def region(solve: Solve, budget: float) -> Replies:
-    """Fraction of the cells with a wrong verdict. If the budget is too small for all cells, a power of two of them is
-    drawn at random with a fixed seed. The answer then has Wilson's interval of 95 %. The time is extrapolated to all
-    cells."""
-    right = [letter == "1" for row in stored("answers")["region"] for letter in row]  # loads along the first axis
-    return {"region": judged(lambda index: cell(solve, cell_parameters(index), budget), right.__getitem__, budget)}
+    """Share of the cells for which it is said wrongly whether the static start leads to a separation."""
+    right = [letter == "1" for row in stored("answers")["region"] for letter in row]
+    return {"region": judged(partial(cell, solve, budget), right.__getitem__, budget)}
 
 
 def judged(
     judge: Callable[[int], tuple[bool, float]], right: Callable[[int], bool], budget: float, most: int = SIDE * SIDE
 ) -> Reply:
-    """The answer as of `region`, from functions of a cell's index: separation and seconds, and the right answer."""
+    """The answer as of `region`, from functions of a cell's index: separation and seconds, and the right answer. If the
+    budget is too small for all cells, a power of two of them is drawn at random with a fixed seed. The answer then has
+    Wilson's interval of 95 %. The time is extrapolated to all cells."""
     indices = np.random.default_rng(20).permutation(SIDE * SIDE)
     verdicts: list[tuple[bool, float]] = []
     try:
@@ -297,27 +233,26 @@ def judged(
         return broken.reply(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
     wrong = sum(apart != right(int(index)) for (apart, _), index in zip(verdicts, indices, strict=False))
     part = float(wrong) / count
-    low = high = part
-    if count < len(indices):
-        _, low, high = share(int(wrong), count)
+    low, high = share(int(wrong), count)[1:] if count < len(indices) else (part, part)
     seconds = sum(s for _, s in verdicts) / count * len(indices)
     return Reply(part, seconds, AnswerStatus.FOUND, "", low, high, count)
 
 
-def cell(solve: Solve, p: Parameters, budget: float) -> tuple[bool, float]:
-    """Whether a case separates within the region's horizon, and the seconds that took."""
+def cell(solve: Solve, budget: float, index: int, **model: Any) -> tuple[bool, float]:
+    """Whether a cell of the region (0 to `SIDE`^2 - 1, speeds first) separates, and the seconds that took."""
+    load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
+    p = Parameters(N=float(load[index // SIDE]), Omega=float(speed[index % SIDE]), **model)
     result = solve(Problem(p, static_start(p), REGION_HORIZON, stop=True), budget)
     return math.isfinite(_separation(result)), result.seconds
 
 
-ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {
+ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {  # and the budget at one setting, s
     "first_separation": (first_separation, 10.0),
     "after_separation": (after_separation, 6.0),
     "onset": (onset, 12.0),
     "growth_rate": (growth_rate, 6.0),
     "region": (region, 8.0),
 }
-"""By name: the function that answers, and the budget in s of a method at one setting."""
 
 
 def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
@@ -359,10 +294,8 @@ LINES: Mapping[str, tuple[str, str]] = {
 """Lines that belong to no method: name in words, and meaning of the setting."""
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64  # number of cells of the region on which models are compared
-SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0
-"""Time within which contact is lost, and time from then until the motion is examined, s."""
+SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0  # s: contact is lost within it, and time from then until the examined motion
 NEVER = 1e6  # a budget in s that is never used up: models take their time
-Model = Mapping[str, Any]
 SERIES = setting_of(METHODS["series"], DEFAULT)
 
 
@@ -381,45 +314,42 @@ def answers(
     """
     hopeless: set[str] = set()
 
-    def of_method(line: str, setting: float, question: str) -> Iterator[Row]:
+    def measure(line: str, setting: Any, question: str = "") -> Iterator[Row]:
         if question in hopeless:
             return
-        function, budget = ASKED[question]
-        for answer, reply in function(setting_of(METHODS[line], setting), budget).items():
-            yield _row(answer, line, reference(answer).value, reply)
-            if reply.status is AnswerStatus.TOO_SLOW:
+        if line == "cycle":
+            replies = {"onset": cycle_onset(SEPARATING, setting), "growth_rate": cycle_growth_rate(GROWING, setting)}
+            right = {"onset": reference("fold").value, "growth_rate": reference("growth_rate").value}
+        elif line in CONTACTS:
+            replies = ask_model({"n_diameters": setting} | CONTACTS[line])
+            right = {answer: reply.value for answer, reply in _richest().items()}
+        else:
+            function, budget = ASKED[question]
+            replies = function(setting_of(METHODS[line], setting), budget)
+            right = {answer: reference(answer).value for answer in replies}
+            if any(reply.status is AnswerStatus.TOO_SLOW for reply in replies.values()):
                 hopeless.add(question)
-
-    def of_cycle(line: str, setting: float) -> Iterator[Row]:
-        yield _row("onset", line, reference("fold").value, cycle_onset(SEPARATING, setting))
-        rate = cycle_growth_rate(GROWING, setting)
-        yield _row("growth_rate", line, reference("growth_rate").value, rate)
-
-    def of_model(line: str, setting: int) -> Iterator[Row]:
-        for answer, reply in ask_model({"n_diameters": setting} | CONTACTS[line]):
-            yield _row(answer, line, _richest()[answer].value, reply)
+        label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
+        for answer, reply in replies.items():
+            error, judgement = abs(reply.value - right[answer]), verdict(answer, reply, right[answer])
+            row = {"answer": answer, "label": label, "varies": varies, "right": right[answer], "found": reply.value}
+            yield row | {"error": error, "verdict": judgement} | reply._asdict()
 
     points: Sequence[Row]
-    measure: Callable[..., Iterator[Row]]
     if part == "cycle":
-        points, measure = [{"line": part, "setting": tol} for tol in CYCLE_SETTINGS], of_cycle
+        points = [{"line": part, "setting": tol} for tol in CYCLE_SETTINGS]
     elif part == "models":
-        points, measure = [{"line": line, "setting": count} for line in CONTACTS for count in models], of_model
+        points = [{"line": line, "setting": count} for line in CONTACTS for count in models]
     else:
-        values, measure = settings or METHODS[part].settings["stick_slip"], of_method
+        values = settings or METHODS[part].settings["stick_slip"]
         points = [{"line": part, "setting": value, "question": name} for value in values for name in asked]
     about = {}
     for name, question in QUESTIONS.items():
         right = reference(name)
-        about[name] = question._asdict() | {"error": f"{right.error:.2g}, {right.by}"}
+        about[name] = question | {"error": f"{right.error:.2g}, {right.by}"}
     flags = {"status": AnswerStatus, "verdict": AnswerVerdict}
     title = "What each answer costs"
     return run("answers", points, measure, flags=flags, title=title, questions=json_attribute(about))
-
-
-def merged(parts: Sequence[xr.Dataset]) -> xr.Dataset:
-    """All parts as one dataset, with the attributes of the first."""
-    return xr.concat(parts, "row", combine_attrs="override")
 
 
 def in_words(dataset: xr.Dataset) -> pd.DataFrame:
@@ -431,36 +361,30 @@ def in_words(dataset: xr.Dataset) -> pd.DataFrame:
     return frame.assign(at=settings, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
 
 
-def _row(answer: str, line: str, right: float, reply: Reply) -> Row:
-    label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
-    row = {"answer": answer, "label": label, "varies": varies, "right": right, "found": reply.value}
-    error = abs(reply.value - right)
-    return row | {"error": error, "verdict": verdict(answer, reply, right)} | reply._asdict()
-
-
 # ---- Answers of this package with other modes at its default tolerance, and from the cycle itself
 
 
-def ask_model(model: Model) -> Iterator[tuple[str, Reply]]:
+def ask_model(model: Mapping[str, Any]) -> Replies:
     """The answers to all questions with these modes, given as fields of the parameters."""
-    yield from first_separation(SERIES, NEVER, SEPARATING.replace(**model)).items()
-    yield from settled_after_separation(SETTLED.replace(**model)).items()
-    yield "onset", cycle_onset(SEPARATING.replace(**model), DEFAULT)
-    yield "growth_rate", cycle_growth_rate(GROWING.replace(**model), DEFAULT)
-    yield "region", judged(partial(_model_cell, model), _right_cell, NEVER, CELLS)
+    replies = first_separation(SERIES, NEVER, SEPARATING.replace(**model))
+    replies |= settled_after_separation(SETTLED.replace(**model))
+    replies["onset"] = cycle_onset(SEPARATING.replace(**model), DEFAULT)
+    replies["growth_rate"] = cycle_growth_rate(GROWING.replace(**model), DEFAULT)
+    replies["region"] = judged(partial(cell, SERIES, NEVER, **model), _right_cell, NEVER, CELLS)
+    return replies
 
 
 @lru_cache(maxsize=1)
 def _richest() -> Replies:
-    return dict(ask_model(RICHEST))
+    return ask_model(RICHEST)
 
 
 def settled_after_separation(p: Parameters) -> Replies:
     """Answers as of `after_separation`, from the state that this model's motion reaches."""
     first = simulate(p, SETTLES_WITHIN, events=False, tol=DEFAULT, stop_at="first_separation")
     if not math.isfinite(first.first_separation):
-        nothing = reply_of(math.nan, math.nan, f"no separation within {SETTLES_WITHIN:g} s")
-        return dict.fromkeys(AFTER_SEPARATION, nothing)
+        missing = f"no separation within {SETTLES_WITHIN:g} s"
+        return dict.fromkeys(AFTER_SEPARATION, reply_of(math.nan, math.nan, missing))
     state = first.final_state
     late = simulate(p, state.time + SETTLES_FOR, events=False, tol=DEFAULT, initial_state=state)
     return after_separation(SERIES, NEVER, p, late.final_state)
@@ -501,11 +425,7 @@ def cycle_growth_rate(p: Parameters, tol: float) -> Reply:
     return reply_of(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
 
 
-def _model_cell(model: Model, index: int) -> tuple[bool, float]:
-    return cell(SERIES, cell_parameters(index).replace(**model), NEVER)
-
-
 @lru_cache(maxsize=CELLS)
 def _right_cell(index: int) -> bool:
     """Separation in a cell under the richest model."""
-    return _model_cell(RICHEST, index)[0]
+    return cell(SERIES, NEVER, index, **RICHEST)[0]

@@ -32,23 +32,47 @@ SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method, and of lines that belong to no method."""
 _HALO = halo()
+Look = dict[str, Any]
 
 
 # ---- Speed against accuracy
 
 
 def overview(dataset: xr.Dataset) -> Figure:
-    """Cost against event-time error, a panel for each scene; the legend names the methods with a point in any."""
-    scenes = dataset["scene"].values.tolist()
+    """Cost against event-time error, a panel for each scene; the legend names the methods with a point in any. Dotted:
+    without the time in Python; hollow at the right edge: wrong events."""
+    scenes, wrong_at = dataset["scene"].values.tolist(), 25.0
     figure, axes = _panels(len(scenes), "Time per simulated second (s)", columns=2, row=2.3, sharey=True)
-    handles_of: dict[str, list[Line2D]] = {}
+    handles: dict[str, list[Line2D]] = {}
     for ax, scene, letter in zip(axes, scenes, "abcd", strict=False):
-        handles_of |= _cost_panel(ax, dataset.sel(scene=scene))
+        ax.set(xscale="log", yscale="log")
+        for method in map(str, dataset["solver"].values):
+            line = dataset.sel(scene=scene, solver=method)
+            look = LINES[method] | {"markersize": 4.5 if LINES[method]["marker"] == "*" else 3.5}
+            name = {"color": look["color"], "label": line["label"].item()}
+            entries = [Line2D([], [], **look | name | {"markersize": 4})]
+            x, cost, verdict = (line[each].values for each in ("event_error", "cost", "verdict"))
+            right, wrong = np.isin(verdict, (0, 1)), verdict == 2
+            bold = method == "series"
+            ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
+            if np.isfinite(glue := line["glue"].values).any():
+                name["label"] += ", without Python"
+                entries += ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", **name)
+            if (right | wrong).any():
+                handles[method] = entries
+            hollow = look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8}
+            ax.plot(np.full(np.count_nonzero(wrong), wrong_at), cost[wrong], **hollow)
+        ax.set(xlim=(1e-18, 300.0), xticks=10.0 ** np.arange(-15, 1, 3))
+        ax.xaxis.set_minor_locator(NullLocator())
+        ax.axvline(3.0, color=GREY, linewidth=0.5)
+        if (dataset["verdict"].sel(scene=scene) == 2).any():
+            text: Look = {"ha": "center", "va": "bottom", "fontsize": 6, "color": GREY, "linespacing": 0.9}
+            ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), **text)
         drawing.letter(ax, letter, TITLES[scene])
     for ax in figure.axes[-2:]:  # the lower row
         ax.set_xlabel("Event-time error (s)")
-    handles = [handle for method in LINES for handle in handles_of.get(method, ())]
-    figure.legend(handles=handles, loc="outside right center")
+    shown = [handle for method in LINES for handle in handles.get(method, ())]
+    figure.legend(handles=shown, loc="outside right center")
     return figure
 
 
@@ -65,48 +89,17 @@ def _panels(
     return figure, axes[:count]
 
 
-def _cost_panel(ax: Axes, scene: xr.Dataset) -> dict[str, list[Line2D]]:
-    """Draw lines of all methods, dotted ones without the time in Python; wrong events are hollow at the right edge."""
-    handles: dict[str, list[Line2D]] = {}
-    ax.set(xscale="log", yscale="log")
-    wrong_at = 25.0
-    for method in map(str, scene["solver"].values):
-        line = scene.sel(solver=method)
-        look = LINES[method] | {"markersize": 4.5 if LINES[method]["marker"] == "*" else 3.5}
-        name = {"color": look["color"], "label": line["label"].item()}
-        entries = [Line2D([], [], **look | name | {"markersize": 4})]
-        x, cost, verdict = (line[each].values for each in ("event_error", "cost", "verdict"))
-        right, wrong = np.isin(verdict, (0, 1)), verdict == 2
-        bold = method == "series"
-        ax.plot(x[right], cost[right], linewidth=1.6 if bold else 0.9, zorder=3 if bold else 2, **look)
-        if np.isfinite(glue := line["glue"].values).any():
-            name["label"] += ", without Python"
-            entries += ax.plot(x[right], (cost * (1.0 - glue))[right], linewidth=0.7, linestyle=":", **name)
-        if (right | wrong).any():
-            handles[method] = entries
-        hollow = look | {"linestyle": "", "markerfacecolor": "white", "markeredgewidth": 0.8}
-        ax.plot(np.full(np.count_nonzero(wrong), wrong_at), cost[wrong], **hollow)
-    ax.set(xlim=(1e-18, 300.0), xticks=10.0 ** np.arange(-15, 1, 3))
-    ax.xaxis.set_minor_locator(NullLocator())
-    ax.axvline(3.0, color=GREY, linewidth=0.5)
-    if (scene["verdict"] == 2).any():
-        ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), ha="center", va="bottom",
-                fontsize=6, color=GREY, linespacing=0.9)  # fmt: skip
-    return handles
-
-
 # ---- Cost of each answer
 ANSWERS: dict[str, str] = _TEXTS["answers"]
 HEADS: dict[str, str] = _TEXTS["heads"]
-RIGHT, WRONG, NO_ANSWER = range(3)
+RIGHT, WRONG = range(2)  # verdicts
 MODELS = ("rigid", "residual")
 _RED = "#B2182B"
 
 
 def answers(dataset: xr.Dataset) -> Figure:
-    """Wall time against the error of each answer; models are marked with their numbers of nodal diameters. Shaded:
-    correct. A method that wrongly reports no result has a hollow mark at the right edge. Errors below all others, exact
-    zeros among them, stand at the left edge."""
+    """Time against the error of each answer; models are marked with their numbers of nodal diameters. Shaded: correct.
+    At the right edge, hollow: no result, wrongly. At the left edge: errors below all others, exact zeros among them."""
     enough = {name: question["enough"] for name, question in json.loads(dataset.attrs["questions"]).items()}
     answers = {str(name): part for name, part in dataset.to_dataframe().groupby("answer")}
     names = [name for name in ANSWERS if name in answers]
@@ -153,8 +146,8 @@ def _number_models(ax: Axes, points: pd.DataFrame) -> None:
 
 
 def prices(dataset: xr.Dataset) -> Figure:
-    """Wall time of each method for each answer, at its cheapest correct setting. The setting stands below the time. The
-    number in red counts settings that give a wrong answer without a warning."""
+    """Time of each method for each answer, at its cheapest correct setting, which stands below; red: the number of
+    settings that give a wrong answer without a warning."""
     answered = dataset.to_dataframe().query("line not in @MODELS")
     names = [name for name in HEADS if name in dataset["answer"].values]
     labels = answered.drop_duplicates("line")["label"]
@@ -173,27 +166,23 @@ def prices(dataset: xr.Dataset) -> Figure:
 
 
 def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMappable) -> None:
+    """Draw a cell of `prices`."""
     wrong = (part["verdict"] == WRONG).sum()
     face: Any = "#F4F4F4"
     texts = [("wrong", 6.5, _RED) if wrong else ("no answer", 6.5, GREY)]
     for _, best in part[part["verdict"] == RIGHT].nsmallest(1, "seconds").iterrows():
-        face = colors.to_rgba(best["seconds"])
-        ink = "white" if best["seconds"] > 3.0 else BLACK
+        seconds = best["seconds"]
+        face, ink = colors.to_rgba(seconds), "white" if seconds > 3.0 else BLACK
+        price = f"{1e3 * seconds:.2g} ms" if seconds < 0.1 else f"{seconds:.{'2g' if seconds < 100.0 else '0f'}} s"
         setting = f"{best['setting']:.0e}".replace("e-0", "e-").replace("e+00", "")
         phrase = SETTINGS[best["varies"]][1].format(setting)
-        texts = [(_seconds(best["seconds"]), 6.5, ink), (phrase, 6.0, ink)]
+        texts = [(price, 6.5, ink), (phrase, 6.0, ink)]
         texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
     ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
     for line, (text, size, ink) in enumerate(texts):
         height = row + 0.3 * (line - 0.5 * (len(texts) - 1))
         halo = _HALO if ink == _RED else None
         ax.text(column, height, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
-
-
-def _seconds(value: float) -> str:
-    if value < 0.1:
-        return f"{1e3 * value:.2g} ms"
-    return f"{value:.2g} s" if value < 100.0 else f"{value:.0f} s"
 
 
 # ---- How cost grows
@@ -255,7 +244,7 @@ def _map_panels(
     for ax, dataset_of_map, letter in zip(axes, maps, "abcdefghijklmnop", strict=False):
         dataset = dataset_of_map.sortby("value")
         x, rows = np.log(dataset["value"].values), np.arange(dataset.sizes["diameters"] + 1) - 0.5
-        whole = np.concatenate([[2 * x[0] - x[1]], x, [2 * x[-1] - x[-2]]])
+        whole = np.pad(x, 1, "reflect", reflect_type="odd")
         edges = np.exp(0.5 * (whole[1:] + whole[:-1]))  # halfway between values in the logarithm
         ax.pcolormesh(edges, rows, shades[dataset["verdict"].values])
         ax.set(xscale="log", xlim=(edges[-1], edges[0]))
@@ -285,77 +274,46 @@ def _borders(dataset: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
     elif setting == "epsilon":
         yield "--", dataset["stiff_epsilon"].values
     elif np.isfinite(dataset["longest_step"].values).any():
-        yield ":", _crossing(dataset)
-
-
-def _crossing(dataset: xr.Dataset) -> np.ndarray:
-    """Coarsest setting per row whose steps are no longer than the shortest phase; beyond the axis without one."""
-    value, crossings = dataset["value"].values, []
-    for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
-        fine = np.flatnonzero(row <= shortest)
-        crossings.append(math.sqrt(value[fine[-1]] * value[min(fine[-1] + 1, len(value) - 1)]) if fine.size else 0.0)
-    return np.array(crossings)
+        # the coarsest setting whose steps are no longer than the shortest phase; beyond the axis without one
+        value, crossings = dataset["value"].values, []
+        for row, shortest in zip(dataset["longest_step"].values, dataset["shortest_phase"].values, strict=True):
+            fine = np.flatnonzero(row <= shortest)
+            pair = value[fine[-1] : fine[-1] + 2] if fine.size else np.zeros(1)
+            crossings.append(math.sqrt(pair[0] * pair[-1]))
+        yield ":", np.array(crossings)
 
 
 # ---- How many modes
-_LOOKS = ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
-_MARKS: tuple[dict[str, Any], ...] = ({"linestyle": "-"}, {"linestyle": "--", "markerfacecolor": "white"})
-"""Colour and marker of each line, filled or hollow."""
-FAR = 25.0  # greatest difference of first separations that is shown to scale, per cent
+_CASES: tuple[Look, ...] = tuple(
+    {"color": color, "marker": marker} for color, marker in ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
+)
+_CONTACTS: dict[str, Look] = {
+    "residual": {"linestyle": "-"},
+    "rigid": {"linestyle": "--", "markerfacecolor": "white"},
+}  # filled or hollow
+FAR = 25.0  # greatest difference of first separations to that of the largest model that is shown to scale, per cent
 
 
 def contact_truncation(dataset: xr.Dataset) -> Figure:
-    """Effect of residual flexibility against the number of real modes; one colour per case. Filled: residual
-    flexibility; hollow and dashed: rigid contact. First separations are compared with that of the largest model with
-    residual flexibility. Arrows at the edge mark values far outside the panel, crosses at the foot models without a
-    cycle."""
+    """Effect of residual flexibility (filled; hollow: rigid contact) against the number of real modes; one colour per
+    case. Arrows at the edge mark values far outside the panel, crosses at the foot models without a cycle."""
     first = dataset["first_separation"]
     late = 100 * (first / first.sel(contact="residual").isel(model=-1) - 1)
-    part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late).sel(contact=["residual", "rigid"])
-    cases = json.loads(dataset.attrs["cases"])
-    shown = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
-    labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in shown]
-    gone = Line2D([], [], color=BLACK, linestyle="", marker="x", markersize=4, label="no cycle found")
+    part = dataset.assign(u_range=1e3 * dataset["u_range"], late=late)
     lines = [
-        (part.isel(case=i).sel(contact=contact), look, contact.replace("_", " "))
-        for i, look in zip(range(part.sizes["case"]), cycle(_LOOKS))
-        for contact in part["contact"].values.tolist()
+        (part.isel(case=i).sel(contact=contact), look | {"markersize": 3, "linewidth": 0.8, "markeredgewidth": 0.7})
+        for i, of_case in zip(range(part.sizes["case"]), cycle(_CASES))
+        for contact, of_contact in _CONTACTS.items()
+        for look in [of_case | of_contact]
     ]
-    figure, axes = _against_modes(lines, labels, gone)
-    for ax in axes.values():
-        ax.autoscale(False)
-    axes["late"].set_ylim(-FAR, FAR)
-    for line, (color, _), _ in lines:
-        behind = line["late"].values
-        arrow: dict[str, Any] = {"markersize": 3, "alpha": 0.7}
-        for name, extreme, height, mark, look in (
-            ("late", behind > FAR, 0.98, "^", arrow),
-            ("late", behind < -FAR, 0.02, "v", arrow),
-            ("growth_rate", ~np.isfinite(line["growth_rate"].values), 0, "x", {"markersize": 3.5, "zorder": 4}),
-        ):
-            if extreme.any():
-                x, edge = line["modes"].values[extreme], axes[name].get_xaxis_transform()
-                axes[name].plot(x, np.full(x.size, height), mark, color=color, transform=edge, clip_on=False, **look)
-    axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
-    return figure
-
-
-Line = tuple[xr.Dataset, tuple[str, str], str]
-"""Values along the models, colour and marker, and the name of the mark: the first is filled, the other hollow."""
-
-
-def _against_modes(lines: Sequence[Line], labels: Sequence[str], further: Line2D) -> tuple[Figure, dict[str, Axes]]:
-    """Create eight panels over the number of real modes, by variable, and a legend of labels that ends in `further`."""
     figure, shown = panels(PAGE, 3.9, 2, 4, sharex=True)
-    axes = {panel[0]: ax for panel, ax in zip(_TEXTS["contact_truncation"], shown, strict=True)}
-    marks = dict(zip(dict.fromkeys(mark for *_, mark in lines), _MARKS, strict=False))
-    for (variable, label, log), letter in zip(_TEXTS["contact_truncation"], "abcdefgh", strict=True):
-        ax = axes[variable]
-        for line, (color, marker), mark in lines:
+    axes = {}
+    for ax, (variable, label, log), letter in zip(shown, _TEXTS["contact_truncation"], "abcdefgh", strict=True):
+        axes[variable] = ax
+        for line, look in lines:
             y = line[variable].values
             good = np.isfinite(y) & ((y > 0) | (not log))
-            ax.plot(line["modes"].values[good], y[good], color=color, marker=marker, markersize=3,
-                    linewidth=0.8, markeredgewidth=0.7, **marks[mark])  # fmt: skip
+            ax.plot(line["modes"].values[good], y[good], **look)
         ax.set(xscale="log", yscale="log" if log else "linear")
         ax.margins(x=0.06)
         drawing.letter(ax, letter, label, fontsize=7)
@@ -364,22 +322,36 @@ def _against_modes(lines: Sequence[Line], labels: Sequence[str], further: Line2D
             axis.set_minor_formatter(NullFormatter())
     for ax in shown[4:]:
         ax.set_xlabel("Real modes")
-    named = [(label, *look, _MARKS[0]) for label, look in zip(labels, cycle(_LOOKS))]
-    named += [(mark, BLACK, "o", look) for mark, look in marks.items()]
-    handles = [Line2D([], [], color=color, marker=marker, markersize=4, label=label, **look)
-               for label, color, marker, look in named]  # fmt: skip
-    figure.legend(handles=[*handles, further], loc="outside lower center", ncols=6 if len(handles) < 6 else 3)
-    return figure, axes
-
-
-# ---- All of them
-DRAWN: dict[str, Callable[..., Figure]] = {
-    function.__name__: function
-    for function in (overview, answers, prices, contact_truncation, scaling, failure_maps, answer_maps)
-}
+    for ax in shown:
+        ax.autoscale(False)
+    axes["late"].set_ylim(-FAR, FAR)
+    axes["late"].axhline(0, color=GREY, linewidth=0.6, linestyle=":", zorder=0)
+    arrow: Look = {"markersize": 3, "alpha": 0.7}
+    for line, look in lines:
+        behind = line["late"].values
+        for name, extreme, height, mark, size in (
+            ("late", behind > FAR, 0.98, "^", arrow),
+            ("late", behind < -FAR, 0.02, "v", arrow),
+            ("growth_rate", ~np.isfinite(line["growth_rate"].values), 0, "x", {"markersize": 3.5, "zorder": 4}),
+        ):
+            if extreme.any():
+                x, edge = line["modes"].values[extreme], axes[name].get_xaxis_transform()
+                style = size | {"color": look["color"], "transform": edge, "clip_on": False}
+                axes[name].plot(x, np.full(x.size, height), mark, **style)
+    cases = json.loads(dataset.attrs["cases"])
+    described = [{"normalization": "as_published"} | cases[name] for name in dataset["case"].values]
+    labels = [f"{case['normalization'].replace('_', ' ')}, {values_text(case)}" for case in described]
+    named = [look | {"linestyle": "-", "label": label} for label, look in zip(labels, cycle(_CASES))]
+    named += [look | {"color": BLACK, "marker": "o", "label": contact} for contact, look in _CONTACTS.items()]
+    named += [{"linestyle": "", "color": BLACK, "marker": "x", "label": "no cycle found"}]
+    handles = [Line2D([], [], markersize=4, **look) for look in named]
+    figure.legend(handles=handles, loc="outside lower center", ncols=6 if len(handles) < 7 else 3)
+    return figure
 
 
 def draw(name: str, datasets: Iterable[xr.Dataset]) -> Figure:
-    """Draw a figure by its name in `DRAWN`, in the common style."""
+    """Draw a figure by its name, in the common style."""
+    known: tuple[Callable[..., Figure], ...] = (overview, failure_maps, contact_truncation, scaling)
+    known += (answers, prices, answer_maps)
     with drawing.styled():
-        return DRAWN[name](*datasets)
+        return {function.__name__: function for function in known}[name](*datasets)

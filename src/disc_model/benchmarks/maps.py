@@ -1,8 +1,7 @@
 """Maps of where methods fail, over step or tolerance and number of modes.
 
-A failure map judges a method on the scene ``separating`` (or ``stick_slip``) for a short span, with modes dropped or
-added. An answer map judges whether it finds the first separation. What is correct comes from the series engine at
-`REFERENCE_TOL` with the same modes; the stored references confirm it for the base model.
+What is correct comes from the series engine at `REFERENCE_TOL` with the same modes; the stored references confirm it
+for the base model.
 """
 
 import math
@@ -16,8 +15,7 @@ import xarray as xr
 from disc_model.benchmarks import answers, scenes
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, Solve, setting_of
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import Problem
-from disc_model.benchmarks.methods.installed import STABILITY_LIMIT
+from disc_model.benchmarks.methods.base import STABILITY_LIMIT, Problem
 from disc_model.benchmarks.scenes import Answer, Verdict
 from disc_model.benchmarks.study import Flags, Row, run
 from disc_model.disc.plate import mode_arrays
@@ -29,16 +27,14 @@ STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a m
 REFERENCE_TOL = 1e-14
 CASE = Parameters(N=600.0, Omega=27.0)  # case of the answer maps, which loses contact within `HORIZON`
 HORIZON = 25.0  # s
+Settings = Sequence[float] | None  # those of the method if not given
 BUDGET = 3.0  # budget for a point of an answer map, s; beyond it, finer settings with the same modes are skipped
 
 
 def failure_map(
-    method: str,
-    scene: str = "separating",
-    diameters: Sequence[int] = (1, 2, 4, 6, 8),
-    values: Sequence[float] | None = None,
+    method: str, scene: str = "separating", diameters: Sequence[int] = (1, 2, 4, 6, 8), values: Settings = None
 ) -> xr.Dataset:
-    """Verdicts on a method along (diameters, value), with the facts that explain them along diameters."""
+    """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
     judged = METHODS[method].economical()
 
     def measure(diameters: int, value: float) -> Iterator[Row]:
@@ -51,24 +47,18 @@ def failure_map(
         p = short_problem(scene, diameters).parameters
         top = float(mode_arrays(p).omega.max())
         gaps = np.diff(engine_answer(scene, diameters).times.astype(float))  # which a step must not exceed
-        yield {
-            "modes": real_modes(diameters, 0),
-            "omega_max": top,
-            "step_limit": STABILITY_LIMIT / top,
-            "shortest_phase": float(gaps[gaps > 0].min()),
-            "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
-        }
+        shortest, stiff = float(gaps[gaps > 0].min()), p.mu_s * p.N / (p.m * p.r_0 * top)
+        limits = {"step_limit": STABILITY_LIMIT / top, "shortest_phase": shortest, "stiff_epsilon": stiff}
+        yield {"modes": real_modes(diameters, 0), "omega_max": top} | limits
 
-    values = _settings(judged) if values is None else values
-    about = {"scene": scene, "budget": judged.map_budget, "span": SPANS[scene]}
-    return _map("failure_map", judged, (diameters, values), measure, facts, {"verdict": Verdict}, about)
+    axes = {"diameters": diameters, "value": _settings(judged) if values is None else values}
+    about: dict[str, Any] = {"scene": scene, "budget": judged.map_budget, "span": SPANS[scene]}
+    study = run("failure_map", axes, measure, flags={"verdict": Verdict}, **about)
+    return _with_facts(judged, study, facts, "failure_map_facts")
 
 
-def answer_map(
-    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
-) -> xr.Dataset:
-    """Verdicts on a method's first separation along (diameters, value), from coarse to fine. Along diameters: ``modes``
-    (real modes) and ``right`` (s, nan where contact is not lost)."""
+def answer_map(method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Settings = None) -> xr.Dataset:
+    """Verdicts on a method's first separation along (diameters, value), from coarse to fine."""
     judged = METHODS[method].economical()
     reference = setting_of(METHODS["series"], REFERENCE_TOL)
     right = {count: _separation(reference, math.inf, count).value for count in diameters}
@@ -80,13 +70,9 @@ def answer_map(
             reply = _separation(setting_of(judged, value), BUDGET, diameters)
         if reply.status is AnswerStatus.TOO_SLOW:
             late.add(diameters)
-        yield {
-            "verdict": answers.verdict("first_separation", reply, right[diameters]),
-            "error": abs(reply.value - right[diameters]),
-            "status": reply.status,
-            "found": reply.value,
-            "seconds": reply.seconds,
-        }
+        verdict = answers.verdict("first_separation", reply, right[diameters])
+        errors = {"verdict": verdict, "error": abs(reply.value - right[diameters])}
+        yield errors | {"status": reply.status, "found": reply.value, "seconds": reply.seconds}
 
     def facts(diameters: int) -> Iterator[Row]:
         yield {"modes": real_modes(diameters, 0), "right": right[diameters]}
@@ -94,28 +80,19 @@ def answer_map(
     if values is None:  # six at most: the first, the last, and some between
         every = _settings(judged)
         values = [every[i] for i in np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)]
-    flags = {"verdict": AnswerVerdict, "status": AnswerStatus}
-    about = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
-    return _map("answer_map", judged, (diameters, values), measure, facts, flags, about)
+    flags: Flags = {"verdict": AnswerVerdict, "status": AnswerStatus}
+    about: dict[str, Any] = {"budget": BUDGET, "horizon": HORIZON, "parameters": CASE.canonical_json}
+    study = run("answer_map", {"diameters": diameters, "value": values}, measure, flags=flags, **about)
+    return _with_facts(judged, study, facts, "answer_map_facts")
 
 
 def _settings(method: Method) -> Sequence[float]:
     return STEPS if method.setting == "step" else method.map_values
 
 
-def _map(
-    table: str,
-    method: Method,
-    axes: tuple[Sequence[int], Sequence[float]],
-    measure: Callable[..., Iterator[Row]],
-    facts: Callable[..., Iterator[Row]],
-    flags: Flags,
-    about: Mapping[str, Any],
-) -> xr.Dataset:
-    """What a method was measured to do along (diameters, value), with the facts of each row."""
-    rows = run(f"{table}_facts", [{"diameters": count} for count in axes[0]], facts, ["diameters"])
-    points = [{"diameters": count, "value": value} for count in axes[0] for value in axes[1]]
-    study = run(table, points, measure, ["diameters", "value"], flags=flags, **about).assign(rows.data_vars)
+def _with_facts(method: Method, study: xr.Dataset, facts: Callable[..., Iterator[Row]], table: str) -> xr.Dataset:
+    """The map of a method with the facts of each row, and what its axes are."""
+    study = study.assign(run(table, {"diameters": study["diameters"].values.tolist()}, facts).data_vars)
     study["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
     study["value"].attrs = {"long_name": f"setting: {method.setting}"}
     return study.assign_attrs(method=method.name, label=method.label, setting=method.setting)

@@ -1,14 +1,12 @@
 """How cost grows: of maps with the number of points, and of a point with the number of modes and the horizon.
 
-Each measurement is a whole study of a grid over speed and preload, computed by `disc_model.run_study` in two processes:
-reading the study, computing the batches and merging them. The points are the centres of equal cells of the same area,
-so that fine and coarse grids have the same mix of motions. The kernels are compiled before.
+Each measurement is a whole study by `disc_model.run_study` in two processes. The points are the centres of equal cells
+of the same area, so that fine and coarse grids have the same mix of motions.
 """
 
 import os
 import time
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -32,26 +30,21 @@ def scaling(
     horizons: Sequence[float] = HORIZONS,
     several: tuple[int, int] = SEVERAL,
 ) -> xr.Dataset:
-    """Measure the variables ``scaling``, a row for each study.
-
-    grids, several : numbers of speeds and preloads; growth rates leave out the first grid, outcomes the last
-    models : highest numbers of nodal diameters and circles
-    horizons : s
-    """
-    points = [_point("points", "floquet", grid=grid) for grid in grids[1:]]
-    points += [_point("points", "outcome", grid=grid) for grid in grids[:-1]]
-    points += [_point("modes", quantity, grid=several, model=model, horizon=SHORT)
-               for quantity in ("floquet", "outcome") for model in models]  # fmt: skip
-    points += [_point("horizon", "outcome", grid=several, horizon=horizon) for horizon in horizons]
+    """A row for each study; of ``grids``, growth rates leave out the first, outcomes the last."""
+    points: list[Row] = [{"varies": "points", "quantity": "floquet", "grid": grid} for grid in grids[1:]]
+    points += [{"varies": "points", "quantity": "outcome", "grid": grid} for grid in grids[:-1]]
+    for quantity in ("floquet", "outcome"):
+        common = {"varies": "modes", "quantity": quantity, "grid": several, "horizon": SHORT}
+        points += [common | {"model": model} for model in models]
+    common = {"varies": "horizon", "quantity": "outcome", "grid": several}
+    points += [common | {"horizon": horizon} for horizon in horizons]
     return run("scaling", points, measure, cores=CORES, title="How cost grows", Conventions="CF-1.11")
 
 
-def _point(varies: str, quantity: str, **other: Any) -> Row:
-    return {"varies": varies, "quantity": quantity, "model": (4, 0), "horizon": HORIZON} | other
-
-
-def measure(varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int], horizon: float) -> Iterator[Row]:
-    """The cost of one study as a row; what ``varies`` says why it is measured."""
+def measure(
+    varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int] = (4, 0), horizon: float = HORIZON
+) -> Iterator[Row]:
+    """The cost of one study as a row."""
     options = {"horizon": horizon} if quantity == "outcome" else {}
     base = dict(zip(("n_diameters", "n_circles"), model, strict=True))
     axes = {"Omega": _centres(*SPEEDS, grid[0]), "N": _centres(*PRELOADS, grid[1])}

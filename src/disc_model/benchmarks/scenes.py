@@ -1,24 +1,16 @@
 """The benchmark's scenes: four motions with known correct answers, and the errors of a method's answer.
 
-``stick_slip``: N = 385 N, Omega = 15.1 rad/s, the first second: stick-slip without separation, 135 switches
-``separating``: the same from 54.4 to 55.4 s: 398 switches, 131 separations among them
-``many_modes``: 13 mode families (l up to 12) for 0.2 s: frequencies from 1492 to 33711 rad/s
-``rigid``: E = 1e20 Pa, one diameter, 20 ms: the classical stick-slip cycle, known in closed form; frequencies up to
-3.9e7 rad/s that nothing excites
-
-The answers of the first three are stored in ``data/benchmark_reference.json``. The script
-``tests/references/make_stored_references.py`` computes them in long double. That of the last is `rigid_cycle`.
+The answers in ``data/benchmark_reference.json`` are in long double, by ``tests/references/make_stored_references.py``.
 """
 
 import enum
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, chain, cycle, islice, takewhile
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,23 +22,11 @@ from disc_model.simulation.states import State
 
 JUDGED = ("stick_slip", "separating")  # scenes for short comparisons of methods: a second each
 CONVERGED = 1e-6  # greatest event-time error of a converged answer with all events, s
-LOST = 2.0
-"""Relative energy norm of the error from which an answer is unstable; of unrelated motions of equal energy: sqrt(2)."""
+LOST = 2.0  # relative energy norm of an unstable answer's error; sqrt(2) is that of unrelated motions of equal energy
+Verdict = enum.IntEnum("Verdict", "CONVERGED INACCURATE WRONG_EVENTS UNSTABLE GAVE_UP NOT_RUN", start=0)
 
 
-class Verdict(enum.IntEnum):
-    """Verdict on a method."""
-
-    CONVERGED = 0
-    INACCURATE = 1
-    WRONG_EVENTS = 2
-    UNSTABLE = 3
-    GAVE_UP = 4
-    NOT_RUN = 5
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
+class Answer(NamedTuple):
     """The correct answer: event times (s, long double, (n,)), kinds (n words), final state, its own error (s)."""
 
     times: np.ndarray
@@ -55,8 +35,7 @@ class Answer:
     error: float
 
 
-@dataclass(frozen=True)
-class Errors:
+class Errors(NamedTuple):
     """Errors of a result: largest event-time error (s; nan if events are wrong), energy norm, verdict."""
 
     event_time: float
@@ -97,21 +76,24 @@ def read_state(stored_state: Mapping[str, Any]) -> State:
 
 
 MOTIONS: Mapping[str, tuple[dict[str, Any], Callable[[Parameters], State], float, float]] = {
+    # stick-slip without separation, 135 switches
     "stick_slip": ({}, static_start, 1.0, math.inf),
+    # 398 switches, 131 separations among them
     "separating": ({}, separating_start, 55.4, 2e-5),
+    # frequencies from 1492 to 33711 rad/s
     "many_modes": ({"n_diameters": 12}, static_start, 0.2, math.inf),
+    # the classical stick-slip cycle; frequencies up to 3.9e7 rad/s that nothing excites
     "rigid": ({"E": 1e20, "n_diameters": 1}, static_start, 0.02, math.inf),
 }
 """By scene: parameters beside N = 385 N and Omega = 15.1 rad/s, the start, the end (s), and the longest step (s) of
-RK45 and DOP853. With longer steps these miss losses of contact at any tolerance.
-"""
+RK45 and DOP853, with longer ones of which losses of contact are missed at any tolerance."""
 
 
 @lru_cache(maxsize=8)
 def problem(name: str) -> Problem:
     """The problem of a scene."""
-    changes, start, t_end, max_step = MOTIONS[name]
-    p = Parameters(N=385.0, Omega=15.1, **changes)
+    further, start, t_end, max_step = MOTIONS[name]
+    p = Parameters(N=385.0, Omega=15.1, **further)
     return Problem(p, start(p), t_end, max_step=max_step)
 
 
@@ -123,12 +105,8 @@ def answer(name: str) -> Answer:
     right = stored("benchmark_reference")[name]
     if right["parameters"] != problem(name).parameters.key:
         raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
-    return Answer(
-        times=np.array([np.longdouble(t) for t in right["times"]]),
-        kinds=tuple(right["kinds"]),
-        final=read_state(right["final"]),
-        error=right["largest_difference_to_check_run"],
-    )
+    times, final = np.array([np.longdouble(t) for t in right["times"]]), read_state(right["final"])
+    return Answer(times, tuple(right["kinds"]), final, right["largest_difference_to_check_run"])
 
 
 def rigid_cycle(problem: Problem) -> Answer:
@@ -136,22 +114,21 @@ def rigid_cycle(problem: Problem) -> Answer:
     the limit of E to infinity. At E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is 3e-9, and the
     answer is exact to about that."""
     p = problem.parameters
-    w = math.sqrt(p.k_p / p.m)
+    w, Omega = math.sqrt(p.k_p / p.m), p.Omega
     held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
-    d, Omega = held - slipping, p.Omega
+    d = held - slipping
     slip = 2.0 / w * (math.pi - math.atan(d * w / Omega))
     lengths = chain([held / Omega], cycle([slip, (held - (slipping - d)) / Omega]))
     times = [*takewhile(lambda t: t < problem.t_end, accumulate(lengths))]
     kinds = [*islice(cycle(["stick_to_slip", "slip_to_stick"]), len(times))]
-    since, phase = times[-1] if times else 0.0, "slip" if len(times) % 2 else "stick"
-    tau = problem.t_end - since
-    start = problem.start
+    phase = "slip" if len(times) % 2 else "stick"
+    tau = problem.t_end - (times[-1] if times else 0.0)
     if phase == "stick":
         psi, f = (slipping - d if times else 0.0) + Omega * tau, 0.0
     else:
         psi = slipping + d * math.cos(w * tau) + Omega / w * math.sin(w * tau)
         f = Omega + d * w * math.sin(w * tau) - Omega * math.cos(w * tau)
-    final = start.replace(time=problem.t_end, phase=phase, direction=int(phase == "slip"), psi=psi, f=f)
+    final = problem.start.replace(time=problem.t_end, phase=phase, direction=int(phase == "slip"), psi=psi, f=f)
     return Answer(np.array(times, dtype=np.longdouble), tuple(kinds), final, error=1e-9 * problem.t_end)
 
 
@@ -186,7 +163,5 @@ def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> floa
 def describe(name: str) -> dict[str, Any]:
     """Description of a scene for a dataset's attributes."""
     case, right = problem(name), answer(name)
-    return {
-        "parameters": case.parameters.canonical_json, "span": case.span, "events": len(right.kinds),
-        "separations": right.kinds.count("separation"), "reference_error": right.error,
-    }  # fmt: skip
+    counts = {"events": len(right.kinds), "separations": right.kinds.count("separation")}
+    return {"parameters": case.parameters.canonical_json, "span": case.span, "reference_error": right.error} | counts

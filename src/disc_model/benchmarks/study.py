@@ -1,4 +1,4 @@
-"""The runner of all studies of the benchmark: it measures points and makes a dataset of the results."""
+"""The runner of all studies of the benchmark."""
 
 import enum
 import logging
@@ -7,6 +7,7 @@ import platform
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -25,14 +26,9 @@ Row = Mapping[str, Any]
 Flags = Mapping[str, type[enum.IntEnum]]
 
 
-def words(flags: type[enum.IntEnum]) -> tuple[str, ...]:
-    """Words for the values of a flag."""
-    return tuple(flag.name.lower() for flag in flags)
-
-
-def run(  # noqa: PLR0913
+def run(
     table: str,
-    points: Sequence[Row],
+    points: Sequence[Row] | Mapping[str, Sequence[Any]],
     measure: Callable[..., Iterable[Row]],
     dims: Sequence[str] = (),
     *,
@@ -40,25 +36,25 @@ def run(  # noqa: PLR0913
     cores: int = 1,
     summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),
     flags: Flags | None = None,
-    unmeasured: Mapping[str, int] | None = None,
     **about: Any,
 ) -> xr.Dataset:
-    """Measure points on one core or on several, and log what comes out.
+    """Measure points, and log what comes out.
 
     table : of the variables in ``variables.toml``
-    points : coordinates and settings by name
+    points : coordinates and settings by name, or the axes of a grid, which are ``dims`` then
     measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point
     dims : coordinates that become dimensions; without any, the dataset has a ``row`` for each result
     rounds : number of times that all points are measured in turn, so that a disturbance affects all alike
     cores : number of cores on which this process and its children run
     summarise : of the results grouped by ``dims``: one row a point
-    flags, unmeasured : meanings of flags, and their values where nothing was measured; other variables are nan there
+    flags : meanings of flags, the last of which stands where nothing was measured; other variables are nan there
     about : attributes of the dataset beside machine and versions
     """
-    flags = flags or {}
+    if isinstance(points, Mapping):
+        dims, points = [*points], [dict(zip(points, values, strict=True)) for values in product(*points.values())]
+    meanings = {name: tuple(flag.name.lower() for flag in values) for name, values in (flags or {}).items()}
     variables = {
-        name: Variable(units, long_name, words(flags[name]) if name in flags else ())
-        for name, (units, long_name) in TABLES[table].items()
+        name: Variable(units, long_name, meanings.get(name, ())) for name, (units, long_name) in TABLES[table].items()
     }
     rows = []
     with few_cores(cores):
@@ -76,7 +72,7 @@ def run(  # noqa: PLR0913
         dataset = frame.rename_axis("row").to_xarray().drop_vars("row")
     for name, variable in variables.items():
         if variable.flags:
-            dataset[name] = dataset[name].fillna((unmeasured or {}).get(name)).astype(np.int8)
+            dataset[name] = dataset[name].fillna(len(variable.flags) - 1).astype(np.int8)
         dataset[name].attrs = variable.attributes
     made_by = {"machine": machine(), "versions": json_attribute(versions("heyoka", "scikit-sundae"))}
     return dataset.assign_attrs(made_by | about)
@@ -84,7 +80,7 @@ def run(  # noqa: PLR0913
 
 @contextmanager
 def few_cores(count: int) -> Iterator[None]:
-    """Restrict this process, and threads and processes begun meanwhile, to so many cores; release it afterwards."""
+    """Restrict this process, and what it begins meanwhile, to so many cores, where the system can do that."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -97,7 +93,7 @@ def few_cores(count: int) -> Iterator[None]:
 
 
 def machine() -> str:
-    """Processor and number of cores, as reported by the system."""
+    """Processor and number of cores, as the system reports them."""
     model = platform.processor() or platform.machine()
     with suppress(OSError, StopIteration):
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

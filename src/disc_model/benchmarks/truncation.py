@@ -4,7 +4,6 @@ import json
 import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 from typing import Any
 
 import xarray as xr
@@ -19,22 +18,16 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import floquet
 
-MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))
-"""Diameters and circles: 1 to 75 modes; (16, 4), with 165 modes, costs five times as much as 75."""
+MODELS = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))  # diameters, circles
 SEPARATING: dict[str, dict[str, Any]] = TABLES["contact_truncation_cases"]
 CONTACTS: dict[str, dict[str, Any]] = {"rigid": {}, "residual": {"contact_compliance": "residual"}}
 LATE = (20.0, 10.0)  # time from the first separation to the late stretch, and its length, s
-TOLERANCES = (1e-10, 1e-12, 1e-13)
-"""Tolerances of the motion after the first separation; the next one is used if the last fails to reach the end."""
-MOST_GROWTH = 80
-"""Greatest number of real modes for growth rates, which need a column for each of four coordinates of every pair."""
+TOLERANCES = (1e-10, 1e-12, 1e-13)  # of the motion after the first separation, until one reaches the end
+MOST_GROWTH = 80  # greatest number of real modes for growth rates, which need four columns for every pair
 
 
 def contact_study(
-    models: Sequence[tuple[int, int]] = MODELS,
-    cases: Mapping[str, Mapping[str, Any]] = SEPARATING,
-    *,
-    horizon: float = 200.0,
+    models: Sequence[tuple[int, int]] = MODELS, cases: Mapping[str, Row] = SEPARATING, *, horizon: float = 200.0
 ) -> xr.Dataset:
     """Measure the variables ``contact_truncation`` along (case, contact, model); nan where there is none."""
 
@@ -42,7 +35,14 @@ def contact_study(
         diameters, circles = map(int, model.split(","))
         p = Parameters(**cases[case], **CONTACTS[contact], n_diameters=diameters, n_circles=circles)
         modes, compliance = real_modes(diameters, circles), contact_compliance(p)
-        yield _separating(p, horizon) | {
+        simulate(p, 1e-3)  # compiles
+        began = time.process_time()
+        first = simulate(p, horizon, events=False, stop_at="first_separation")
+        cost = (time.process_time() - began) / first.final_state.time
+        separates = math.isfinite(first.first_separation)
+        late = (_late(p, first.final_state, tol) for tol in TOLERANCES if separates)
+        yield next(filter(None, late), {}) | {
+            "cost": cost, "first_separation": first.first_separation,
             "modes": float(modes), "contact_compliance": compliance,
             "lowest_coupled": float(coupled_frequencies(p, compliance)[0]),
             "frequency_error": frequency_error(p, p.replace(n_diameters=RICH[0], n_circles=RICH[1])),
@@ -51,24 +51,11 @@ def contact_study(
 
     sizes = [f"{diameters},{circles}" for diameters, circles in models]
     axes = {"case": [*cases], "contact": [*CONTACTS], "model": sizes}
-    points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
     return run(
-        "contact_truncation", points, measure, [*axes], title="What residual flexibility changes",
+        "contact_truncation", axes, measure, title="What residual flexibility changes",
         cases=json.dumps(dict(cases), sort_keys=True), late=json.dumps(LATE), most_growth=MOST_GROWTH, horizon=horizon,
         Conventions="CF-1.11", band=BAND, compared_with=json.dumps(RICH),
     )  # fmt: skip
-
-
-def _separating(p: Parameters, horizon: float) -> dict[str, float]:
-    """Cost of the motion up to the first separation, its time, and the motion after it, as of `_late`."""
-    simulate(p, 1e-3)  # compiles
-    began = time.process_time()
-    first = simulate(p, horizon, events=False, stop_at="first_separation")
-    row = {"cost": (time.process_time() - began) / first.final_state.time}
-    if not math.isfinite(first.first_separation):
-        return row
-    row["first_separation"] = first.first_separation
-    return row | next(filter(None, (_late(p, first.final_state, tol) for tol in TOLERANCES)), {})
 
 
 def _late(p: Parameters, start: State, tol: float) -> dict[str, float]:

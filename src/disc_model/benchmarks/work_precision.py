@@ -1,13 +1,11 @@
-"""Speed against accuracy: every method on every scene, at settings from coarse to fine.
-
-The reported value of a point is the median over the rounds. Slow points are measured less often, ``repeats`` times.
-"""
+"""Speed against accuracy: every method on every scene, at settings from coarse to fine."""
 
 import math
 import time as clock
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,14 +16,13 @@ from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, SCENES
 from disc_model.benchmarks.methods.base import RunStatus
 from disc_model.benchmarks.scenes import JUDGED, Verdict
-from disc_model.benchmarks.study import TABLES, Row, run, words
+from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import Variable
 from disc_model.simulation.api import simulate
 
 DEFAULT = 1e-10  # the series engine's default tolerance, and the event-time error (s) required of the other methods
-BUDGET, RIGID_BUDGET = 12.0, 4.0
-"""Budget of a method for a point, s, and on the rigid disc, which methods in Python cannot finish."""
+BUDGET, RIGID_BUDGET = 12.0, 4.0  # for a point, s; the second on the rigid disc, which methods in Python cannot finish
 LONG = 0.5  # longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds
 FURTHER = 4.0  # extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second
 ROUNDING = 1e-13  # errors below this (s, or relative) are rounding and are left out of the fit of the order
@@ -35,18 +32,11 @@ Settings = Mapping[str, Mapping[str, Sequence[float]]]  # settings from coarse t
 
 
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
-    """Measure all points; a method that gives up at a coarse setting is not tried at finer ones.
-
-    settings : those of all methods if not given
-    rounds : number of measurements of quick points
-
-    The dataset is along (scene, solver, point), unused points nan; along (scene, solver) are orders by `fitted_order`.
-    """
+    """Measure all points along (scene, solver, point), at most ``rounds`` times, of which the median is reported; along
+    (scene, solver) are orders by `fitted_order`. A method that gives up at a setting is not tried at finer ones."""
     if settings is None:
-        settings = {
-            scene: {name: method.settings[scene] for name, method in METHODS.items() if scene in method.settings}
-            for scene in SCENES
-        }
+        declared = [(scene, method, values) for method in METHODS.values() for scene, values in method.settings.items()]
+        settings = {scene: {m.name: values for s, m, values in declared if s == scene} for scene in SCENES}
     points = [
         {"scene": scene, "solver": solver, "point": point, "value": value}
         for scene, by_method in settings.items()
@@ -59,31 +49,30 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
 
     def measure(scene: str, solver: str, point: int, value: float) -> Iterator[Row]:
         before = times[scene, solver, point]
-        if before:  # quick points are measured in every round, others at most twice more
-            again = _quick(before) or (float(np.median(before)) < LONG and len(before) < 3)
-        else:
-            again = (scene, solver) not in hopeless
-        if not again:
+        if not before and (scene, solver) in hopeless:
+            return
+        # quick points are measured in every round, others at most twice more
+        if before and not _quick(before) and (np.median(before) >= LONG or len(before) >= 3):
             return
         problem, budget = scenes.problem(scene), RIGID_BUDGET if scene == "rigid" else BUDGET
-        result = METHODS[solver].solve(problem, value, budget)
+        solve = partial(METHODS[solver].solve, value=value, budget=budget)
+        result = solve(problem)
         if not before and result.seconds < LONG:  # the first call compiles and warms caches
-            result = METHODS[solver].solve(problem, value, budget)
+            result = solve(problem)
         if result.outcome is RunStatus.TOO_SLOW:
             hopeless.add((scene, solver))
         before.append(result.seconds)
         errors = scenes.errors(problem, scenes.answer(scene), result)
         further = math.nan
         if scene in JUDGED and result.outcome is RunStatus.FINISHED and _quick(before):
-            longer = replace(problem, t_end=problem.t_end + FURTHER * problem.span)
-            run_on = METHODS[solver].solve(longer, value, budget)
+            run_on = solve(replace(problem, t_end=problem.t_end + FURTHER * problem.span))
             if run_on.outcome is RunStatus.FINISHED:
                 further = (run_on.seconds - result.seconds) / (FURTHER * problem.span)
         yield {
             "seconds": result.seconds, "cost": result.seconds / problem.span, "marginal_cost": further,
             "glue": result.glue / max(result.seconds, 1e-9), "event_error": errors.event_time,
             "state_error": errors.state, "verdict": errors.verdict, "work": result.work,
-            "events": len(result.kinds), "separations": result.separations,
+            "events": len(result.kinds), "separations": result.kinds.count("separation"),
             "whole_call": _whole_call() if (scene, solver, value) == (JUDGED[0], "series", DEFAULT) else math.nan,
         }  # fmt: skip
 
@@ -94,8 +83,7 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
     described: dict[str, Any] = {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     dataset = run(
         "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, summarise=summarise,
-        flags={"verdict": Verdict}, unmeasured={"verdict": Verdict.NOT_RUN}, title="Speed against accuracy",
-        Conventions="CF-1.11", **described,
+        flags={"verdict": Verdict}, title="Speed against accuracy", Conventions="CF-1.11", **described,
     )  # fmt: skip
     solvers = [name for name in METHODS if name in dataset["solver"]]
     dataset = dataset.drop_vars("point").sel(solver=solvers)
@@ -134,11 +122,8 @@ def _line_order(dataset: xr.Dataset, scene: str, solver: str, error: str) -> flo
 
 
 def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
-    """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left.
-
-    n, error : (k,), from coarse to fine; n is the number of steps, or what grows like it.  The asymptotic part: errors
-    above `ROUNDING` and below a tenth of the largest, or all above it if that leaves fewer than three.
-    """
+    """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left. That part
+    are errors above `ROUNDING` and below a tenth of the largest, or all above it if that leaves fewer than three."""
     usable = np.isfinite(n) & np.isfinite(error) & (error > ROUNDING) & (n > 0)
     if np.count_nonzero(usable) < 2:
         return math.nan
@@ -201,7 +186,7 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     yardsticks = [cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted]
     derived = points.assign(
         setting=[f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
-        verdict=[words(Verdict)[verdict] for verdict in points["verdict"]],
+        verdict=[Verdict(verdict).name.lower() for verdict in points["verdict"]],
         times_series=points["cost"] / yardsticks,
     )
     counts = dict.fromkeys(("events", "separations", "repeats"), int)

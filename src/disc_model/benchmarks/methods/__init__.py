@@ -1,12 +1,7 @@
 """The table of methods, from ``rivals.toml``: the package's engine and its rivals behind one interface.
 
-    >>> from disc_model.benchmarks.methods import METHODS
-    >>> METHODS["RK4"].solve(problem, 1e-5)
-
 Each is written as a competent user would; `base` states the contract. They share the physics (`kernels`), not the
-engine. heyoka and SUNDIALS come with the extra `bench`; without them their `solve` raises `MethodUnavailable`.
-
-This module imports nothing heavy: the workflow reads it at every start.
+engine. This module imports nothing heavy: the workflow reads it at every start.
 """
 
 from __future__ import annotations
@@ -59,9 +54,8 @@ class Method(BaseModel):
         return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds; raises
-        `MethodUnavailable` without the package that the method stands for. Failures on the way are not raised: the
-        status of the result reports them."""
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds. The status of
+        the result reports failures on the way; without its package the method raises `MethodUnavailable`."""
         if missing := ", ".join(self.absent()):
             reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
             raise MethodUnavailable(reason)

@@ -1,10 +1,18 @@
-"""The contract of a method: its input, its result, and the events between phases for those that stop at each.
+"""The contract of methods, and those that need no extra: the engine, fixed-step Runge-Kutta and scipy's integrators.
 
 A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
-``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way.
+``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way. Only the
+integration is timed, in processor time, which other processes do not distort.
 
-Only the integration is timed: modes, compiling and setting up are left out for every method.  Times are processor
-times. On a core of its own these equal wall-clock times, and elsewhere other processes do not distort them.
+scipy's integrators are restarted at every event, or run once through a regularised model that has no events. It is one
+stiff ODE, with a smooth friction law and a penalty for penetration.
+
+    friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
+    contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
+
+``eps`` (rad/s) is the setting, and K is `PENALTY`/eps. Stick is a creep abs(f) < 3 eps. Events are found afterwards at
+the crossings of abs(f) = 3 eps and of P = 0. The model error is about eps^(2/3): stick ends by slow passage through the
+maximum of the law, a fold. It falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps falls.
 """
 
 from __future__ import annotations
@@ -14,15 +22,21 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
 import numpy as np
+from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
 from disc_model.benchmarks.methods import kernels
 from disc_model.benchmarks.methods.kernels import Array, Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import Execution, simulate
+from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
 
 
@@ -38,22 +52,14 @@ class RunStatus(enum.StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """An initial-value problem: start and end of the motion.
-
-    parameters : the case
-    start : state in the slider's frame (arrays (n_modes,) in the order of `plate_modes`)
-    t_end : s, absolute, greater than start.time
-    stop : whether to end at the first separation
-    watched : whether the range of the disc is requested, which costs some methods time
-    max_step : s, longest step of methods that would miss events with longer ones
-    """
+    """An initial-value problem: start and end of the motion."""
 
     parameters: Parameters
     start: State
-    t_end: float
-    stop: bool = False
-    watched: bool = False
-    max_step: float = math.inf
+    t_end: float  # s, absolute, greater than start.time
+    stop: bool = False  # whether to end at the first separation
+    watched: bool = False  # whether the range of the disc is requested, which costs some methods time
+    max_step: float = math.inf  # s, longest step of methods that would miss events with longer ones
 
     @property
     def span(self) -> float:
@@ -63,53 +69,29 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class MethodResult:
-    """Result of a method.
+    """Result of a method."""
 
-    times : s, shape (n_events,)
-    kinds : n_events words of `disc_model.data.variables.EVENT_KINDS`
-    final : state at t_end, or where the method stopped
-    seconds : processor time of the integration
-    work : number of right-hand sides, or of steps for methods that work with series
-    outcome, message : how it ended
-    longest_step : s, longest step taken; nan if not known
-    heights : m, least and greatest w of the disc under the slider; nan if not watched
-    glue : s of them spent in Python between compiled phases; nan where that was not measured
-    """
-
-    times: Array
-    kinds: tuple[str, ...]
-    final: State
-    seconds: float
-    work: int
+    times: Array  # of events, s, (n_events,)
+    kinds: tuple[str, ...]  # of events, words of `disc_model.data.variables.EVENT_KINDS`
+    final: State  # at t_end, or where the method stopped
+    seconds: float  # processor time of the integration
+    work: int  # number of right-hand sides, or of steps for methods that work with series
     outcome: RunStatus
     message: str = ""
-    longest_step: float = math.nan
-    heights: tuple[float, float] = (math.nan, math.nan)
-    glue: float = math.nan
-
-    @property
-    def separations(self) -> int:
-        """Number of separations."""
-        return self.kinds.count("separation")
+    longest_step: float = math.nan  # s; nan if not known
+    heights: tuple[float, float] = (math.nan, math.nan)  # m, least and greatest w under the slider; nan if not watched
+    glue: float = math.nan  # s of them spent in Python between compiled phases; nan where that was not measured
 
 
 class GaveUp(Exception):
-    """Raised inside a run that cannot go on."""
-
-    def __init__(self, message: str, outcome: RunStatus = RunStatus.FAILED) -> None:
-        super().__init__(message)
-        self.outcome = outcome
+    """Raised inside a run that cannot go on: its status and the reason."""
 
 
 class Meter:
-    """A run of a problem, with the constants of its case (``physics``, and ``modes`` and ``c`` for `kernels`).
-
-    It counts right-hand sides, watches the clock and, if requested, the disc's range.
-    """
+    """The constants of a run, and what it comes to: right-hand sides, time and, if requested, the disc's range."""
 
     def __init__(self, problem: Problem, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, Physics(problem.parameters), budget
-        self.modes, self.c = kernels.tables(self.physics)
         self.work, self.longest_step, self.low, self.high = 0, math.nan, math.nan, math.nan
         self.outcome, self.message = RunStatus.FINISHED, ""
 
@@ -120,14 +102,14 @@ class Meter:
         try:
             yield
         except GaveUp as reason:
-            self.outcome, self.message = reason.outcome, str(reason)
+            self.outcome, self.message = reason.args
         self.seconds, self.wall = clock.thread_time() - self.began, clock.perf_counter() - wall
 
     def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
         """The result of a method with the meter's counts; times are those from the start on."""
         seconds, work, heights = self.seconds, self.work, (self.low, self.high)
-        events = self.problem.start.time + np.array(times), tuple(kinds), final
-        return MethodResult(*events, seconds, work, self.outcome, self.message, self.longest_step, heights)
+        motion = self.problem.start.time + np.array(times), tuple(kinds), final
+        return MethodResult(*motion, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
         """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size). If
@@ -148,7 +130,7 @@ class Meter:
     def check(self) -> None:
         """Raise `GaveUp` if the time is used up."""
         if clock.thread_time() - self.began > self.budget:
-            raise GaveUp(f"not finished after {self.budget:g} s", RunStatus.TOO_SLOW)
+            raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
 
     def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
         """``function``, counting its calls and looking at the clock every 64 of them."""
@@ -166,23 +148,18 @@ class Meter:
 CROWD = 50  # greatest number of events at one instant; with more the method is stuck
 NOT_FINITE = "the state is no longer finite"
 ENDS = (3, 2, 1)
-"""By the number of a phase in `kernels`: functions of the state that end it where they fall through zero. The first is
-the contact force (1 if bonded) or the gap. The others are f in slip, and the margins of friction forwards and backwards
-in stick. Ties are decided in that order.
-"""
+"""By the number of a phase in `kernels`: functions of the state that end it where they fall through zero, ties in this
+order: the contact force (1 if bonded) or the gap; f in slip, or the margins of friction forwards and backwards."""
 Ended = tuple[int | None, float, Array]
-"""End of ``advance``: index of the function that stopped it (None at t_end), local time (s), and the state, which the
-caller may change.
-"""
+"""Index of the function that ended a phase (None at t_end), local time (s), and a state that the caller may change."""
 Advance = Callable[[int, int, float, Array, float], Ended]
 """Integrates a phase ``(phase, direction, t, y, t_end)``, given by its number in `kernels` and the sign of f in it (0
-except in slip), from local time ``t`` (s, 0 at the start) to its end, or to ``t_end``; ``y`` is not changed.
-"""
+except in slip), from local time ``t`` (s, 0 at the start) on; ``y`` is not changed."""
 
 
 def run_phases(advance: Advance, meter: Meter) -> MethodResult:
     """Integrate phase by phase to the end of the problem."""
-    problem, physics, modes, c = meter.problem, meter.physics, meter.modes, meter.c
+    problem, physics, modes, c = meter.problem, meter.physics, meter.physics.modes, meter.physics.c
     phase, direction = PHASES.index(problem.start.phase), problem.start.direction
     t, y, span = 0.0, physics.pack(problem.start), problem.span
     new = np.zeros(2, np.int64)
@@ -202,7 +179,7 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
                 break
             phase, direction, added = kernels.switch(modes, c, phase, cause, y, new)
             if added < 0:
-                raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
+                raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
             crowd = crowd + 1 if times and t - times[-1] < 1e-12 else 0  # s, at one instant
             for index in range(added):
                 times.append(t)
@@ -210,7 +187,200 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
             if problem.stop and phase == kernels.SEPARATION:
                 break
             if crowd > CROWD:
-                raise GaveUp(f"more than {CROWD} events at one instant", RunStatus.STALLED)
+                raise GaveUp(RunStatus.STALLED, f"more than {CROWD} events at one instant")
         if not math.isfinite(y.sum()):
-            raise GaveUp(NOT_FINITE, RunStatus.NON_FINITE)
+            raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
     return meter.result(times, kinds, physics.unpack(problem.start.time + t, PHASES[phase], direction, y))
+
+
+# ---- scipy's integrators, phase by phase
+def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
+    """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
+    meter, margins = Meter(problem, budget), np.empty(3)
+    scale, least = meter.physics.scale(), 2.3e-14  # scipy accepts no smaller relative tolerance
+
+    def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
+        modes, c = meter.physics.modes, meter.physics.c
+
+        def rate(_t: float, y: Array) -> Array:
+            dy = np.empty_like(y)
+            kernels.rate(modes, c, phase, direction, y, dy)
+            return dy
+
+        def slopes(_t: float, y: Array) -> Array:
+            J = np.empty((len(y), len(y)))
+            kernels.jacobian(modes, c, phase, direction, y, J)
+            return J
+
+        def margin(index: int, _t: float, y: Array) -> float:
+            kernels.switch_values(modes, c, phase, direction, y, margins)
+            return float(margins[index])
+
+        more = {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
+        events = [_event(partial(margin, index), -1, last=True) for index in range(ENDS[phase])]
+        with np.errstate(over="ignore", invalid="ignore"):
+            solution = solve_ivp(
+                meter.counted(rate), (t, t_end), y,
+                method=algorithm, rtol=max(value, least), atol=value * scale, events=events, **more,
+            )  # fmt: skip
+        meter.steps(solution.t, solution.y.T)
+        if solution.status == -1:
+            raise GaveUp(RunStatus.FAILED, solution.message)
+        cause = next((i for i, times in enumerate(solution.t_events) if len(times)), None)
+        return cause, float(solution.t[-1]), solution.y[:, -1].copy()
+
+    return run_phases(advance, meter)
+
+
+def _event(function: Callable[[float, Array], float], direction: int, *, last: bool) -> Any:
+    """An event in scipy's form: the sign of the change of ``function`` (0: either), and whether it is terminal."""
+    event: Any = partial(function)
+    event.terminal, event.direction = last, direction
+    return event
+
+
+# ---- The regularised model
+PENALTY = 1e7  # N/m times rad/s: K eps
+CREEP = 3.0  # abs(f)/eps below which the slider counts as sticking
+RTOL = 1e-8
+
+
+def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
+    """An algorithm of scipy on the regularised model; ``value`` is eps."""
+    meter, p, start = Meter(problem, budget), problem.parameters, problem.start
+    physics, stiffness = meter.physics, PENALTY / value
+    damping = 2.0 * math.sqrt(stiffness / (1.0 / p.m + physics.compliance))
+    case = (physics.modes, physics.c, np.array([value, _excess(p.mu_s, p.mu_k), stiffness, damping]))
+
+    def force(_t: float, y: Array) -> float:
+        return float(kernels.smooth_force(*case, y))
+
+    def rate(_t: float, y: Array) -> Array:
+        dy = np.empty_like(y)
+        kernels.smooth_rate(*case, y, dy)
+        return dy
+
+    t, y = 0.0, physics.pack(start)
+    if start.phase != "separation":  # the penetration carries the contact force
+        y[physics.u], y[physics.v] = physics.disc_point(y)
+        y[physics.u] -= kernels.contact(physics.modes, physics.c, start.direction, y)[0] / stiffness
+    rate(t, y)  # compiles
+    creep = _event(lambda _t, y: abs(y[physics.f]) - CREEP * value, 0, last=False)
+    events = [creep, _event(force, 0, last=False), *([_event(force, -1, last=True)] if problem.stop else [])]
+    switches: list[tuple[float, str]] = []
+    with meter.running(), np.errstate(over="ignore", invalid="ignore"):
+        solution = solve_ivp(
+            meter.counted(rate), (t, problem.span), y,
+            method=algorithm, rtol=RTOL, atol=RTOL * physics.scale(), events=events,
+        )  # fmt: skip
+        meter.steps(solution.t, solution.y.T)
+        t, y = float(solution.t[-1]), solution.y[:, -1]
+        for time, state in zip(solution.t_events[0], solution.y_events[0], strict=True):
+            if force(time, state) > 0:  # in separation a zero of f is no event
+                leaving = np.sign(state[physics.f]) * rate(time, state)[physics.f] > 0
+                switches.append((float(time), "stick_to_slip" if leaving else "slip_to_stick"))
+        for time, state in zip(solution.t_events[1], solution.y_events[1], strict=True):
+            rising = force(time, state + 1e-9 * rate(time, state)) > force(time, state)
+            switches.append((float(time), "reattachment" if rising else "separation"))
+        if solution.status < 0:
+            raise GaveUp(RunStatus.FAILED, solution.message)
+    if not np.all(np.isfinite(y)):
+        meter.outcome = RunStatus.NON_FINITE
+    merged, f = _merged(switches), float(y[physics.f])
+    phase = "separation" if force(t, y) <= 0 else "stick" if abs(f) < CREEP * value else "slip"
+    direction = (1 if f > 0 else -1) if phase == "slip" else 0
+    final = physics.unpack(start.time + t, phase, direction, y)
+    return meter.result([time for time, _ in merged], [kind for _, kind in merged], final)
+
+
+def _excess(mu_s: float, mu_k: float) -> float:
+    """Height of the Stribeck peak over kinetic friction for which the law's maximum is the static friction."""
+    x = np.linspace(0.0, 2.0 * kernels.STRIBECK, 20_001)
+    rise, fall = np.tanh(x), np.exp(-((x / kernels.STRIBECK) ** 2))
+    excess = mu_s - mu_k
+    for _ in range(50):
+        excess += mu_s - float(np.max(rise * (mu_k + excess * fall)))
+    return excess
+
+
+def _merged(events: list[tuple[float, str]]) -> list[tuple[float, str]]:
+    """Events in order of time; a stick shorter than a microsecond, in which f only passes zero, is a slip reversal."""
+    merged: list[tuple[float, str]] = []
+    for t, kind in sorted(events):
+        if kind == "stick_to_slip" and merged and merged[-1][1] == "slip_to_stick" and t - merged[-1][0] < 1e-6:
+            merged[-1] = (merged[-1][0], "slip_reversal")
+        else:
+            merged.append((t, kind))
+    return merged
+
+
+# ---- Whole runs in one compiled call: the package's own engine, and the paper's fixed-step Runge-Kutta
+SERIES_STEPS_PER_SECOND = 300_000  # steps per second of budget: the engine stops by steps, not by the clock
+WATCH_RATE = 2e4
+"""Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is accurate to 2e-4."""
+STABILITY_LIMIT = 2.0 * math.sqrt(2.0)  # largest omega h at which RK4 does not let an undamped oscillation grow
+RK4_STEPS_PER_SECOND = 1_000_000
+MAX_EVENTS = 20_000
+
+
+def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResult:
+    """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of polynomials."""
+    steps = int(max(1, min(budget, 1e6) * SERIES_STEPS_PER_SECOND))
+    windows = {}
+    if problem.watched:  # in one bin over the whole run
+        samples = max(2, round(WATCH_RATE * problem.span))
+        window = Window(start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples)
+        windows = {"whole": window}
+    began = clock.thread_time()
+    result = simulate(
+        problem.parameters, problem.t_end, windows, tol=value, initial_state=problem.start,
+        stop_at="first_separation" if problem.stop else None, execution=Execution(max_steps=steps),
+    )  # fmt: skip
+    failures = {Status.STEP_LIMIT: RunStatus.TOO_SLOW, Status.PARADOX: RunStatus.FAILED}
+    status, seen = result.status, result.samples.get("whole", {})
+    reached = len(seen.get("w_min", ()))  # of a bin that a run ends before, there is nothing
+    return MethodResult(
+        times=result.events["time"].to_numpy(),
+        kinds=tuple(result.events["kind"]),
+        final=result.final_state,
+        # the time of the steps; of a long run, which other processes may have interrupted, that of the call
+        seconds=min(result.statistics["wall_time"], clock.thread_time() - began),
+        work=int(result.statistics["steps"]),
+        outcome=RunStatus.FINISHED if status.complete else failures.get(status) or RunStatus(status.value),
+        message=result.message,
+        heights=(float(seen["w_min"].min()), float(seen["w_max"].max())) if reached else (math.nan, math.nan),
+    )
+
+
+def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
+    """The same engine without the disc's modes if the disc deflects by less than the tolerance. The modes change the
+    answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring. They are never excited
+    and then follow statically, however fast they are."""
+    physics = Physics(problem.parameters)
+    give = problem.parameters.k * float(np.sum(physics.shape**2 / physics.stiffness))
+    start = problem.start
+    if give > value or start.phase == "separation":
+        return solve_by_series(problem, value, budget)
+    rigid = start.replace(u=0.0, u_velocity=0.0, **dict.fromkeys(("a", "b", "alpha", "beta"), np.empty(0)))
+    case = problem.parameters.replace(n_diameters=-1)
+    result = solve_by_series(replace(problem, parameters=case, start=rigid), value, budget)
+    end = result.final
+    moved = start.replace(time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f)
+    return replace(result, final=moved)
+
+
+def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
+    """Classical RK4; ``value`` is the step."""
+    meter, start = Meter(problem, budget), problem.start
+    y = meter.physics.pack(start)
+    track = (np.empty(MAX_EVENTS), np.empty(MAX_EVENTS, np.int64), np.array([math.inf, -math.inf]))
+    case = (meter.physics.modes, meter.physics.c, PHASES.index(start.phase), start.direction)
+    steps = int(max(1, min(budget, 1e6) * RK4_STEPS_PER_SECOND))
+    kernels.rk4_run(*case, y.copy(), (0.0, value, 1, problem.stop), track)  # compiles
+    limits = (problem.span, value, steps, problem.stop)
+    with meter.running():
+        why, t, phase, direction, n, steps = kernels.rk4_run(*case, y, limits, track)
+    meter.outcome = (RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why]
+    meter.work, meter.longest_step, (meter.low, meter.high) = 4 * steps, value, track[2].tolist()
+    final = meter.physics.unpack(start.time + t, PHASES[phase], direction, y)
+    return meter.result(track[0][:n], [EVENT_KINDS[kind] for kind in track[1][:n]], final)

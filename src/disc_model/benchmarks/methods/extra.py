@@ -1,13 +1,11 @@
 """Integrators of the extra `bench`: heyoka's compiled Taylor series, and SUNDIALS CVODE with scikit-sundae.
 
-heyoka has native terminal events, in double precision. The equations are arranged for the least work in it. Constants
-are merged into one coefficient per state. The products of f with the modal states are shared by equations and contact
-force. The force has one division, and the direction of slip is a parameter. Loss of contact in stick needs no event:
-stick ends before. Compact mode takes twice as long, ``slp_vectorize`` a tenth more; ``force_avx512`` changes nothing.
+heyoka's equations are arranged for the least work: one coefficient per state, products of f with modal states that
+equations and contact force share, a force with one division, the direction of slip as a parameter, and no event for
+loss of contact in stick, which ends before. Compact mode takes twice as long, ``slp_vectorize`` a tenth more.
 
-CVODE has its own root finding and is restarted at every event. The library is called directly: scikit-sundae calls
-Python for every right-hand side, which takes three times as long. Right-hand side, event functions and Jacobian are
-compiled; they read and write CVODE's own memory.
+CVODE is restarted at every event. The library is called directly, with compiled callbacks that read and write its own
+memory: scikit-sundae calls Python for every right-hand side, which takes three times as long.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -27,8 +25,7 @@ import numpy as np
 from numba import carray, types
 
 from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, run_phases
-from disc_model.benchmarks.methods.installed import absolute_scale
+from disc_model.benchmarks.methods.base import ENDS, Ended, GaveUp, Meter, MethodResult, Problem, RunStatus, run_phases
 from disc_model.benchmarks.methods.kernels import SHIFT, Array, Physics
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
@@ -55,10 +52,8 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
     prepared = []
     for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True):
         integrator.pars[:2] = drive
-        # with fewer events, the last ones of ENDS
-        state = integrator.state
-        skipped = ends - len(integrator.t_events)
-        prepared.append((integrator, integrator.propagate_until, state, len(state), skipped))
+        skipped = ends - len(integrator.t_events)  # with fewer events, the last ones of ENDS
+        prepared.append((integrator, integrator.propagate_until, integrator.state, len(integrator.state), skipped))
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         nonlocal inside
@@ -68,16 +63,16 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
             integrator.pars[2] = direction
         path.clear()
         began = clock.perf_counter()
-        outcome, _, _, steps, _, _ = propagate(t_end, max_steps=HEYOKA_STEPS, **seen)
-        while (stop := int(outcome)) == no_more:
-            meter.work += steps
-            meter.check()
+        while True:
             outcome, _, _, steps, _, _ = propagate(t_end, max_steps=HEYOKA_STEPS, **seen)
+            meter.work += steps
+            if (stop := int(outcome)) != no_more:
+                break
+            meter.check()
         inside += clock.perf_counter() - began
-        meter.work += steps
         cause = None if stop == at_end else skipped - stop - 1
         if cause is not None and not skipped <= cause < ENDS[phase]:
-            raise GaveUp(str(outcome))
+            raise GaveUp(RunStatus.FAILED, str(outcome))
         if problem.watched:
             note(integrator)
             states = np.tile(y, (len(path) + 1, 1))
@@ -99,8 +94,8 @@ def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
     for phase in PHASES:
         rows, functions = system(Physics(p), phase)
         falling = [hy.t_event(g, direction=hy.event_direction.negative, cooldown=0.0) for g in functions]
-        options = {"tol": tol, "compact_mode": compact, "fast_math": True}
-        made.append(hy.taylor_adaptive(rows, np.zeros(len(rows)), t_events=falling, **options))
+        state, options = np.zeros(len(rows)), {"tol": tol, "compact_mode": compact, "fast_math": True}
+        made.append(hy.taylor_adaptive(rows, state, t_events=falling, **options))
     return made
 
 
@@ -125,15 +120,17 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     def each(factors: Any, x: Any, modes: Iterable[int] = range(n)) -> list[tuple[float, Any]]:
         return [(float(factors[i]), x[i]) for i in modes]
 
+    def turned(i: int, factors: Any, product: Any) -> list[tuple[float, Any]]:
+        return each(factors, product, [i] if i in product else [])
+
     F = combined((p.k_p, psi), (p.c_p, drive), (0.0 if sticks else -p.c_p, f))
     P = nothing
     if touches:
         below = 1.0 + p.m * physics.compliance
         by = s / below
         held = each((p.k - p.m * physics.stiffness) * by, a) + each((p.c - p.m * physics.damping) * by, alpha)
-        P = combined(
-            (1.0 / below, load), *held, *each(2.0 * p.m * l * by, fbeta, turning), *each(p.c * l * by, fb, turning)
-        )
+        swept = each(2.0 * p.m * l * by, fbeta, turning) + each(p.c * l * by, fb, turning)
+        P = combined((1.0 / below, load), *held, *swept)
     if turning and touches:
         tilt = combined(*each(l * by, b, turning))
         P = P - f * combined(*each(p.m * l**2 * by, fa, turning)) + tilt * F
@@ -142,18 +139,15 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     if phase == "slip":
         f_rate = f_rate - sign * (p.mu_k / (p.m * p.r_0)) * P
 
-    def row(i: int, *own: tuple[float, Any], turned: tuple[float, Any]) -> Any:
-        factor, product = turned
-        return combined(*own, *([(factor, product[i])] if i in product else []))
-
     d, w2 = -physics.damping, -physics.stiffness
-    rows = [(a[i], row(i, (1.0, alpha[i]), turned=(l[i], fb))) for i in range(n)]
-    rows += [(b[i], row(i, (1.0, beta[i]), turned=(-l[i], fa)) if l[i] else nothing) for i in range(n)]
+    rows = [(a[i], combined((1.0, alpha[i]), *turned(i, l, fb))) for i in range(n)]
+    rows += [(b[i], combined((1.0, beta[i]), *turned(i, -l, fa)) if l[i] else nothing) for i in range(n)]
     push = [(-float(s[i]), P) if touches else (0.0, P) for i in range(n)]
-    rows += [(alpha[i], row(i, (d[i], alpha[i]), (w2[i], a[i]), push[i], turned=(l[i], fbeta))) for i in range(n)]
-    rows += [
-        (beta[i], row(i, (d[i], beta[i]), (w2[i], b[i]), turned=(-l[i], falpha)) if l[i] else nothing) for i in range(n)
-    ]
+    for i in range(n):
+        rows.append((alpha[i], combined((d[i], alpha[i]), (w2[i], a[i]), push[i], *turned(i, l, fbeta))))
+    for i in range(n):
+        row = combined((d[i], beta[i]), (w2[i], b[i]), *turned(i, -l, falpha))
+        rows.append((beta[i], row if l[i] else nothing))
     rows += [(psi, drive if sticks else drive - f), (f, f_rate)]
     if not touches:
         rows += [(u, v), (v, combined((-1.0 / p.m, load), (-p.k / p.m, u), (-p.c / p.m, v)))]
@@ -164,6 +158,7 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
 
 
 # ---- SUNDIALS CVODE, with scikit-sundae
+Pointer = ctypes.c_void_p
 CVODE_STEPS = 5_000  # number of steps between two checks of the clock
 FAMILIES = {"Adams": 1, "BDF": 2}
 NORMAL, ONE_STEP = 1, 2
@@ -174,11 +169,11 @@ HEAD = 3  # number of entries before the scalars in the callbacks' data: phase, 
 def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
     """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
     meter = Meter(problem, budget)
-    n, scale = meter.physics.n, value * absolute_scale(meter.physics)
-    state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], meter.c, meter.modes.ravel()])
+    physics, n, scale = meter.physics, meter.physics.n, value * meter.physics.scale()
+    state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], physics.c, physics.modes.ravel()])
     time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)
-    call, switches = _library(), _callbacks()[1]
+    call, switches = _library(), Pointer(_callbacks()[1].address)
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         state[:], constants[:2], time.value = y, (phase, direction), t
@@ -196,7 +191,7 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
         call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
         meter.work += evaluations.value
         if flag < 0:
-            raise GaveUp(f"CVODE returned {flag}")
+            raise GaveUp(RunStatus.FAILED, f"CVODE returned {flag}")
         if flag == REACHED:
             return None, time.value, state
         call.CVodeGetRootInfo(memory, roots)
@@ -213,16 +208,16 @@ def _library() -> Any:
 
     library = ctypes.CDLL(extension.__file__)
     for name in ("CVodeCreate", "N_VMake_Serial", "SUNNonlinSol_FixedPoint", "SUNDenseMatrix", "SUNLinSol_Dense"):
-        getattr(library, name).restype = ctypes.c_void_p
+        getattr(library, name).restype = Pointer
     return library
 
 
 @cache
-def _callbacks() -> tuple[ctypes.c_void_p, ...]:
-    """Addresses of right-hand side, event functions and Jacobian."""
+def _callbacks() -> tuple[Any, ...]:
+    """Right-hand side, event functions and Jacobian."""
     # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word is the data pointer
     owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
-    data, scalars, rows = types.CPointer(types.float64), len(kernels.CONSTANTS), len(kernels.ROWS)
+    data, scalars, rows = types.CPointer(types.float64), kernels.SCALARS, len(kernels.ROWS)
 
     @numba.njit(forceinline=True)
     def case(data):
@@ -250,35 +245,30 @@ def _callbacks() -> tuple[ctypes.c_void_p, ...]:
         kernels.jacobian(modes, c, phase, direction, carray(y[0][1], size), by_columns.T)
         return 0
 
-    _callbacks.kept = rate, switches, jacobian  # type: ignore[attr-defined]
-    return tuple(ctypes.c_void_p(callback.address) for callback in _callbacks.kept)  # type: ignore[attr-defined]
+    return rate, switches, jacobian
 
 
 @contextmanager
-def _solver(
-    family: str, y: Array, tol: float, atol: Array, constants: Array
-) -> Iterator[tuple[ctypes.c_void_p, ctypes.c_void_p]]:
+def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) -> Iterator[tuple[Pointer, Pointer]]:
     """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
     call = _library()
-    rate, _, jacobian = _callbacks()
-    context, size = ctypes.c_void_p(), len(y)
+    rate, _, jacobian = (Pointer(callback.address) for callback in _callbacks())
+    context, size = Pointer(), len(y)
     call.SUNContext_Create(0, ctypes.byref(context))
     call.SUNContext_ClearErrHandlers(context)
-    vector, least = (
-        ctypes.c_void_p(call.N_VMake_Serial(size, x.ctypes.data_as(ctypes.c_void_p), context)) for x in (y, atol)
-    )
-    memory = ctypes.c_void_p(call.CVodeCreate(FAMILIES[family], context))
+    vector, least = (Pointer(call.N_VMake_Serial(size, x.ctypes.data_as(Pointer), context)) for x in (y, atol))
+    memory = Pointer(call.CVodeCreate(FAMILIES[family], context))
     call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
     call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)
-    call.CVodeSetUserData(memory, constants.ctypes.data_as(ctypes.c_void_p))
+    call.CVodeSetUserData(memory, constants.ctypes.data_as(Pointer))
     call.CVodeSetMaxNumSteps(memory, ctypes.c_long(CVODE_STEPS))
     if family == "Adams":
-        iteration = ctypes.c_void_p(call.SUNNonlinSol_FixedPoint(vector, 0, context))
+        iteration = Pointer(call.SUNNonlinSol_FixedPoint(vector, 0, context))
         call.CVodeSetNonlinearSolver(memory, iteration)
         made = [("SUNNonlinSolFree", iteration)]
     else:
-        matrix = ctypes.c_void_p(call.SUNDenseMatrix(size, size, context))
-        linear = ctypes.c_void_p(call.SUNLinSol_Dense(vector, matrix, context))
+        matrix = Pointer(call.SUNDenseMatrix(size, size, context))
+        linear = Pointer(call.SUNLinSol_Dense(vector, matrix, context))
         call.CVodeSetLinearSolver(memory, linear, matrix)
         call.CVodeSetJacFn(memory, jacobian)
         made = [("SUNLinSolFree", linear), ("SUNMatDestroy", matrix)]

@@ -1,12 +1,8 @@
-"""Constants of a case, states as vectors and the compiled equations of motion, common to all methods but the engine.
+"""Constants of a case, states as vectors and the compiled equations of motion; no code is shared with the engine.
 
-One vector holds the state in every phase (docs: model, Disc in the slider's frame):
-
-    y = (a, b, alpha, beta, psi, f, u, u'),  shape (4 n + 4,), n = number of modes
-
-where u and u' are integrated only in separation; in contact they equal the disc's and are unused. ``c`` holds the
-scalars in the order of `CONSTANTS`. The module shares no code with `disc_model.engine`. All that is compiled is in one
-file: numba's cache notices changes only in the file of the called function.
+The state is y = (a, b, alpha, beta, psi, f, u, u'), shape (4 n + 4,), n = number of modes (docs: model, Disc in the
+slider's frame); u and u' are used in separation only. All that is compiled is in one file: numba's cache notices
+changes only in the file of the called function.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -23,12 +19,12 @@ from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
-OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")
-"""Parameters that change the law of contact, which is the paper's in all methods but the engine."""
+OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")  # parameters of such
 
 
 class Physics:
-    """Constants of a case, in SI units; `kernels` has the equations. Raises `ParameterError` for another law."""
+    """Constants of a case, in SI units, and as kernels take them: ``c`` (scalars) and ``modes`` (`ROWS`, a column per
+    mode). Raises `ParameterError` for another law of contact than the paper's."""
 
     def __init__(self, p: Parameters) -> None:
         rule = "must be {}, because only the engine has other laws of contact than the paper's"
@@ -38,8 +34,7 @@ class Physics:
         self.p = p
         self.n = n = len(modes.omega)
         self.l = modes.diameters.astype(float)
-        self.shape = modes.psi.copy()  # psi_l, kg^-1/2
-        self.omega = modes.omega.copy()
+        self.shape, self.omega = modes.psi.copy(), modes.omega.copy()  # psi_l, kg^-1/2
         self.stiffness = modes.omega**2
         self.damping = modal_damping(p)
         self.slope = self.l * self.shape
@@ -48,11 +43,16 @@ class Physics:
         self.a, self.b = slice(0, n), slice(n, 2 * n)
         self.alpha, self.beta = slice(2 * n, 3 * n), slice(3 * n, 4 * n)
         self.psi, self.f, self.u, self.v = range(4 * n, 4 * n + 4)
+        scalars = (p.N, p.Omega, p.k, p.c, p.m, p.k_p, p.c_p, p.mu_s, p.mu_k, p.r_0)
+        self.c = np.array([*scalars, self.u_0, self.compliance, float(p.contact == "bilateral")])
+        by_a, by_alpha = (p.k - p.m * self.stiffness) * self.shape, (p.c - p.m * self.damping) * self.shape
+        by_beta, bent = 2.0 * p.m * self.l * self.shape, p.m * self.l**2 * self.shape
+        rows = (self.l, self.shape, self.stiffness, self.damping, self.slope, by_a, by_alpha, by_beta, bent)
+        self.modes = np.array(rows)
 
     def pack(self, state: State) -> Array:
         """The vector of a `State`."""
-        tail = (state.psi, state.f, state.u, state.u_velocity)
-        return np.concatenate([state.a, state.b, state.alpha, state.beta, tail])
+        return np.hstack([state.a, state.b, state.alpha, state.beta, state.psi, state.f, state.u, state.u_velocity])
 
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
         """The `State` of a vector; in contact u and u' are the disc's."""
@@ -65,10 +65,16 @@ class Physics:
         slope = self.slope @ y[self.b]
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
+    def scale(self) -> Array:
+        """Scale of each entry of the vector for absolute tolerances: static deflection, and its velocity."""
+        p, deflection = self.p, self.p.N * np.abs(self.shape) / self.stiffness
+        velocity, angle = deflection * self.omega, p.mu_s * p.N / (p.k_p * p.r_0)
+        height = max(abs(self.u_0), 1e-12)
+        tail = (max(angle, 1e-9), max(p.Omega, 1e-3), height, height * float(self.omega.min()))
+        return np.concatenate([deflection, deflection, velocity, velocity, tail])
+
     def distance(self, state: State, other: State) -> float:
-        """Energy norm of the difference of two states divided by that of ``other``; dimensionless. The norm includes
-        displacement and velocity of every mode and of the in-plane motion, weighted as in the energy. If either state
-        is separated, it includes those of the slider's height too."""
+        """Energy norm of the difference of two states, that of the slider's height included, over that of ``other``."""
         right = self.pack(other)
         return float(np.sqrt(self._energy(self.pack(state) - right) / self._energy(right)))
 
@@ -80,8 +86,8 @@ class Physics:
         return 0.5 * float(disc + plane + height)
 
 
-CONSTANTS = ("N", "Omega", "k", "c", "m", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "compliance", "bonded")
-_N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(len(CONSTANTS))
+SCALARS = 13  # length of ``c``
+_N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(SCALARS)
 
 ROWS = ("l", "psi", "omega^2", "2 xi omega", "l psi", "P by a", "P by alpha", "P by f beta", "P by -f^2 a")
 """Rows of the table of modes; the last four: coefficients of the contact force over its denominator, one per state."""
@@ -92,25 +98,14 @@ STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = ran
 FINISHED, NON_FINITE, STALLED, STEP_LIMIT = range(4)
 HUGE = 10.0  # m sqrt(kg); a modal displacement beyond this, thousands of static deflections, is counted as overflow
 SHIFT = 1e-16
-"""Offset of the gap, m. A separation begins at a triple root of the gap, where general event detection reports a false
-return or none. The offset is below all gaps and above their rounding, and shifts a reattachment by less than 1e-12 s.
-"""
+"""Offset of the gap, m: a separation begins at a triple root of the gap, where general event detection reports a false
+return or none. It is below all gaps and above their rounding, and shifts a reattachment by less than 1e-12 s."""
 ROOT_TRIES = 60
 
 # division by zero gives inf, as in numpy; sums may be taken several at a time
 _OPTIONS: Any = {"cache": True, "error_model": "numpy", "fastmath": {"reassoc", "contract", "arcp", "nsz"}}
 _kernel = numba.njit(**_OPTIONS)
 _part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is called four times a step
-
-
-def tables(physics: Physics) -> tuple[np.ndarray, np.ndarray]:
-    """The pair (modes, c): rows of `ROWS` with a column per mode, and the scalars."""
-    p, l, psi = physics.p, physics.l, physics.shape
-    derived = {"u_0": physics.u_0, "compliance": physics.compliance, "bonded": float(p.contact == "bilateral")}
-    by_a, by_alpha = (p.k - p.m * physics.stiffness) * psi, (p.c - p.m * physics.damping) * psi
-    bent = p.m * l**2 * psi
-    modes = np.array([l, psi, physics.stiffness, physics.damping, l * psi, by_a, by_alpha, 2.0 * p.m * l * psi, bent])
-    return modes, np.array([derived[name] if name in derived else getattr(p, name) for name in CONSTANTS])
 
 
 @_part
@@ -188,7 +183,7 @@ STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f; ``law`` is `regularised.Law.constants`."""
+    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `base`."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
@@ -248,7 +243,7 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 
 @_kernel
 def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with the functions whose fall through zero ends the phase (`phases.ENDS`); returns their number."""
+    """Fill ``out`` with the functions whose fall through zero ends the phase (`base.ENDS`); returns their number."""
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
     return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)
@@ -261,12 +256,6 @@ def violated(values, count):
         if values[index] < 0.0:
             return index
     return -1
-
-
-@_kernel
-def _leave(modes, c, y):
-    n = modes.shape[1]
-    y[4 * n + 2], y[4 * n + 3] = disc_point(modes, y)
 
 
 @_kernel
@@ -284,7 +273,7 @@ def switch(modes, c, phase, cause, y, kinds):
         kinds[0] = REATTACHMENT
         direction = 1 if y[4 * n + 1] > 0.0 else -1
     elif cause == 0:
-        _leave(modes, c, y)
+        y[4 * n + 2], y[4 * n + 3] = disc_point(modes, y)
         kinds[0] = LOSS_OF_CONTACT
         return SEPARATION, 0, 1
     elif phase == STICK:
@@ -301,7 +290,7 @@ def switch(modes, c, phase, cause, y, kinds):
         kinds[0] = SLIP_REVERSAL
     P, _ = contact(modes, c, direction, y)
     if P < 0.0 and c[_BONDED] == 0.0:
-        _leave(modes, c, y)
+        y[4 * n + 2], y[4 * n + 3] = disc_point(modes, y)
         # a slider that neither sticks nor slips back keeps its direction
         count = 0 if kinds[0] == SLIP_REVERSAL else 1
         kinds[count] = LOSS_OF_CONTACT
@@ -320,15 +309,11 @@ def _dip(before, current, after):
 
 @_kernel
 def rk4_run(modes, c, phase, direction, y, limits, track):
-    """Take fixed steps from local time 0 to an event, which secants locate within its step, and so on to the end.
+    """Take fixed steps of ``y``, in place, from local time 0 to an event, which secants locate within its step, and so
+    on to the end. A step is searched if an event function changes sign over it or dips within it.
 
-    A step is searched if an event function changes sign over it or dips within it.
-
-    y : state; overwritten by that at the end
     limits : end and step (s), greatest number of steps, whether to stop at the first separation
     track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
-
-    Returns (why, time, phase, direction, events, steps).
     """
     t_end, h, max_steps, stop = limits
     times, kinds, heights = track
