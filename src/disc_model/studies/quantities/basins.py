@@ -15,6 +15,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
+from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.display import computed
 from disc_model.simulation.case import Start
@@ -35,29 +36,18 @@ def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variab
 
 
 class AttractorBasins(Start, Quantity):
-    """Attractors, basin fractions and critical energy, from many starts.
-
-    energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
-    n_starts : number of starts at each energy
-    seed : whole number; a direction depends on it, on the place of the energy, and on the number of the start
-    horizon : s
-    attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
-        approaches it. 0: every motion is simulated to the horizon
-    confidence : confidence level of the intervals of fractions
-    n_bisection_directions : number of directions for the critical energy, those of the separating starts with the least
-        energies
-    precision : relative precision of the critical energy
-    """
+    """Attractors, basin fractions and critical energy, from many starts."""
 
     tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
-    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)  # of the perturbations; 0 adds nothing
+    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1  # at each energy
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
+    # a motion ends early if its range agrees with that of a known attractor to this, and approaches it; 0: none does
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
-    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
-    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
-    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95  # level of the intervals of fractions
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1  # those of the least energies that separate
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05  # of the critical energy, relative
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
@@ -98,11 +88,9 @@ class AttractorBasins(Start, Quantity):
     cost: ClassVar = lambda o: quantity.SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
-        from disc_model.analysis.classify import share
-
+        """Failed starts have a fraction of their own, and the point fails if all starts do."""
         sample = _Sample(point, self)
-        results = sample.found
+        results = sample.outcomes
         rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
         attractors = [attractor for attractor, _ in starts.most_common()]
@@ -120,8 +108,7 @@ class AttractorBasins(Start, Quantity):
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
         values |= quantity.with_ends("separating_fraction", shown)
         values |= sample.critical_energy() | _described(starts)
-        message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
-        return values, message
+        return values, f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
 
 
 class _Sample:
@@ -136,10 +123,9 @@ class _Sample:
         self.p, self.options = p, options
         self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
         self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
-        energies = list(enumerate(options.energies))
-        starts = range(options.n_starts)
+        energies, starts = list(enumerate(options.energies)), range(options.n_starts)
         all_of = computed(lambda i: [self._outcome_of(energy, j, i) for j, energy in energies], starts, "starts")
-        self.found = list(zip(*all_of, strict=True))
+        self.outcomes = list(zip(*all_of, strict=True))
 
     def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
         """The outcome of a perturbation of any energy in the direction of a start."""
@@ -150,8 +136,8 @@ class _Sample:
     def critical_energy(self) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
         energies = self.options.energies
-        reached = ((energies[j], i, j, result) for j, row in enumerate(self.found) for i, result in enumerate(row))
-        separating = sorted((energy, i, j) for energy, i, j, result in reached if result.separates)
+        numbered = ((i, j, result) for j, row in enumerate(self.outcomes) for i, result in enumerate(row))
+        separating = sorted((energies[j], i, j) for i, j, result in numbered if result.separates)
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
@@ -181,26 +167,18 @@ class _Sample:
 
 def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
     """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
-    from disc_model.analysis.classify import share
-
-    shares = [
-        [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
-        for row in results
-    ]
+    shares = []
+    for row in results:
+        counts = Counter(reached.word for reached in row)
+        shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
     return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
 
 
 def _described(starts: Counter[Attractor]) -> dict[str, Any]:
     """Attractors by decreasing number of starts; of equal numbers the one reached first comes first."""
-    described = [
-        {
-            "attractor_kind": attractor.kind,
-            "attractor_starts": count,
-            "attractor_releases": attractor.releases,
-            "attractor_period": attractor.period,
-            "attractor_growth_rate": attractor.growth_rate,
-            **{f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN},
-        }
-        for attractor, count in starts.most_common()
-    ]
-    return listed(described)
+    rows = []
+    for attractor, count in starts.most_common():
+        row = {f"attractor_{name}": getattr(attractor, name) for name in ("kind", "releases", "period", "growth_rate")}
+        row |= {f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN}
+        rows.append(row | {"attractor_starts": count})
+    return listed(rows)

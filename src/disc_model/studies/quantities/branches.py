@@ -1,7 +1,5 @@
-"""Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
-
-The sweep up and down starts at each value from the motion at the last one. Each cycle that the sweep reaches, and the
-cycle near the static start, is continued in both directions, unless a known branch passes there.
+"""Branches of cycles against one parameter, beside a sweep. Each cycle that the sweep reaches, and the cycle near the
+static start, is continued in both directions, unless a known branch passes there.
 """
 
 from __future__ import annotations
@@ -23,29 +21,17 @@ _ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sw
 
 
 class Branches(Quantity):
-    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
-
-    parameter : the one that varies
-    scan : its values in the sweep; each cycle found is followed between the first and the last
-    sweep_from : the rising sweep leaves out values below; null: none
-    dwell : s at each value; it is doubled until the motion has settled
-    max_dwell : s, greatest length of the stay then
-    evaluation_time : s, the last stretch of it, over which the range is taken
-    releases : greatest number of releases of a cycle that is followed
-    max_step : arclength of the longest step along a branch
-    max_points : greatest number of points of a branch in each direction
-    max_branches : room for that many
-    """
+    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down."""
 
     parameter: Free = "Omega"
-    scan: Annotated[Range, Unit(of="parameter")]
-    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None
-    dwell: Seconds
+    scan: Annotated[Range, Unit(of="parameter")]  # cycles are followed between its first value and its last
+    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None  # the rising sweep leaves out values below
+    dwell: Seconds  # at each value; it is doubled until the motion has settled
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 2.0
-    releases: Annotated[Count, Field(ge=1, le=100)] = 4
-    max_step: Positive = 0.05
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    evaluation_time: Seconds = 2.0  # the last stretch of a stay, over which the range is taken
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4  # greatest number of a cycle that is followed
+    max_step: Positive = 0.05  # arclength of the longest step along a branch
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200  # of a branch, in each direction
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
 
@@ -80,25 +66,24 @@ class Branches(Quantity):
     cost: ClassVar = lambda o: quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the sweep and the branches; the point's own value of the parameter is not used."""
         from disc_model.stability.attractor.arrival import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 
-        values, unfollowed = self.scan.values, []
+        values, message, failures = self.scan.values, "", 0
         rows: list[dict[str, Any]] = []
         swept = {name: column.empty((2, len(values))) for name, column in self.COLUMNS.items() if column.dims == _SWEEP}
-        message = ""
 
         def follow(cycle: FloquetResult, reached: bool) -> None:
+            nonlocal failures
             assert cycle.state is not None
             value = cycle.parameters.numbers[self.parameter]
             size = _range(cycle.parameters, cycle.state, cycle.period)
             if len(rows) < self.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
                 try:
                     rows.append(_branch(cycle, reached, self))
-                except quantity.NUMERICAL as error:
-                    unfollowed.append(str(error))
+                except quantity.NUMERICAL:
+                    failures += 1
 
         lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
         how = self.dwell, self.max_dwell, self.evaluation_time, self.tol, lowest
@@ -113,7 +98,7 @@ class Branches(Quantity):
             if reached.near is not None and reached.near.cycle.releases <= self.releases:
                 follow(reached.near.cycle, True)
         sliding = [steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate for v in values]
-        counts = {"n_branches": len(rows), "n_continuation_failures": len(unfollowed)}
+        counts = {"n_branches": len(rows), "n_continuation_failures": failures}
         known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
         return listed(rows) | swept | counts | known, message
 

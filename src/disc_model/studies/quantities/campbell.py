@@ -1,6 +1,5 @@
-"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams.
-
-Crossings of mode frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
+"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams; crossings of mode
+frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
 
 At a crossing the frequency of a mode equals that of a line, by linear interpolation between two speeds. The mode's
 frequency is that of the cycle's multiplier. Without a multiplier of the mode's shape, as in a resonance, it is that of
@@ -13,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import chain
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -36,17 +34,11 @@ _CROSSING = ("crossing",)
 
 
 class Campbell(Quantity):
-    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
+    """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes : room for that many, the lowest in frequency
-    half_bandwidth : Hz, on either side of a crossing, within which growth rates are compared
-    min_rise : 1/s, least rise of a growth rate within the window above those at its ends
-    max_crossings : room for that many
-    """
-
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
-    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12  # room for that many, the lowest in frequency
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0  # of the window about a crossing, see `effect_of`
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01  # of a growth rate within the window, above those at its ends
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
     over: ClassVar = "Omega"
@@ -91,7 +83,6 @@ class Campbell(Quantity):
     cost: ClassVar = lambda o: 1.5 * CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
         from disc_model.stability.cycle import frequencies
 
         campbell = frequencies(point.parameters, tol=self.tol)
@@ -113,8 +104,8 @@ class Campbell(Quantity):
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
         axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
-        every = chain.from_iterable(crossings(axis, self) for axis in axes)
-        rows = sorted(every, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
+        rows = [row for axis in axes for row in crossings(axis, self)]
+        rows.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
         return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
 
@@ -122,23 +113,22 @@ class Campbell(Quantity):
 def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
     growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
-    speeds = cell["Omega"].values
+    speeds, turns = cell["Omega"].values, cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
-    turns = cell["rotation_frequency"].values
-    highest = int(cell["diameters"].max())
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
             continue
         most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
         lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
-        lines += [("rotation", float(l), l * turns) for l in range(1, highest + 1)]
+        lines += [("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)]
         for line, multiple, frequency in lines:
             detuning = of_mode - frequency
             for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
-                if detuning[index] == detuning[index + 1] or (detuning[index + 1] == 0 and index + 2 < len(speeds)):
+                before, after = detuning[index : index + 2]
+                if before == after or (after == 0 and index + 2 < len(speeds)):
                     continue  # the next interval begins there
-                part = detuning[index] / (detuning[index] - detuning[index + 1])
+                part = before / (before - after)
                 yield {
                     "Omega": float(speeds[index] + part * (speeds[index + 1] - speeds[index])),
                     "frequency": float(frequency[index] + part * (frequency[index + 1] - frequency[index])),
@@ -160,9 +150,9 @@ def frequency_of(mode: Dataset) -> Array:
 
 def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
-    number, as far as they are known.
+    number, as far as they are known. The window is where line and mode are less than `half_bandwidth` apart.
 
-    detuning : Hz, (speeds,), frequency of the line less that of the mode; place : index of the speed before it
+    detuning : Hz, (speeds,), between mode and line; index : of the speed before the crossing
     growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
     """
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
@@ -178,8 +168,7 @@ def effect_of(detuning: Array, index: int, growth: Array, leading: Array, option
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
-    mode = int(np.nanargmax(rises))
-    rise = float(rises[mode])
+    mode, rise = int(np.nanargmax(rises)), float(np.nanmax(rises))
     beside, least = max(leading[first], leading[last]), options.min_rise
     effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
     if highest > 0 >= beside:

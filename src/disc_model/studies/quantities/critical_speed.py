@@ -17,25 +17,22 @@ from pydantic import AfterValidator, Field
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.display import computed
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, OutcomeResult, Point, Range, listed
-from disc_model.units import Count, Seconds, Speed, Unit
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, listed
+from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
 KINDS = ("none", "begins", "ends")
 _EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
 
 
-class CriticalSpeed(EarlyEnd):
-    """Scan of the speed, then bisection of each interval in which separation begins or ends.
+class CriticalSpeed(Quantity):
+    """Scan of the speed, then bisection of each interval in which separation begins or ends."""
 
-    horizons : s; each has a critical speed of its own, all from the same simulations
-    scan : rad/s
-    precision : rad/s, width of the last interval; the scan's step must be a multiple
-    max_crossings : room for that many crossings at each horizon
-    """
-
+    tol: Tolerance = 1e-10
+    early_end: bool = True  # whether a simulation ends as soon as its outcome is known
+    # each has a critical speed of its own, all from the same simulations
     horizons: Annotated[tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
     scan: Annotated[Range, Unit("rad/s")]
-    precision: Speed = 0.1
+    precision: Speed = 0.1  # width of the last interval; the scan's step must be a multiple
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
 
     _rules = (
@@ -81,7 +78,6 @@ class CriticalSpeed(EarlyEnd):
     cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Scan and bisect the speed; the point's own Omega is not used."""
         p, scan = point.parameters, self.scan
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
@@ -90,8 +86,7 @@ class CriticalSpeed(EarlyEnd):
             return float(f"{scan.start + i * self.precision:.12g}")
 
         def look(i: int) -> None:
-            """Compute the motion at the i-th speed of the lattice, which is not known yet."""
-            # their return maps would take megabytes each for a disc of many modes
+            # return maps would take megabytes each for a disc of many modes
             result = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
@@ -126,11 +121,8 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
 
     known : first separations by place on the lattice, s; inf without one within the longest horizon, nan if unknown
     """
-    return [
-        (a, b)
-        for a, b in pairwise(sorted(known))
-        if not math.isnan(known[a] + known[b]) and (known[a] <= horizon) != (known[b] <= horizon)
-    ]
+    pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
+    return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
 
 
 def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:

@@ -30,7 +30,6 @@ class Floquet(Quantity):
     cost: ClassVar = lambda o: CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the cycle of this point, without a neighbour's cycle as initial guess."""
         from disc_model.stability.cycle import floquet
 
         cycle = floquet(point.parameters, tol=self.tol)
@@ -43,7 +42,6 @@ class Floquet(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def state_at(self, point: Point) -> State:
-        """A state on the cycle, stable or not; raises `CycleError` if there is none."""
         from disc_model.stability.cycle import floquet
 
         state = floquet(point.parameters, tol=self.tol).raise_for_status().state

@@ -15,18 +15,13 @@ _DIMS = ("rate",)
 
 
 class Ramps(Quantity):
-    """Slow ramps of the speed, up from the static start and down again, once for each rate.
-
-    low, high : rad/s, ends of the ramps
-    rates : rad/s^2
-    dwell : s, at the highest speed, and at the lowest one at the end
-    """
+    """Slow ramps of the speed, up from the static start and down again, once for each rate."""
 
     tol: Tolerance = 1e-10
     low: Speed
     high: Speed
     rates: Annotated[Range, Unit("rad/s^2")]
-    dwell: Seconds = 60.0
+    dwell: Seconds = 60.0  # at the highest speed, and at the lowest one at the end
 
     _rules = ((lambda o: o.low < o.high, "low must be < high"), (lambda o: o.rates.start > 0, "rates must be > 0"))
     scans: ClassVar = ("Omega",)
@@ -45,7 +40,6 @@ class Ramps(Quantity):
     cost: ClassVar = lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Simulate one run for each rate; the point's own Omega is not used."""
         rows: list[dict[str, Any]] = []
         status, message = "ok", ""
         for rate in self.rates.values:
@@ -66,15 +60,13 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     top = (options.high - options.low) / rate
     down = top + options.dwell
     bottom = down + top
-    up_and_down = (
-        Ramp(parameter="Omega", to=options.high, start=0.0, end=top),
-        Ramp(parameter="Omega", to=options.low, start=down, end=bottom),
-    )
+    up = Ramp(parameter="Omega", to=options.high, start=0.0, end=top)
+    ramps = up, Ramp(parameter="Omega", to=options.low, start=down, end=bottom)
 
     def on(state: State | None, until: float, **more: Any) -> Result:
         """Continue the motion to a later time."""
-        how: dict[str, Any] = {"events": False, "tol": options.tol, "ramps": up_and_down} | more
-        return simulate(p, until, initial_state=state, **how)
+        how: dict[str, Any] = {"events": False, "tol": options.tol} | more
+        return simulate(p, until, initial_state=state, ramps=ramps, **how)
 
     run = on(None, top, stop_at="first_separation")
     values = {"onset_speed": options.low + rate * run.first_separation}

@@ -1,7 +1,4 @@
-"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
-
-A batch is a tile of the plane; `disc_model.studies.refinement` computes it.
-"""
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point."""
 
 from __future__ import annotations
 
@@ -20,15 +17,11 @@ CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 class Regions(Quantity):
-    """Outcomes over a plane of two parameters, computed more densely where they change.
-
-    horizon : s
-    initial_cell_size : initial side of a cell, in intervals of the grid
-    """
+    """Outcomes over a plane of two parameters, computed more densely where they change."""
 
     tol: Tolerance = 1e-8
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8  # side of a first cell, in intervals of the grid
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
@@ -58,7 +51,6 @@ class Regions(Quantity):
     cost: ClassVar = lambda o: WORK
 
     def state_at(self, point: Point) -> State:
-        """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""
         from disc_model.simulation.api import simulate
         from disc_model.stability.attractor.outcome import find_outcome
 
@@ -75,7 +67,6 @@ class Regions(Quantity):
     def compute_tile(
         self, points: Sequence[Sequence[Made]], sampled: Collection[tuple[int, int]]
     ) -> list[list[tuple[Row, str]]]:
-        """Compute a tile; the outcome at the places `sampled` is computed in any case."""
         from disc_model.studies.refinement import Tile
 
-        return Tile(points, sampled, **self.model_dump()).rows()
+        return Tile(points, sampled, self).rows()

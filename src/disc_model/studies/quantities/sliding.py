@@ -15,16 +15,11 @@ _ONE, _EACH = ("value",), ("value", "mode")
 
 
 class Sliding(Quantity):
-    """Modes of steady sliding along one parameter, each keeping its number.
+    """Modes of steady sliding along one parameter, each keeping its number."""
 
-    parameter : the one that varies; mu_s rises with mu_k where that is larger
-    scan : its values
-    modes : room for that many, numbered by frequency at the first value
-    """
-
-    parameter: Free = "Omega"
+    parameter: Free = "Omega"  # with mu_k, mu_s rises where that is larger
     scan: Annotated[Range, Unit(of="parameter")]
-    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24  # room for that many, numbered by frequency at the first value
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -45,7 +40,6 @@ class Sliding(Quantity):
     cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Follow the modes along the scan; the point's own value of the parameter is not used."""
         from disc_model.stability.sliding import SlidingStatus, follow_modes
 
         p, values = point.parameters, self.scan.values

@@ -17,25 +17,16 @@ _ONE, _EACH = ("curve",), ("curve", "curve_point")
 
 
 class StabilityCurves(Quantity):
-    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
-
-    x, y : the parameters
-    x_range : from, to; cycles are searched for at `points` values in it
-    y_lines : values of y for this search; curves are followed from the first to the last, widened by `margin`
-    margin : fraction of the range of y, beyond the lines at both ends
-    max_step : arclength of the longest step along a curve
-    max_points : greatest number of points of a curve in each direction
-    max_curves : room for that many
-    """
+    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters."""
 
     x: Free = "Omega"
     y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
-    y_lines: Annotated[Range, Unit(of="y")]
-    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
-    max_step: Positive = 0.1
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
+    y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0  # fraction of the range of y by which curves may leave it
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
+    max_step: Positive = 0.1  # arclength of the longest step along a curve
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100  # of a curve, in each direction
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
 
@@ -72,7 +63,6 @@ class StabilityCurves(Quantity):
     cost: ClassVar = lambda o: WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the curves of the plane; the point's own values of its two parameters are not used."""
         from disc_model.stability.curves import neutral_curves
 
         lines = self.y_lines
@@ -80,19 +70,11 @@ class StabilityCurves(Quantity):
         bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
         how: dict[str, Any] = {"points": self.points, "max_points": self.max_points, "longest": self.max_step}
         curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
-        # the array holds the longest curve
-        rows = [
-            {
-                "kind": curve.kind,
-                "x": curve.values[:, 0],
-                "y": curve.values[:, 1],
-                "adjoins_stable_cycle": curve.adjoins_stable_cycle,
-                "period": curve.period,
-                "multiplier_re": curve.multipliers.real,
-                "multiplier_im": curve.multipliers.imag,
-                **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
-            }
-            for curve in sorted(curves, key=lambda curve: -len(curve.period))
-        ]
+        rows = []
+        for curve in sorted(curves, key=lambda curve: -len(curve.period)):  # the array holds the longest curve
+            row = {name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")}
+            row |= {"x": curve.values[:, 0], "y": curve.values[:, 1]}
+            row |= {"multiplier_re": curve.multipliers.real, "multiplier_im": curve.multipliers.imag}
+            rows.append(row | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()})
         counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
         return listed(rows) | counts | {"status": "ok"}, ""
