@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from pydantic import create_model
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.display import computed
@@ -30,8 +31,7 @@ from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quanti
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
 from disc_model.units import Finite, Strict, canonical_json, is_whole
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities of one case
+# ---- Quantities of one case
 
 
 def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
@@ -42,10 +42,8 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         arguments = {"perturbation": "start", "horizons": "horizon"}
-        faults += [
-            Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule)
-            for fault in error.faults
-        ]
+        for fault in error.faults:
+            faults.append(Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule))
     raise_faults(faults)
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
@@ -151,9 +149,8 @@ def critical_speed(
     >>> speeds["critical_speed"].values
     array([15.1])
     """
-    given: Any = horizon
-    horizons = tuple(given) if _several(given) else (horizon,)
-    options: dict[str, Any] = {"horizons": horizons, "scan": _scan(scan, step), "precision": precision}
+    horizons: Any = horizon if _several(horizon) else (horizon,)
+    options: dict[str, Any] = {"horizons": tuple(horizons), "scan": _scan(scan, step), "precision": precision}
     return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
 
 
@@ -250,8 +247,7 @@ def hysteresis(
     return _quantity("hysteresis", case, **options, evaluation_time=evaluation_time, tol=tol)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Sweeps
+# ---- Sweeps
 
 
 def sweep(
@@ -312,16 +308,11 @@ def sweep(
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
     call = partial(_row, function, case, options, frozenset(argument.name for argument in own))
     rows = _in_parallel(call, [*enumerate(points)], workers, processes)
-    sizes = {name: len(values) for name, values in axes.items()}
-    coordinates = {
-        name: (
-            name,
-            np.array([float(value) if isinstance(value, int) else value for value in values]),
-            _described(name),
-        )
-        for name, values in axes.items()
-    }
-    variables, fixed = _stacked(rows, sizes)
+    coordinates = {}
+    for name, values in axes.items():
+        attrs = describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
+        coordinates[name] = (name, [float(value) if isinstance(value, int) else value for value in values], attrs)
+    variables, fixed = _stacked(rows, {name: len(values) for name, values in axes.items()})
     base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
     attrs = {"function": title, "parameters": case.json_in_words, "base": base}
     return xr.Dataset(variables, fixed | coordinates, attrs)
@@ -333,30 +324,19 @@ def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
     given, checked = [*values] if several else [values], []
     if not given:
         faults.append(Fault.of((name,), values, "must have one value or more"))
+    number: dict[str, Any] = {name: Finite}  # a ratio, or a number of a disc's mode
+    model = SomeParameters if name in Parameters.model_fields else create_model("Number", __base__=Strict, **number)
     for value in given:
-        plain = value.item() if isinstance(value, np.generic) else value
         try:
-            known = name in Parameters.model_fields
-            model = SomeParameters(**{name: plain}) if known else _Number(number=plain)
-            checked.append(getattr(model, name if known else "number"))
+            checked.append(getattr(model(**{name: value.item() if isinstance(value, np.generic) else value}), name))
         except ParameterError as error:
             faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
     return checked
 
 
-class _Number(Strict):
-    """A ratio, or a number of a disc's mode."""
-
-    number: Finite
-
-
 def _rules_of_workers(workers: Any, processes: Any) -> Iterator[tuple[object, str, object, str]]:
     yield is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"
     yield isinstance(processes, bool), "processes", processes, "must be True or False"
-
-
-def _described(name: str) -> dict[str, Any]:
-    return describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
 
 
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
@@ -368,14 +348,10 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
 
 
 def _row(
-    function: Callable[..., Any],
-    case: Parameters,
-    options: dict[str, Any],
-    own: frozenset[str],
-    place: tuple[int, dict[str, Any]],
+    function: Any, case: Parameters, options: dict[str, Any], own: frozenset[str], numbered: tuple[int, dict[str, Any]]
 ) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
-    number, point = place
+    number, point = numbered
     try:
         result = function(case.replace(**point), **options)
     except NUMERICAL as error:
@@ -422,9 +398,7 @@ def _stacked(
     first = {name: variable for row in reversed(rows) for name, variable in row.items()}
     fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
     stacked = {}
-    for name, variable in first.items():
-        if name in fixed:
-            continue
+    for name, variable in ((name, variable) for name, variable in first.items() if name not in fixed):
         present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
@@ -442,8 +416,7 @@ def _stacked(
     return stacked, fixed
 
 
-# ----------------------------------------------------------------------------------------------------
-# Studies
+# ---- Studies
 
 
 def run_study(
