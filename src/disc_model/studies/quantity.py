@@ -10,7 +10,7 @@ import ast
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from itertools import chain
 from pkgutil import iter_modules
@@ -200,6 +200,11 @@ def tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -
         return compute(*arguments)
     except NUMERICAL as error:
         return failed(error, flag)
+
+
+def along(*dims: str) -> Callable[..., Variable]:
+    """What makes variables along dimensions of a quantity's own."""
+    return partial(Variable, dims=dims)
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -20,13 +20,14 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.display import computed
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, State, listed
+from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
 SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")  # statistics of a stretch on an attractor
 SMALLEST = 2.0**-40  # fraction of the least separating energy of the sample, below which the bisection gives up
+Follow = Callable[[float, int, int], OutcomeResult]
 _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
 
 
@@ -89,8 +90,20 @@ class AttractorBasins(Start, Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Failed starts have a fraction of their own, and the point fails if all starts do."""
-        sample = _Sample(point, self)
-        results = sample.outcomes
+        from disc_model.simulation.api import make_initial_state
+        from disc_model.simulation.states import static_start
+        from disc_model.stability.attractor.basins import Basins, random_perturbation
+
+        p, energies = point.parameters, list(enumerate(self.energies))
+        start = make_initial_state(p, point.start, self.tol) or static_start(p)
+        basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
+
+        def follow(energy: float, i: int, j: int) -> OutcomeResult:
+            """The outcome of a perturbation of any energy in the direction of start i of the j-th energy."""
+            return basins.follow(random_perturbation(p, start, energy, (self.seed, j, i)))
+
+        by_start = computed(lambda i: [follow(x, i, j) for j, x in energies], range(self.n_starts), "starts")
+        results = list(zip(*by_start, strict=True))
         rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
         attractors = [attractor for attractor, _ in starts.most_common()]
@@ -107,61 +120,34 @@ class AttractorBasins(Start, Quantity):
         values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
         values |= quantity.with_ends("separating_fraction", shown)
-        values |= sample.critical_energy() | _described(starts)
+        values |= self._critical_energy(results, follow) | _described(starts)
         return values, f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
 
-
-class _Sample:
-    """The starts of a point; their outcomes are indexed by the number of the energy, then by that of the start."""
-
-    def __init__(self, point: Point, options: AttractorBasins) -> None:
-        from disc_model.simulation.api import make_initial_state
-        from disc_model.simulation.states import static_start
-        from disc_model.stability.attractor.basins import Basins
-
-        p = point.parameters
-        self.p, self.options = p, options
-        self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
-        self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
-        energies, starts = list(enumerate(options.energies)), range(options.n_starts)
-        all_of = computed(lambda i: [self._outcome_of(energy, j, i) for j, energy in energies], starts, "starts")
-        self.outcomes = list(zip(*all_of, strict=True))
-
-    def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
-        """The outcome of a perturbation of any energy in the direction of a start."""
-        from disc_model.stability.attractor.basins import random_perturbation
-
-        return self.basins.follow(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
-
-    def critical_energy(self) -> dict[str, float]:
+    def _critical_energy(self, results: Sequence[Sequence[OutcomeResult]], follow: Follow) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
-        energies = self.options.energies
-        numbered = ((i, j, result) for j, row in enumerate(self.outcomes) for i, result in enumerate(row))
-        separating = sorted((energies[j], i, j) for i, j, result in numbered if result.separates)
+        numbered = ((i, j, result) for j, row in enumerate(results) for i, result in enumerate(row))
+        separating = sorted((self.energies[j], i, j) for i, j, result in numbered if result.separates)
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
-        if separating[0][0] == 0 or not self.options.n_bisection_directions:
+        if separating[0][0] == 0 or not self.n_bisection_directions:
             return least
-        if self._outcome_of(0.0, 0, 0).separates:
+        if follow(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
-        ends = [self._bisected(*start) for start in separating[: self.options.n_bisection_directions]]
+        ends = [self._bisected(*first, follow) for first in separating[: self.n_bisection_directions]]
         low, high = min(ends, key=lambda pair: pair[1])
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
-    def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
+    def _bisected(self, first: float, i: int, j: int, follow: Follow) -> tuple[float, float]:
         """Energies without and with lasting separation, closer to each other than the required precision."""
-        low, first = high / 4, high
-        while self._outcome_of(low, j, i).separates:
+        low, high = first / 4, first
+        while follow(low, i, j).separates:
             low, high = low / 4, low
             if low < SMALLEST * first:
                 return math.nan, high
-        while high > low * (1 + self.options.precision):
+        while high > low * (1 + self.precision):
             middle = math.sqrt(low * high)
-            if self._outcome_of(middle, j, i).separates:
-                high = middle
-            else:
-                low = middle
+            low, high = (low, middle) if follow(middle, i, j).separates else (middle, high)
         return low, high
 
 

@@ -14,10 +14,11 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Coordinate, FloquetResult, Free, Point, Quantity, Range, State, listed
+from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, State, along
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
-_ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
+_SWEEP = ("direction", "sweep_value")
+_one, _each, _swept = along("branch"), along("branch", "branch_point"), along(*_SWEEP)
 
 
 class Branches(Quantity):
@@ -44,16 +45,14 @@ class Branches(Quantity):
         "status": STATUS,
         "n_branches": Variable("1", "number of branches found", whole=True),
         "n_continuation_failures": Variable("1", "number of cycles that could not be followed", whole=True),
-        "releases": Variable("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
-        "separations": Variable("1", "separations in a period of the branch", dims=_ONE, whole=True),
-        "value": Variable("", "parameter along the branch, SI units", dims=_EACH),
-        "period": Variable("s", "period of the cycle", dims=_EACH),
-        "range": Variable("m", "range of the slider's height over a period", dims=_EACH),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
-        "sweep_range": Variable("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
-        "sweep_separation_rate": Variable(
-            "s-1", "separations per second at the end of the stay at a value", dims=_SWEEP
-        ),
+        "releases": _one("1", "releases of stick in a period of the branch", whole=True),
+        "separations": _one("1", "separations in a period of the branch", whole=True),
+        "value": _each("", "parameter along the branch, SI units"),
+        "period": _each("s", "period of the cycle"),
+        "range": _each("m", "range of the slider's height over a period"),
+        "growth_rate": _each("s-1", "growth rate of disturbances of the cycle"),
+        "sweep_range": _swept("m", "range of the slider's height at the end of the stay at a value"),
+        "sweep_separation_rate": _swept("s-1", "separations per second at the end of the stay at a value"),
         "sweep_settled": ANSWER._replace(dims=_SWEEP),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
     }
@@ -74,7 +73,7 @@ class Branches(Quantity):
         rows: list[dict[str, Any]] = []
         swept = {name: column.empty((2, len(values))) for name, column in self.COLUMNS.items() if column.dims == _SWEEP}
 
-        def follow(cycle: FloquetResult, reached: bool) -> None:
+        def follow(cycle: quantity.FloquetResult, reached: bool) -> None:
             nonlocal failures
             assert cycle.state is not None
             value = cycle.parameters.numbers[self.parameter]
@@ -100,7 +99,7 @@ class Branches(Quantity):
         sliding = [steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate for v in values]
         counts = {"n_branches": len(rows), "n_continuation_failures": failures}
         known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
-        return listed(rows) | swept | counts | known, message
+        return quantity.listed(rows) | swept | counts | known, message
 
 
 SAME = np.array([2e-4, 0.4])
@@ -108,7 +107,7 @@ SAME = np.array([2e-4, 0.4])
 distinguish branches; ranges between points of a steep branch are known roughly."""
 
 
-def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
+def _branch(cycle: quantity.FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
     """Continue a cycle in both directions by arclength: the one near the static start, or one that a motion reached."""
     from disc_model.stability.continuation import StepControl, continue_cycle
     from disc_model.stability.return_map import ReturnMap

@@ -20,17 +20,17 @@ from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, listed
+from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, along, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
-_EACH = ("mode",)
+_each = along("mode")
 Array = NDArray[np.float64]
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
-_CROSSING = ("crossing",)
+_crossing = along("crossing")
 
 
 class Campbell(Quantity):
@@ -47,35 +47,31 @@ class Campbell(Quantity):
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
         "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
         "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
-        "mode_kind": Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
-        "diameters": Variable("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
-        "forward_wave_fraction": Variable(
-            "1", "share of their energy in waves that travel with the slider", dims=_EACH
-        ),
-        "sliding_frequency": Variable("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
-        "sliding_growth_rate": Variable("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
-        "cycle_frequency": Variable("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
-        "cycle_growth_rate": Variable("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
-        "mac": Variable("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
+        "mode_kind": _each("1", "what moves most: the disc, or the slider in the disc's plane", KINDS),
+        "diameters": _each("1", "nodal diameters of the modes with most of the energy", whole=True),
+        "forward_wave_fraction": _each("1", "share of their energy in waves that travel with the slider"),
+        "sliding_frequency": _each("Hz", "frequency of steady sliding, in the slider's frame"),
+        "sliding_growth_rate": _each("s-1", "growth rate of that mode of steady sliding"),
+        "cycle_frequency": _each("Hz", "frequency of the cycle's multiplier that goes to the mode"),
+        "cycle_growth_rate": _each("s-1", "growth rate of the cycle's multipliers that go to the mode"),
+        "mac": _each("1", "how like the shapes of mode and multiplier are: squared cosine"),
     }
     COORDINATES: ClassVar = {
         "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))
     }
     SUMMARY_COLUMNS: ClassVar = {
         "n_crossings": Variable("1", "number of crossings found", whole=True),
-        "crossing_Omega": Variable("rad s-1", "speed of the crossing", dims=_CROSSING),
-        "crossing_frequency": Variable("Hz", "frequency of the crossing", dims=_CROSSING),
-        "crossing_mode": Variable("1", "number of the mode", dims=_CROSSING, whole=True),
-        "crossing_line": Variable("1", "what the line is a multiple of", LINES, dims=_CROSSING),
-        "crossing_multiple": Variable("1", "which multiple; half-integer where a period may double", dims=_CROSSING),
-        "crossing_growth_rate": Variable("s-1", "largest growth rate of the cycle within the window", dims=_CROSSING),
-        "crossing_rise": Variable(
-            "s-1", "largest rise of a mode's growth rate within the window over that at its ends", dims=_CROSSING
+        "crossing_Omega": _crossing("rad s-1", "speed of the crossing"),
+        "crossing_frequency": _crossing("Hz", "frequency of the crossing"),
+        "crossing_mode": _crossing("1", "number of the mode", whole=True),
+        "crossing_line": _crossing("1", "what the line is a multiple of", LINES),
+        "crossing_multiple": _crossing("1", "which multiple; half-integer where a period may double"),
+        "crossing_growth_rate": _crossing("s-1", "largest growth rate of the cycle within the window"),
+        "crossing_rise": _crossing(
+            "s-1", "largest rise of a mode's growth rate within the window over that at its ends"
         ),
-        "crossing_growing_mode": Variable(
-            "1", "number of the mode whose growth rate rises most", dims=_CROSSING, whole=True
-        ),
-        "crossing_effect": Variable("1", "what the growth rates do at the crossing", EFFECTS, dims=_CROSSING),
+        "crossing_growing_mode": _crossing("1", "number of the mode whose growth rate rises most", whole=True),
+        "crossing_effect": _crossing("1", "what the growth rates do at the crossing", EFFECTS),
     }
     SUMMARY_COORDINATES: ClassVar = {
         "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))

@@ -17,11 +17,12 @@ from pydantic import AfterValidator, Field
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.display import computed
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, listed
+from disc_model.studies import quantity
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
 KINDS = ("none", "begins", "ends")
-_EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
+_each, _crossing = along("horizon"), along("horizon", "crossing_number")
 
 
 class CriticalSpeed(Quantity):
@@ -51,18 +52,15 @@ class CriticalSpeed(Quantity):
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "critical_speed": Variable(
+        "critical_speed": _each(
             "rad s-1",
             "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
-            dims=_EACH,
         ),
-        "n_crossings": Variable(
-            "1", "number of speeds found at which separation within the horizon begins or ends", dims=_EACH, whole=True
+        "n_crossings": _each(
+            "1", "number of speeds found at which separation within the horizon begins or ends", whole=True
         ),
-        "crossing": Variable(
-            "rad s-1", "a speed at which separation begins or ends, upper end of the last interval", dims=_CROSSINGS
-        ),
-        "crossing_kind": Variable("1", "whether separation begins or ends as the speed rises", KINDS, dims=_CROSSINGS),
+        "crossing": _crossing("rad s-1", "a speed at which separation begins or ends, upper end of the last interval"),
+        "crossing_kind": _crossing("1", "whether separation begins or ends as the speed rises", KINDS),
         "scan_first_separation": SCALARS["first_separation"]._replace(dims=("scan_Omega",)),
         "scan_status": STATUS._replace(dims=("scan_Omega",)),
         "simulations": Variable("1", "number of simulations", whole=True),
@@ -105,7 +103,7 @@ class CriticalSpeed(Quantity):
             "simulations": len(motions),
             "simulated_time": sum(result.simulated for result in motions.values()),
         }
-        values |= listed([_crossings(known, horizon, speed) for horizon in self.horizons])
+        values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
         return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
 
 

@@ -10,11 +10,11 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")
-_EACH = ("exponent_number",)
+_each = along("exponent_number")
 
 
 class Lyapunov(Start, Quantity):
@@ -29,13 +29,9 @@ class Lyapunov(Start, Quantity):
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "exponent": Variable(
-            "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
-        ),
-        "exponent_error": Variable(
-            "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
-        ),
-        "converged": Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
+        "exponent": _each("s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish"),
+        "exponent_error": _each("s-1", "the larger of its standard error and the difference between both halves"),
+        "converged": _each("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED),
         "trivial_exponent": Variable("s-1", "exponent along the motion: 0 but for what the time is too short for"),
         "averaging_time": Variable("s", "time over which the rates are averaged"),
         "separations": Variable("1", "number of separations in that time", whole=True),

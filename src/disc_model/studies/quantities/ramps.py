@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import Annotated, Any, ClassVar
 
-from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, listed
+from disc_model.studies import quantity
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, along
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
-_DIMS = ("rate",)
+_each = along("rate")
 
 
 class Ramps(Quantity):
@@ -27,13 +27,11 @@ class Ramps(Quantity):
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "rate_status": STATUS._replace(dims=_DIMS),
-        "onset_speed": Variable(
-            "rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS
-        ),
-        "top_separation_rate": Variable("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
-        "offset_speed": Variable(
-            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
+        "rate_status": STATUS._replace(dims=("rate",)),
+        "onset_speed": _each("rad s-1", "speed at the first separation on the way up, nan if there is none"),
+        "top_separation_rate": _each("s-1", "separations per second over the stay at the highest speed"),
+        "offset_speed": _each(
+            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues"
         ),
     }
     COORDINATES: ClassVar = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
@@ -47,7 +45,7 @@ class Ramps(Quantity):
             rows.append({"rate_status": failed.status.value if failed else "ok", **run})
             if failed:
                 status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
-        return listed(rows) | {"status": status}, message
+        return quantity.listed(rows) | {"status": status}, message
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:

@@ -8,12 +8,12 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, listed
+from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, along, listed
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
-_ONE, _EACH = ("curve",), ("curve", "curve_point")
+_one, _each = along("curve"), along("curve", "curve_point")
 
 
 class StabilityCurves(Quantity):
@@ -39,22 +39,18 @@ class StabilityCurves(Quantity):
         "status": STATUS,
         "n_curves": Variable("1", "number of curves found", whole=True),
         "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
-        "kind": Variable(
-            "1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE
-        ),
-        "x": Variable("", "first parameter along the curve, SI units", dims=_EACH),
-        "y": Variable("", "second parameter along the curve, SI units", dims=_EACH),
-        "adjoins_stable_cycle": Variable("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
-        "period": Variable("s", "period of the cycle on the curve", dims=_EACH),
-        "multiplier_re": Variable("1", "real part of the leading multiplier", dims=_EACH),
-        "multiplier_im": Variable("1", "imaginary part of the leading multiplier", dims=_EACH),
-        "resonance_harmonic": Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
-        "resonance_frequency": Variable("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
-        "resonance_diameters": Variable("1", "l of that resonance", dims=_ONE, whole=True),
-        "resonance_sign": Variable("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
-        "resonance_detuning": Variable(
-            "Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE
-        ),
+        "kind": _one("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS),
+        "x": _each("", "first parameter along the curve, SI units"),
+        "y": _each("", "second parameter along the curve, SI units"),
+        "adjoins_stable_cycle": _each("1", "whether the cycle is stable on one side", SIDES),
+        "period": _each("s", "period of the cycle on the curve"),
+        "multiplier_re": _each("1", "real part of the leading multiplier"),
+        "multiplier_im": _each("1", "imaginary part of the leading multiplier"),
+        "resonance_harmonic": _one("1", "n of the resonance n f_s = f + s l Omega / 2 pi"),
+        "resonance_frequency": _one("Hz", "f of that resonance, of a mode at rest"),
+        "resonance_diameters": _one("1", "l of that resonance", whole=True),
+        "resonance_sign": _one("1", "s of that resonance, -1, 0 or 1", whole=True),
+        "resonance_detuning": _one("Hz", "how far the cycle at the curve's middle is from that resonance"),
     }
     COORDINATES: ClassVar = {
         "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
