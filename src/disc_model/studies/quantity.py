@@ -76,10 +76,7 @@ class Range(Ruled):
             "a logarithmic range must give count, and start > 0",
         ),
         (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
-        (
-            lambda r: abs(r._steps - r.intervals) <= 1e-9 * r._steps,
-            "stop - start must be a multiple of step={0.step:g}",
-        ),
+        (lambda r: math.isclose(r._steps, r.intervals), "stop - start must be a multiple of step={0.step:g}"),
     )
 
     @property
@@ -162,7 +159,6 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
 
 # ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-"""Status of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
@@ -194,10 +190,11 @@ def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
     return {flag: "failed"}, f"{type(error).__name__}: {error}"
 
 
-def tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -> tuple[Row, str]:
-    """Values and message that a function returns; with an error (see `NUMERICAL`) this flag is `failed`."""
+def tried(flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any) -> tuple[Row, str]:
+    """Values and message that a function returns; with an error (see `NUMERICAL`), which the subject may be already,
+    this flag is `failed`."""
     try:
-        return compute(*arguments)
+        return failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
     except NUMERICAL as error:
         return failed(error, flag)
 

@@ -18,7 +18,7 @@ from disc_model.mode_choice import chosen_modes, read_asked
 from disc_model.parameters import AUTO, Parameters, case_of, in_words
 from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
+from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
 
 log = logging.getLogger(__name__)
 POINT = "point"
@@ -42,7 +42,8 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     else:
         stated = {None: {name: value for name, value in data["options"].items() if name in Start.model_fields}}
         starts = {name: Start(**start) for name, start in (stated | data.get("starts", {})).items()}
-        results = [compute(computed, _point(*point, starts)) for point in zip(parameters, varied, strict=True)]
+        points = (_point(*point, starts) for point in zip(parameters, varied, strict=True))
+        results = [tried("status", computed.compute_point, point) for point in points]
     log.info("%d points, %.3f s of processor time", len(varied), time.process_time() - began)
     rows, messages = zip(*results, strict=True)
     for values, message in zip(varied, messages, strict=True):
@@ -119,13 +120,6 @@ def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) ->
         attrs = Variable(units, long_name.format(quantity)).attributes
         variables[name] = xr.Variable(name, np.array(values(quantity)), attrs)
     return variables
-
-
-def compute(quantity: Any, point: Point | DiscModelError) -> tuple[Row, str]:
-    """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
-    if isinstance(point, DiscModelError):
-        return failed(point)
-    return tried("status", quantity.compute_point, point)
 
 
 def variables_of(

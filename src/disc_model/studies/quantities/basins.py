@@ -27,6 +27,7 @@ Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
 SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")  # statistics of a stretch on an attractor
 SMALLEST = 2.0**-40  # fraction of the least separating energy of the sample, below which the bisection gives up
+_ONE_START = "n_starts must be 1 where an energy is 0, since no direction tells them apart"
 Follow = Callable[[float, int, int], OutcomeResult]
 _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
 
@@ -52,10 +53,7 @@ class AttractorBasins(Start, Quantity):
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
-        (
-            lambda o: o.n_starts == 1 or 0.0 not in o.energies,
-            "n_starts must be 1 where an energy is 0, since no direction tells them apart",
-        ),
+        (lambda o: o.n_starts == 1 or 0.0 not in o.energies, _ONE_START),
     )
     COLUMNS: ClassVar = {
         "status": STATUS,

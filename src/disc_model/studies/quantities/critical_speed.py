@@ -21,6 +21,7 @@ from disc_model.studies import quantity
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
+_MULTIPLE = "the scan's step must be a multiple of precision"
 KINDS = ("none", "begins", "ends")
 _each, _crossing = along("horizon"), along("horizon", "crossing_number")
 
@@ -38,14 +39,11 @@ class CriticalSpeed(Quantity):
 
     _rules = (
         (lambda o: o.scan.scale == "linear", "scan must be linear"),
-        (
-            lambda o: 0.5 < o.step < math.inf and abs(o.step - round(o.step)) <= 1e-6,
-            "the scan's step must be a multiple of precision",
-        ),
+        (lambda o: 0.5 < o.ratio < math.inf and abs(o.ratio - round(o.ratio)) <= 1e-6, _MULTIPLE),
     )
 
     @property
-    def step(self) -> float:
+    def ratio(self) -> float:
         """The scan's step as a multiple of the precision."""
         return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
 
@@ -89,7 +87,7 @@ class CriticalSpeed(Quantity):
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
 
-        scanned = [i * round(self.step) for i in range(scan.intervals + 1)]
+        scanned = [i * round(self.ratio) for i in range(scan.intervals + 1)]
         computed(look, scanned, "speeds")
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down to the lattice

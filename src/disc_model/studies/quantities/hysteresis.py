@@ -48,9 +48,8 @@ class Hysteresis(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractor.arrival import sweep
 
-        speeds, columns = self.scan.values, self.COLUMNS.items()
+        speeds, columns, status, message = self.scan.values, self.COLUMNS.items(), "ok", ""
         values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}
-        status, message = "ok", ""
         times = self.dwell, self.max_dwell, self.evaluation_time
         for index, result, late, reached in sweep(point.parameters, "Omega", speeds, *times, self.tol):
             if late is None:

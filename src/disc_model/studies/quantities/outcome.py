@@ -13,6 +13,7 @@ from disc_model.studies import quantity
 from disc_model.studies.quantity import STATUS, OutcomeResult, Point, Quantity, Result, Segment, State
 from disc_model.units import Seconds, Tolerance
 
+_TIMES = "evaluation_time must be <= after_separation and <= horizon"
 FEWEST = 4  # least number of checks of a motion that give a rate
 
 
@@ -25,12 +26,7 @@ class HorizonOutcome(Start, Quantity):
     evaluation_time: Seconds = 1.0  # the late stretch
     after_separation: Seconds = 5.0  # from the first separation to the end of the late stretch
 
-    _rules = (
-        (
-            lambda o: o.evaluation_time <= min(o.after_separation, o.horizon),
-            "evaluation_time must be <= after_separation and <= horizon",
-        ),
-    )
+    _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
     motions: ClassVar = 4
     motion: ClassVar = quantity.COME_TO
     COLUMNS: ClassVar = {

@@ -13,6 +13,7 @@ from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
 JOINED = ("no", "yes")
+_CONTINUES = "whether the cycle continues into the next point's along the plane's"
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
@@ -40,12 +41,8 @@ class Regions(Quantity):
         "period": Variable("s", "period of the cycle"),
         "releases": Variable("1", "number of stick releases in its period", whole=True),
         "period_ratio": Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
-        "branch_continues_first": Variable(
-            "1", "whether the cycle continues into the next point's along the plane's first dimension", JOINED
-        ),
-        "branch_continues_second": Variable(
-            "1", "whether the cycle continues into the next point's along the plane's second dimension", JOINED
-        ),
+        "branch_continues_first": Variable("1", f"{_CONTINUES} first dimension", JOINED),
+        "branch_continues_second": Variable("1", f"{_CONTINUES} second dimension", JOINED),
         "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
     }
     cost: ClassVar = lambda o: WORK
