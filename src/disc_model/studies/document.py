@@ -103,13 +103,11 @@ Columns = create_model("Columns", __base__=_Columns, **_columns)  # an axis for 
 
 
 class BatchSpec(Strict):
-    """Division of the points of a grid into jobs.
+    """Division of the points of a grid into jobs."""
 
-    over : dimensions that are cut; each value of the others has batches of its own. If not given, the first dimensions
-        are cut as far as `size` requires. A quantity that needs a plane at once has its two dimensions first, then
-        those whose values share a batch; if not given, the only two that are numbers, and all others
-    """
-
+    # dimensions that are cut, where each value of the others has batches of its own; if not given, the first ones are,
+    # as far as `size` requires. For a plane at once: its two, by default the only ones that are numbers, then those
+    # whose values share a batch, by default all others
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     size: Annotated[Count, Field(ge=1)] | None = None  # most points in a batch; if not given, about 20 s of work
     tile: Annotated[Count, Field(ge=1)] = 32  # approximate intervals along the side of a tile of a plane

@@ -398,17 +398,16 @@ def _stacked(
     first = {name: variable for row in reversed(rows) for name, variable in row.items()}
     fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
     stacked = {}
-    for name, variable in ((name, variable) for name, variable in first.items() if name not in fixed):
+    for name, variable in first.items():
+        if name in fixed:
+            continue
         present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
         whole = len(present) == len(rows) and all(values.shape == tuple(shape) for _, values in present)
-        if kinds <= {"U"}:
-            array: Any = np.full((len(rows), *shape), "", dtype=object)
-        elif kinds <= {"b"} and whole:
-            array = np.zeros((len(rows), *shape), dtype=bool)
-        else:
-            array = np.full((len(rows), *shape), math.nan, dtype=complex if "c" in kinds else float)
+        number: tuple[Any, Any] = (False, bool) if kinds <= {"b"} and whole else (math.nan, float)
+        missing, dtype = ("", object) if kinds <= {"U"} else (math.nan, complex) if "c" in kinds else number
+        array: Any = np.full((len(rows), *shape), missing, dtype)
         for i, values in present:
             array[(i, *map(slice, values.shape))] = values
         array = array.astype(str) if array.dtype == object else array

@@ -5,8 +5,6 @@ the batch, which is therefore not computed again, however a file describes it. B
 similar cost, only inside a block: a finer axis adds batches and keeps the others.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter
@@ -39,20 +37,17 @@ _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
 class Dimension:
-    """One dimension of a grid: an axis, or a zip, along which several parameters vary together.
-
-    blocks : of sorted tuples of values; a value belongs to the first block that has it
-    """
+    """One dimension of a grid: an axis, or a zip, along which several parameters vary together."""
 
     def __init__(self, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> None:
         self.names, self.name = tuple(names), "_".join(names)
         self.blocks: list[list[tuple[Value, ...]]] = []
-        for block in blocks:
+        for block in blocks:  # a value belongs to the first block that has it
             if new := sorted({*block}.difference(*self.blocks)):
                 self.blocks.append(new)
         self.values = tuple(sorted(chain(*self.blocks)))
 
-    def thinned(self, most: int) -> Dimension:
+    def thinned(self, most: int) -> "Dimension":
         """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
         values = self.values
         if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
@@ -73,18 +68,14 @@ class FigureEntry(NamedTuple):
 
 
 class GridStudy:
-    """A grid study; raises `ParameterError` with the faults between the parts of its file.
-
-    base : values that do not vary; dims : in the order of `VARIED`; varied : names along them
-    mode_request : the choice of modes that is made at each point, if there is one
-    """
+    """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
     def __init__(self, document: Document, plots: Mapping[str, Plot]) -> None:
         self.document, self.plots = document, plots
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
         self.options: Quantity = document.options
-        self.base, self.mode_request = self._read_base()
+        self.base, self.mode_request = self._read_base()  # what does not vary, and a choice of modes at each point
         of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
         self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
         self.varied = [name for dim in self.dims for name in dim.names]
@@ -159,14 +150,13 @@ class GridStudy:
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
-        """Values along each dimension, by its name."""
         return {dim.name: dim.values for dim in self.dims}
 
     @property
     def n_points(self) -> int:
-        """Number of points of the grid that are not excluded."""
-        whole = math.prod(len(dim.values) for dim in self.dims)
-        return sum(1 for _ in self.points_along(self.dims)) if self.where else whole
+        if self.where:
+            return sum(1 for _ in self.points_along(self.dims))
+        return math.prod(len(dim.values) for dim in self.dims)
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -191,7 +181,6 @@ class GridStudy:
     # ---- what the file says
 
     def _read_base(self) -> tuple[dict[str, Any], ModeRequest | None]:
-        """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         try:
             base, request = asked_modes(given_values(self.document.base))
         except ParameterError as error:
@@ -201,7 +190,6 @@ class GridStudy:
         return base, request
 
     def _read_dimensions(self) -> list[Dimension]:
-        """The dimensions of the file; raises `ParameterError`."""
         faults: list[Fault] = []
         axes = self._columns(self.document.axes, ("axes",), faults, self.document.resolution)
         for name, blocks in axes.items():
@@ -293,7 +281,7 @@ class GridStudy:
 
     def _wrong_extent(self) -> Iterator[Fault]:
         """Faults of the plane and number of points, and of rules, which must compare known values and leave points."""
-        over, known = self.document.batch.over, [*{**Parameters.model_fields, **dict.fromkeys(self.varied)}]
+        over, known = self.document.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
@@ -336,7 +324,6 @@ class GridStudy:
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
-        """Faults that keep a figure from showing this grid."""
         if isinstance(plot, General):
             return self._faults_of_general(plot)
         if self.quantity in plot.quantities:
@@ -351,10 +338,9 @@ class GridStudy:
         for name, along in self.values.items():
             values[name] = [value[0] if len(value) == 1 else value for value in along]
         others, variables = [name for name in values if name != quantity.over], dict[str, Any]()
-        for columns, coordinates, dims in (
-            (quantity.COLUMNS, quantity.COORDINATES, [*values]),
-            (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
-        ):
+        of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
+        of_summary = quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others
+        for columns, coordinates, dims in (of_points, of_summary):
             variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
             values |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
         return plot.faults_among(values, variables)
@@ -418,7 +404,6 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
 
 
 def _index(value: float, along: Sequence[Value]) -> int | None:
-    """Index of a value along the side of a tile."""
     return next((i for i, other in enumerate(along) if math.isclose(value, float(other), rel_tol=1e-12)), None)
 
 

@@ -4,8 +4,6 @@ A quantity is a module of `disc_model.studies.quantities` under its own name. It
 computes: reading a study file does not wait for it.
 """
 
-from __future__ import annotations
-
 import ast
 import math
 import re

@@ -1,10 +1,9 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
 
-A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. Its multipliers give the
-outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else within the
-horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/method.md,
-Regions, describes. Neutral curves and folds are thus resolved point by point, borders of separation to the grid's own
-intervals. In an undivided cell, points not decided by multipliers take the outcome of the simulated ones.
+A batch is a tile of the plane. At each of its points the multipliers of the cycle give the outcome if the start stays
+quiet, or grows too slowly for anything else within the horizon. Elsewhere the start is simulated at the corners of
+coarse cells, which are divided as docs/method.md, Regions, describes. In an undivided cell, points not decided by
+multipliers take the outcome of the simulated ones.
 """
 
 import math
@@ -158,7 +157,6 @@ class Tile:
                 self.presumed.setdefault(middle, outcome(first))
 
     def rows(self) -> list[list[tuple[Row, str]]]:
-        """Values and message of each point."""
         others = self._others()
         self.followed = {index: self._follow(index) for index in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]

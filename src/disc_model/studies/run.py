@@ -114,7 +114,6 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
-    """Values along a quantity's own dimensions."""
     variables = {}
     for name, (units, long_name, values) in coordinates.items():
         attrs = Variable(units, long_name.format(quantity)).attributes

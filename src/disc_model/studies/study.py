@@ -4,8 +4,6 @@ What reads raises one `StudyError` that lists the faults with their paths: those
 between values once these are right.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial, reduce
@@ -355,9 +353,7 @@ def check_targets(
     targets: Iterable[str], study: Study, grids: Mapping[str, GridStudy], figures: Mapping[str, Sequence[str]]
 ) -> None:
     """Raise DiscModelError if a file is requested by a name that no study, figure or case has, and say which there are.
-
-    figures : names of figures, by the study in whose folder of results they are
-    """
+    The names of figures are given by the study in whose folder of results they are."""
     known: Collection[str]
     for target in targets:
         match Path(target).parts:

@@ -5,8 +5,6 @@ the energy in its list, and i. The first starts of all energies come first, then
 leave the earlier ones unchanged.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar, Literal
 

@@ -2,8 +2,6 @@
 static start, is continued in both directions, unless a known branch passes there.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar
 

@@ -8,8 +8,6 @@ The effect is read, mode by mode, from the cycle's growth rates within a window 
 at its ends.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar
@@ -96,7 +94,7 @@ class Campbell(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
-        """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
+        # where a rule of the grid leaves some speeds out, an axis ends
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
         axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
@@ -145,12 +143,9 @@ def frequency_of(mode: Dataset) -> Array:
 
 
 def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
-    """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
-    number, as far as they are known. The window is where line and mode are less than `half_bandwidth` apart.
-
-    detuning : Hz, (speeds,), between mode and line; index : of the speed before the crossing
-    growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
-    """
+    """The effect of a crossing after the speed of an index, the largest growth rate, and the largest rise with its
+    mode's number, as far as they are known. In the window line and mode are at most `half_bandwidth` apart. Shapes:
+    growth, of the modes, (speeds, modes), nan without a cycle; detuning and leading, of the cycle, (speeds,)."""
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)

@@ -4,8 +4,6 @@ Motions are simulated from their start to the first separation. To extrapolate d
 quarter of the time, but moves first separations by more than 0.05 times of growth by e in a fifth of all cases.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -113,10 +111,8 @@ def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair.
-
-    known : first separations by place on the lattice, s; inf without one within the longest horizon, nan if unknown
-    """
+    """Pairs of neighbours on the lattice of which only one separates within the horizon. Of the first separations by
+    place, s, those without one within the longest horizon are inf, and unknown ones, which belong to no pair, nan."""
     pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
     return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
 

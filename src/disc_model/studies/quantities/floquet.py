@@ -1,7 +1,5 @@
 """The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of simulation."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 

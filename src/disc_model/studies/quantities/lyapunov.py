@@ -1,7 +1,5 @@
 """The largest Lyapunov exponents of the motion, across all its events."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar
 
 import numpy as np

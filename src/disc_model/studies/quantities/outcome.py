@@ -1,7 +1,5 @@
 """Outcome of one simulation within a horizon: the motion stays quiet, grows in contact, or separates."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Any, ClassVar
 

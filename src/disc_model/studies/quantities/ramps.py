@@ -1,7 +1,5 @@
 """Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar
 

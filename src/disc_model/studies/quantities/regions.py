@@ -1,7 +1,5 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from typing import Annotated, ClassVar
 

@@ -4,8 +4,6 @@ The Wilson intervals assume independent samples. Quasi-random samples are more e
 smaller. The lower and upper ends of an interval count a failed sample as stable and as unstable.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise, product

@@ -1,7 +1,5 @@
 """Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along one parameter."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar
 
 import numpy as np

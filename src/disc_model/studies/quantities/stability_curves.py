@@ -1,7 +1,5 @@
 """Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
