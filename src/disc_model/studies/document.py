@@ -181,8 +181,15 @@ class NamedCase(Strict):
     def spec(self) -> CaseSpec:
         """The specification to simulate; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
-        p, truncation, modes = self._modes(faults)
-        record = self.record
+        (p, request), record, truncation, modes = self.parameters, self.record, "", ""
+        if request is not None and request.quantity != FREQUENCIES:  # the modes are chosen when the case runs
+            modes = json.dumps(request.model_dump(), sort_keys=True)
+        elif request is not None:
+            try:
+                choice = by_frequencies(p, request.tolerance)
+                p, truncation = choice.parameters, choice.to_json()
+            except DiscModelError as error:  # no number of modes meets the tolerance
+                faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
         spans: dict[tuple[str, ...], Any] = {("windows", name): window for name, window in record.windows.items()}
         if record.events:
             spans["events",] = Span() if record.events is True else record.events
@@ -202,18 +209,6 @@ class NamedCase(Strict):
         of_record = {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
         recorded = of_record | {"windows": windows, "events": events and (events.start, events.stop)}
         return CaseSpec(parameters=p, truncation=truncation, modes=modes, **of_case, **recorded)
-
-    def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
-        """Parameters, and how their modes were chosen or will be chosen when the case runs."""
-        p, request = self.parameters
-        if request is None or request.quantity != FREQUENCIES:
-            return p, "", "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
-        try:
-            choice = by_frequencies(p, request.tolerance)
-        except DiscModelError as error:  # no number of modes meets the tolerance
-            faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
-            return p, "", ""
-        return choice.parameters, choice.to_json(), ""
 
 
 # ---- Figures

@@ -300,13 +300,13 @@ def sweep(
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"
     faults += [Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown]
-    own = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
+    further = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
     title = getattr(function, "__name__", type(function).__name__)
-    needed = [argument.name for argument in own if argument.default is argument.empty and argument.name not in named]
+    needed = [each.name for each in further if each.default is each.empty and each.name not in named]
     faults += [Fault((name,), "", f"is required by {title}") for name in needed]
     raise_faults(faults)
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-    call = partial(_row, function, case, options, frozenset(argument.name for argument in own))
+    call = partial(_row, partial(function, **options), case, frozenset(each.name for each in further))
     rows = _in_parallel(call, [*enumerate(points)], workers, processes)
     coordinates = {}
     for name, values in axes.items():
@@ -321,12 +321,12 @@ def sweep(
 def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
     """The values of an axis in SI units; what is wrong with them, each by itself, is added to the faults."""
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    given, checked = [*values] if several else [values], []
-    if not given:
+    raw, checked = [*values] if several else [values], []
+    if not raw:
         faults.append(Fault.of((name,), values, "must have one value or more"))
     number: dict[str, Any] = {name: Finite}  # a ratio, or a number of a disc's mode
     model = SomeParameters if name in Parameters.model_fields else create_model("Number", __base__=Strict, **number)
-    for value in given:
+    for value in raw:
         try:
             checked.append(getattr(model(**{name: value.item() if isinstance(value, np.generic) else value}), name))
         except ParameterError as error:
@@ -347,13 +347,11 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return computed(lambda _: next(results), arguments, "points")
 
 
-def _row(
-    function: Any, case: Parameters, options: dict[str, Any], own: frozenset[str], numbered: tuple[int, dict[str, Any]]
-) -> dict[str, xr.Variable]:
+def _row(function: Any, case: Parameters, own: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
     number, point = numbered
     try:
-        result = function(case.replace(**point), **options)
+        result = function(case.replace(**point))
     except NUMERICAL as error:
         if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise

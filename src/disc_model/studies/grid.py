@@ -8,7 +8,7 @@ similar cost, only inside a block: a finer axis adds batches and keeps the other
 import math
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
 from typing import Any, NamedTuple
@@ -26,7 +26,7 @@ from disc_model.mode_choice import ModeRequest, asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
-from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, holds, names_in
+from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, compiled_rule, holds
 from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
@@ -95,7 +95,7 @@ class GridStudy:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
             return self._texts(_tiles(self.dims, batch, marked))
-        size = batch.size or max(1, round(WORK / self.options.seconds))
+        size = batch.size or max(1, round(WORK / self.options.cost()))
         return self._texts({"points": cut} for cut in _chunks(self.dims, batch.over, size))
 
     @cached_property
@@ -133,7 +133,7 @@ class GridStudy:
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
         """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
-        wanted = {*names, *chain(*map(names_in, self.where))}
+        wanted = {*names, *chain(*(compiled_rule(rule).co_names for rule in self.where))}
         ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
         return self.points_along([dim for dim in self.dims if not wanted.isdisjoint(dim.names)])
@@ -287,7 +287,7 @@ class GridStudy:
             yield Fault.of(("batch", "over"), over and list(over), rule)
         if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
-        unknown = [(name, rule) for rule in self.where for name in sorted(names_in(rule).difference(known))]
+        unknown = [(name, rule) for rule in self.where for name in compiled_rule(rule).co_names if name not in known]
         for name, rule in unknown:
             more = suggestion(name, known, all_of_them=False)
             yield Fault.of(("where",), rule, f"{name} is no value of a point{more}")
@@ -379,9 +379,7 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
         yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
 
 
-def _tiles(
-    dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
-) -> Iterator[dict[str, Any]]:
+def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]) -> Iterator[dict[str, Any]]:
     """Points of each tile, and the values along its sides, with those of the next tiles that bound its last cells."""
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
@@ -391,7 +389,7 @@ def _tiles(
     for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
         along, within_tile = zip(*tile, strict=True)
         values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
-        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in sampled]
+        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]
         inside = sorted(index for index in indices if None not in index)
         points = product(*(values[dim.name] for dim in dims))
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}

@@ -122,16 +122,12 @@ _MADE_OF = (
 
 def checked_rule(rule: str) -> str:
     """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
-    _compiled(rule)
+    compiled_rule(rule)
     return rule
 
 
-def names_in(rule: str) -> frozenset[str]:
-    return frozenset(_compiled(rule).co_names)
-
-
 @cache
-def _compiled(rule: str) -> CodeType:
+def compiled_rule(rule: str) -> CodeType:
     """A rule of comparisons, with floats only: a whole number could repeat a word without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
@@ -150,7 +146,7 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
     """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by zero, does not."""
     floats = {name: float(x) if isinstance(x, int) else x for name, x in (DEFAULTS | with_ratios(values)).items()}
     try:
-        return all(eval(_compiled(rule), {"__builtins__": {}}, floats) for rule in rules)
+        return all(eval(compiled_rule(rule), {"__builtins__": {}}, floats) for rule in rules)
     except (ArithmeticError, TypeError):
         return False
 
@@ -239,10 +235,6 @@ class Quantity(Ruled):
     tiled: ClassVar[bool] = False  # whether it needs a whole tile of a plane at once
     over: ClassVar[str] = ""  # the required dimension over which a merged study is summarised
     cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
-
-    @property
-    def seconds(self) -> float:
-        return type(self).cost(self)
 
     @property
     def scanned(self) -> tuple[str, ...]:

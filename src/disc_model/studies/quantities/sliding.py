@@ -55,15 +55,9 @@ class Sliding(Quantity):
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
         states = [sliding for sliding, *_ in followed]
-        absent = [
-            f"{self.parameter}={value:g}: {sliding.message}"
-            for value, sliding in zip(values, states, strict=True)
-            if sliding.status is not SlidingStatus.OK
-        ]
-        more = {
-            "status": "ok",
-            "unstable_modes": np.array([sliding.unstable_modes for sliding in states]),
-            "largest_growth_rate": np.array([sliding.growth_rate for sliding in states]),
-            "contact_force": np.array([sliding.contact_force for sliding in states]),
-        }
-        return columns | more, absent[0] if absent else ""
+        for name in ("unstable_modes", "contact_force"):
+            columns[name] = np.array([getattr(sliding, name) for sliding in states])
+        columns["largest_growth_rate"] = np.array([sliding.growth_rate for sliding in states])
+        absent = [i for i, sliding in enumerate(states) if sliding.status is not SlidingStatus.OK]
+        message = f"{self.parameter}={values[absent[0]]:g}: {states[absent[0]].message}" if absent else ""
+        return columns | {"status": "ok"}, message
