@@ -92,13 +92,10 @@ class CriticalSpeed(Quantity):
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
                 computed(look, wide, "further speeds")
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
-        values: dict[str, Any] = {
-            "status": next((result.status for result in failed.values()), "ok"),
-            "scan_first_separation": [motions[i].first_separation for i in scanned],
-            "scan_status": [motions[i].status for i in scanned],
-            "simulations": len(motions),
-            "simulated_time": sum(result.simulated for result in motions.values()),
-        }
+        values: dict[str, Any] = {"status": next((result.status for result in failed.values()), "ok")}
+        values["scan_first_separation"] = [motions[i].first_separation for i in scanned]
+        values["scan_status"] = [motions[i].status for i in scanned]
+        values |= {"simulations": len(motions), "simulated_time": sum(x.simulated for x in motions.values())}
         values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
         return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
 

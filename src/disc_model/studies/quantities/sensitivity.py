@@ -204,14 +204,12 @@ class Sensitivity(Quantity):
             return {}
         cycles, outcomes = flag_names(cell["cycle"]), flag_names(cell["outcome"])
         outcomes = outcomes[outcomes != "not_simulated"]
-        values: dict[str, Any] = {
-            "n_known_cycles": np.count_nonzero(cycles != FAILED),
-            "n_known_outcomes": np.count_nonzero(outcomes != FAILED),
-        }
-        for name, words, hit in (("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))):
+        values: dict[str, Any] = {}
+        of_cycles, of_outcomes = ("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))
+        for counted, (name, words, hit) in {"cycles": of_cycles, "outcomes": of_outcomes}.items():
             known = words[words != FAILED]
             chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
-            values |= quantity.with_ends(f"probability_{name}", chance)
+            values |= {f"n_known_{counted}": len(known), **quantity.with_ends(f"probability_{name}", chance)}
         return values
 
 
