@@ -42,10 +42,12 @@ class Dimension:
     def __init__(self, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> None:
         self.names, self.name = tuple(names), "_".join(names)
         self.blocks: list[list[tuple[Value, ...]]] = []
+        known: set[tuple[Value, ...]] = set()
         for block in blocks:  # a value belongs to the first block that has it
-            if new := sorted({*block}.difference(*self.blocks)):
+            if new := sorted({*block} - known):
                 self.blocks.append(new)
-        self.values = tuple(sorted(chain(*self.blocks)))
+                known.update(new)
+        self.values = tuple(sorted(known))
 
     def thinned(self, most: int) -> "Dimension":
         """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
@@ -237,9 +239,9 @@ class GridStudy:
         """Faults of the names that vary and that are given, and names that are lacking."""
         in_base, scanned = self.document.base.model_fields_set, self.options.scanned
         quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
-        for name in (name for name in scanned if name in counts or name in in_base):
+        for name in sorted({*scanned} & {*counts, *in_base}):
             yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
-        for name in in_base & RATIOS.keys():
+        for name in sorted(in_base & RATIOS.keys()):
             if RATIOS[name][0] in {*in_base, *counts}:
                 yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")
         for name in sorted(counts):
@@ -258,13 +260,13 @@ class GridStudy:
             ):
                 if broken:
                     yield Fault(("axes", name), "", rule)
-        for name in (name for name in REQUIRED if name not in {*counts, *in_base, *scanned}):
+        for name in sorted({*REQUIRED}.difference(counts, in_base, scanned)):
             yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
         if self.options.over and self.options.over not in self.values:
             yield Fault(("axes", self.options.over), "", f"is required: {quantity} looks along it")
-        for name in (name for name in self.document.batch.over or () if name not in self.values):
+        for name in sorted({*(self.document.batch.over or ())}.difference(self.values)):
             yield Fault.of(("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})")
 
     def _wrong_starts(self) -> Iterator[Fault]:
